@@ -19,12 +19,15 @@ _PER_CYCLE, _MOST = 64, 20_000  # points of a picture
 
 
 def to_frame(result: Any) -> "pandas.DataFrame":
-    """A pandas DataFrame of a run (its events), an ensemble, basins, or a list of fixed points, orbits, branches,
-    bifurcation curves or rows. A list in which a function found nothing has the columns of its results.
+    """Return a pandas DataFrame of a run (its events), an ensemble, basins, or a list of fixed points, orbits,
+    branches, bifurcation curves or rows. A list in which a function found nothing has the columns of its results.
 
-    Raises:
-        ValueError: the result is none of these.
-        ModuleNotFoundError: pandas is missing; the extra `figures` brings it.
+    Raises
+    ------
+    ValueError
+        If the result is none of these.
+    ModuleNotFoundError
+        If pandas is missing; the extra `figures` brings it.
     """
     if hasattr(result, "events"):
         return of_run(result)
@@ -42,27 +45,35 @@ def to_frame(result: Any) -> "pandas.DataFrame":
 
 
 def with_former_names(table: "pandas.DataFrame", former: Mapping[str, str]) -> "pandas.DataFrame":
-    """The table with some columns under their former names as well, last: they stay for one release.
+    """Return the table with some columns under their former names as well, last: they stay for one release.
 
-    Args:
-        former: name of a column by its former name.
+    Parameters
+    ----------
+    former : mapping
+        Name of a column by its former name.
     """
     return table.assign(**{old: table[name] for old, name in former.items()})
 
 
 def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dataset":
-    """An xarray Dataset of a sweep: the parameters that move are its dimensions, each other column a variable.
+    """Return an xarray Dataset of a sweep: the parameters that move are its dimensions, each other column a variable.
 
     `.to_netcdf(path, engine="scipy")` saves it. All numbers are dimensionless, which their attribute `units` says.
 
-    Args:
-        rows: of `vibroimpact.sweep`, a list of dictionaries, or a data frame of them (`results/sweeps/NAME.csv`).
-        along: the parameters that move, in their order; those that move together as a tuple, a dimension named after
-            the first of them.
+    Parameters
+    ----------
+    rows : object
+        Of `vibroimpact.sweep`, a list of dictionaries, or a data frame of them (`results/sweeps/NAME.csv`).
+    along : Sequence[str | tuple[str, ...]]
+        The parameters that move, in their order; those that move together as a tuple, a dimension named after the first
+        of them.
 
-    Raises:
-        ValueError: a parameter is no column, or the rows are not one for each point of the grid.
-        ModuleNotFoundError: pandas or xarray is missing; the extra `figures` brings both.
+    Raises
+    ------
+    ValueError
+        If a parameter is no column, or the rows are not one for each point of the grid.
+    ModuleNotFoundError
+        If pandas or xarray is missing; the extra `figures` brings both.
     """
     need("figures", "xarray")
     table = _pandas().DataFrame(rows)
@@ -83,7 +94,7 @@ def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dat
 
 
 def of_run(run):
-    """The events of a Run, a row each: tau, module, wall, kind in words, and the state just after it."""
+    """Return the events of a Run, a row each: tau, module, wall, kind in words, and the state just after it."""
     table = _pandas().DataFrame({name: run.events[name] for name in ("tau", "module", "wall")})
     table["kind"] = [KINDS[kind] for kind in run.events["kind"].tolist()]
     table[list(NAMES)] = run.events["state"]
@@ -91,13 +102,16 @@ def of_run(run):
 
 
 def plot_times(run) -> np.ndarray:
-    """Times since the start for a picture of a Run: 64 in a cycle, or fewer in a long run."""
+    """Return the times since the start for a picture of a Run: 64 in a cycle, or fewer in a long run."""
     count = min(_PER_CYCLE * run.cycles, _MOST)
     return np.linspace(0.0, run.cycles * run.system.period, count + 1)
 
 
 def plot(system, times, samples):
-    """A Matplotlib Figure of states (n, 8) at times tau: X_i of both boxes, and W_i = X_i - Y_i between its walls."""
+    """Return a Matplotlib Figure of states (n, 8) at times tau.
+
+    It shows X_i of both boxes, and W_i = X_i - Y_i between the walls.
+    """
     need("figures", "matplotlib")
     from matplotlib.figure import Figure
 
@@ -116,14 +130,17 @@ def _has_rows(one):
 
 
 def _rows(one, number):
-    """Rows of one member of a list."""
+    """Return the rows of one member of a list."""
     if isinstance(one, dict):
         return [one]
     return one.rows(number) if hasattr(one, "rows") else [one.row()]
 
 
 def _columns(table):
-    """Columns of a structured array (n,), those of fields with several numbers numbered from 1, or named as states."""
+    """Return the columns of a structured array (n,) by name.
+
+    A field with several numbers gives columns numbered from 1, or named as the components of a state.
+    """
     columns = {}
     for name in table.dtype.names:
         field = table[name]

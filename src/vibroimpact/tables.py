@@ -18,14 +18,14 @@ SAID = (*TEXT, "failed")
 
 
 def curve(panel: str, series: str, **quantities) -> pd.DataFrame:
-    """Rows of one curve or point set; quantities are arrays (n,) or scalars, broadcast."""
+    """Return the rows of one curve or point set; quantities are arrays (n,) or scalars, broadcast."""
     values = np.broadcast_arrays(*(np.atleast_1d(quantity) for quantity in quantities.values()))
     columns = dict(zip(quantities, values, strict=True))
     return pd.DataFrame({"panel": panel, "series": series, **columns})
 
 
 def join(curves) -> pd.DataFrame:
-    """One tidy table of several curves: the union of their columns, text columns first."""
+    """Return one tidy table of several curves: the union of their columns, text columns first."""
     table = pd.concat(list(curves), ignore_index=True)
     text = [name for name in TEXT if name in table]
     table[text] = table[text].fillna("")
@@ -33,7 +33,7 @@ def join(curves) -> pd.DataFrame:
 
 
 def select(table: pd.DataFrame, panel: str, series: str) -> pd.DataFrame:
-    """The rows of one series of one panel, in plotting order."""
+    """Return the rows of one series of one panel, in plotting order."""
     return table[(table["panel"] == panel) & (table["series"] == series)]
 
 

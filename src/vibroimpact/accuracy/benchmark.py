@@ -20,10 +20,12 @@ SHOWN = "method", "setting", "us_per_impact", "error_state", "error_time", "miss
 
 
 def measure(problem: Problem, methods, seconds: float) -> list[dict]:
-    """One row per method and setting: time per impact [us], ratio to ours, errors, over one motion on one core.
+    """Return one row per method and setting: time per impact [us], ratio to ours, errors, over one motion on one core.
 
-    Args:
-        seconds: how long each setting is repeated, as in `work_precision.measure`.
+    Parameters
+    ----------
+    seconds : float
+        How long each setting is repeated, as in `work_precision.measure`.
     """
     impacts = len(reference_run(problem.system, problem.state, problem.cycles, DIGITS, exact_floats=False).events)
     rows = [row for row in work_precision(problem, methods, seconds) if row["outcome"] != "unavailable"]
@@ -33,7 +35,7 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
 
 
 def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
-    """Error that rounding the state to float64 once per forcing cycle causes, all else being exact.
+    """Return the error that rounding the state to float64 once per forcing cycle causes, all else being exact.
 
     The largest difference of a coordinate, at any whole cycle, between the motion and the one whose state is rounded
     there: what no method can avoid whose states are float64 numbers, the conditioning of the motion included.
@@ -48,12 +50,12 @@ def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
 
 
 def _after_one_cycle(system, state, digits):
-    """The state (8,) a forcing period later, as rational numbers good to the digits."""
+    """Return the state (8,) a forcing period later, as rational numbers good to the digits."""
     return [Fraction(text) for text in reference_run(system, state, 1, digits, exact_floats=False).final_text]
 
 
 def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
-    """The rows of `measure` in a few numbers, by name; those of integrators that are not there are left out."""
+    """Return the rows of `measure` in a few numbers, by name; those of integrators that are not there are left out."""
     ours = _fastest(rows, OURS, np.inf)
     times = {
         "with its certificate": _fastest(rows, CERTIFIED, np.inf),
@@ -71,7 +73,7 @@ def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
 
 
 def panels(rows: list[dict]) -> list[dict]:
-    """Ratio of heyoka's time to ours in every panel of the chart, from the rows of `work_precision.measure`.
+    """Return the ratio of heyoka's time to ours in every panel of the chart, from the rows of `work_precision.measure`.
 
     heyoka at the coarsest tolerance whose error of the final state is at most ACCURATE, and at its fastest one with an
     error below USEFUL; nan, and why in "reason", where there is none.
@@ -84,7 +86,7 @@ def panels(rows: list[dict]) -> list[dict]:
 
 
 def _against_taylor(rows):
-    """The ratios of one panel, and the tolerances that they are for."""
+    """Return the ratios of one panel, and the tolerances that they are for."""
     (ours,) = (row for row in rows if row["method"] == OURS)
     others = [row for row in rows if row["method"] == TAYLOR]
     finished = [row for row in others if row["outcome"] == "finished"]
@@ -106,6 +108,6 @@ def _of(rows, method):
 
 
 def _fastest(rows, method, accuracy):
-    """The fastest row of a method with at most this error, or None."""
+    """Return the fastest row of a method with at most this error, or None."""
     good = [row for row in _of(rows, method) if row["error_state"] <= accuracy]
     return min(good, key=lambda row: row["us_per_impact"], default=None)

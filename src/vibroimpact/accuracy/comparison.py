@@ -14,8 +14,10 @@ OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDL
 def compare(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
     """Return methods in the order of the chart, with their cost relative to the first and their stress tests.
 
-    Args:
-        work_precision, stress_tests: the tables of the same names.
+    Parameters
+    ----------
+    work_precision, stress_tests : DataFrame
+        The tables of the same names.
 
     Columns method, family, problems (test problems that it solves with an error of at most 1e-6, without an impact
     missed or spurious), times (run time of its fastest such runs over those of the first method, the worst problem;

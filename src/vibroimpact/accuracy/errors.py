@@ -24,18 +24,24 @@ class Errors:
     spurious: int
 
     def columns(self) -> dict[str, float]:
-        """The errors under the names that tables give them."""
+        """Return the errors under the names that tables give them."""
         names = "error_state", "error_time", "missed", "spurious"
         return dict(zip(names, (self.final, self.times, self.missed, self.spurious), strict=True))
 
 
 def compare(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
-    """Errors of a MethodRun against a reference run (events and final as in exact.simulation) of the same motion.
+    """Return the errors of a MethodRun against a reference run of the same motion.
 
-    Args:
-        period: of the forcing, in units of tau.
-        faint: rebound speed at and below which an impact need not be found.
-        events: False where the reference covers the same final state but not all the events before it.
+    The reference has `events` and `final` as a run of `vibroimpact.simulate`.
+
+    Parameters
+    ----------
+    period : float
+        Of the forcing, in units of tau.
+    faint : float, default FAINT
+        Rebound speed at and below which an impact need not be found.
+    events : bool, default True
+        False where the reference covers the same final state but not all the events before it.
     """
     if run.final is None:
         return Errors(np.inf, np.inf, 0, 0)
@@ -56,14 +62,14 @@ def compare(run, reference, period: float, faint: float = FAINT, events: bool = 
 
 
 def rebound_speeds(events) -> np.ndarray:
-    """|W'| just after each of the events of a run, shape (n,), in its own module."""
+    """Return |W'| just after each of the events of a run, shape (n,), in its own module."""
     box = 4 + 2 * (events["module"].astype(int) - 1)
     rows = np.arange(len(events))
     return np.abs(events["state"][rows, box] - events["state"][rows, box + 1])
 
 
 def _near(times, others, window) -> np.ndarray:
-    """True for each time with another one within the window."""
+    """Return True for each time with another one within the window."""
     apart = np.abs(np.subtract.outer(np.asarray(times, dtype=float), others))
     return apart.min(axis=1, initial=np.inf) <= window
 

@@ -14,20 +14,25 @@ NEWTON_STEPS = 12
 
 
 def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float, ...]:
-    """A start (8,) at tau = 0 from which ball 1 clears the wall +1 by `clearance` at its first near approach.
+    """Return a start (8,) at tau = 0 from which ball 1 clears the wall +1 by `clearance` at its first near approach.
 
     Before the first impact the boxes do not feel the ball, so W_1 = X_1 - Y_1 is stationary where X_1' is the velocity
     of the ball, and its value there is moved by moving the ball's start. A negative clearance is the depth to which it
     would go beyond the wall if there were none. Rounding to float64 changes it by up to 1e-16.
 
-    Args:
-        boxes: X_1, X_2, X_1', X_2' at the start, as decimals; ball 2 starts in the middle of its
-            box, with its velocity.
-        ball_velocity: of ball 1.
-        guess: tau near which W_1 is at its maximum.
+    Parameters
+    ----------
+    boxes
+        X_1, X_2, X_1', X_2' at the start, as decimals; ball 2 starts in the middle of its box, with its velocity.
+    ball_velocity
+        Of ball 1.
+    guess
+        Tau near which W_1 is at its maximum.
 
-    Raises:
-        ValueError: W_1 has no maximum there.
+    Raises
+    ------
+    ValueError
+        If W_1 has no maximum there.
     """
     rates = rate_matrix(ExactSystem.of(system), (False, False))
     with ctx.workprec(BITS):

@@ -59,12 +59,17 @@ class Motion:
 def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
     """Return the motion of each fixed point of a system by a model; by the exact orbits those that have one.
 
-    Args:
-        points: all fixed points of the system, as an orbit belongs to the nearest one.
-        model: slow_flow, exact_orbit or second_term.
+    Parameters
+    ----------
+    points : list of LabelledPoint
+        All fixed points of the system, as an orbit belongs to the nearest one.
+    model : str
+        slow_flow, exact_orbit or second_term.
 
-    Raises:
-        ValueError: another model; or no orbit continues a fixed point to small epsilon.
+    Raises
+    ------
+    ValueError
+        If another model; or no orbit continues a fixed point to small epsilon.
     """
     if model == "slow_flow":
         return [
@@ -83,8 +88,10 @@ def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
 def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
     """Return the motion of the fixed point of that label in a table of all of them; see `motions`.
 
-    Raises:
-        ValueError: as `motions`; or the table has no such point, or there is no exact orbit next to it.
+    Raises
+    ------
+    ValueError
+        As `motions`; or the table has no such point, or there is no exact orbit next to it.
     """
     labelled_point(points, label)
     found = {one.point.label: one for one in motions(system, labelled_points(points), model)}
@@ -94,13 +101,16 @@ def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
 
 
 def _exact(system, point, root) -> Motion:
-    """The motion of a root of the exact symmetric conditions."""
+    """Return the motion of a root of the exact symmetric conditions."""
     impacts, C = np.where(np.isfinite(point.C), root.reshape(2, 2), np.nan)
     return _motion(system, point, C, impacts, lambda tau: _exact_U(system, root, tau))
 
 
 def _second_term(system, point) -> Motion:
-    """The motion to the next order: of C and of the phase of the impacts, and of U at each phase of the forcing."""
+    """Return the motion with the term of next order in epsilon.
+
+    The correction changes C, the phase of the impacts, and U at each phase of the forcing.
+    """
     C, shift = second_term.first_order(system, point)
     impacts = np.remainder(impact_times(system, point) + system.epsilon * shift / system.Omega, system.period)
     near = cache(lambda epsilon: second_term.near(system, point, epsilon))
@@ -117,7 +127,7 @@ def _second_term(system, point) -> Motion:
 
 
 def _motion(system, point, C, impacts, U) -> Motion:
-    """The motion of a saw-tooth and of U, a function of tau; B and psi are those of the first harmonic of U."""
+    """Return the motion of a saw-tooth and of U, a function of tau; B and psi are those of the first harmonic of U."""
 
     def response(tau):
         boxes, Z = U(tau), _sawtooth(system, C, impacts, tau)
@@ -135,5 +145,5 @@ def _exact_U(system, root, tau):
 
 
 def _sawtooth(system, C, impacts, tau):
-    """Z_i, shape (n, 2), 0 of a module that takes no part."""
+    """Return Z_i, shape (n, 2), 0 of a module that takes no part."""
     return np.nan_to_num(sawtooth(system.Omega * (tau[:, None] - impacts), C, 0.0))

@@ -23,8 +23,10 @@ def first_order(system, point) -> np.ndarray:
 
     NaN of a module that takes no part.
 
-    Raises:
-        NoOrbit: no orbit is reached.
+    Raises
+    ------
+    NoOrbit
+        If no orbit is reached.
     """
 
     def slope(epsilon):
@@ -35,7 +37,7 @@ def first_order(system, point) -> np.ndarray:
 
 
 def at_zero(slope):
-    """The limit of slope(epsilon), analytic, at epsilon = 0, by Richardson's extrapolation from three values.
+    """Return the limit of slope(epsilon), analytic, at epsilon = 0, by Richardson's extrapolation from three values.
 
     Its error is of order STEP^3.
     """
@@ -46,8 +48,10 @@ def at_zero(slope):
 def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
     """Return the system at another epsilon, and the root (4,) of its symmetric conditions next to a fixed point.
 
-    Raises:
-        NoOrbit: Newton's method reaches none from the fixed point.
+    Raises
+    ------
+    NoOrbit
+        If Newton's method reaches none from the fixed point.
     """
     here = system.with_(epsilon=epsilon)
     start = np.nan_to_num(np.concatenate([impact_times(here, point), point.C]))
@@ -58,6 +62,9 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 
 
 def offsets(system, point, roots) -> np.ndarray:
-    """Roots (..., 4) minus fixed point: C and impact phases [rad], (..., 2, 2); NaN of a module that takes no part."""
+    """Return exact roots (..., 4) minus the fixed point: C and impact phases [rad], (..., 2, 2).
+
+    A module that takes no part has NaN.
+    """
     phases = np.angle(np.exp(1j * system.Omega * (roots[..., :2] - impact_times(system, point))))
     return np.stack([roots[..., 2:] - point.C, phases], axis=-2)

@@ -61,7 +61,7 @@ FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # o
 
 
 def stress_tests() -> list[StressTest]:
-    """All stress tests, in the order of the table."""
+    """Return all stress tests, in the order of the table."""
     system = System(**CHAPTER)
     weak = system.with_(f10_hat=0.5, f20_hat=0.5)
     twins = system.with_(sigma20_hat=0.0)
@@ -90,16 +90,18 @@ def stress_tests() -> list[StressTest]:
 
 
 def judge(test: StressTest, methods) -> list[dict]:
-    """One row per method: the verdict on its careful setting for this problem, and the numbers behind it."""
+    """Return one row per method: the verdict on its careful setting for this problem, and the numbers behind it."""
     reference = reference_of(test)
     return [_row(test, method, reference) for method in methods]
 
 
 def reference_of(test: StressTest):
-    """The reference run of a stress test.
+    """Return the reference run of a stress test.
 
-    Raises:
-        ArithmeticError: the motion was claimed to have settled after reference_cycles, but changes in the last of them.
+    Raises
+    ------
+    ArithmeticError
+        If the motion was claimed to have settled after reference_cycles, but changes in the last of them.
     """
     if test.reference_cycles is None:
         return proven_run(test.system, test.state, test.cycles, exact_floats=False).run
@@ -149,5 +151,5 @@ def grazing(system: System, side: int, digits: int) -> StressTest:
 
 
 def _crossing(system, periods):
-    """Ball 1 meets its wall after so many periods (to rounding), box at rest; ball 2 stays in the middle."""
+    """Return the ball 1 meets its wall after so many periods (to rounding), box at rest; ball 2 stays in the middle."""
     return (0.0, 0.0, 0.0, 0.0, 0.0, -1.0 / (periods * system.period), 0.0, 0.0)

@@ -48,7 +48,7 @@ class Scene(NamedTuple):
     cycles: int
 
     def runs(self, count):
-        """Systems and starts of so many runs, spread over the scene."""
+        """Return the systems and starts of so many runs, spread over the scene."""
         systems = np.asarray(self.systems, dtype=object)
         shape = np.broadcast_shapes(systems.shape, self.states.shape[:-1])
         places = np.unique(np.linspace(0, np.prod(shape) - 1, count).astype(int))
@@ -58,7 +58,7 @@ class Scene(NamedTuple):
 
 
 def scenes(equal: System, weak: System, settled) -> dict[str, Scene]:
-    """The scenes of BEFORE; settled: state (8,) of a motion of `equal` without sticking."""
+    """Return the scenes of BEFORE; settled: state (8,) of a motion of `equal` without sticking."""
     sweep = [
         [equal.with_(sigma_e_hat=detuning, f10_hat=force, f20_hat=force)]
         for detuning in np.linspace(-0.5, 1.0, 20)
@@ -92,12 +92,17 @@ def _around(state, count, distance):
 
 
 def throughput(equal: System, weak: System, settled, seconds: float) -> list[dict]:
-    """One row for each scene: ns per impact of each method, all timed in turn on one core, and ratios to a single long
-    run of the same minutes; before: the same ratios of the lanes that there were before.
+    """Return one row per scene: ns per impact of each method, and ratios to a single long run.
 
-    Args:
-        settled: state (8,) of a motion of `equal` without sticking.
-        seconds: how long each is repeated.
+    All methods are timed in turn on one core; a single long run is timed within the same minutes. `before` holds the
+    ratios of the previous lanes.
+
+    Parameters
+    ----------
+    settled
+        State (8,) of a motion of `equal` without sticking.
+    seconds : float
+        How long each is repeated.
     """
     with at_most(1):
         return [
@@ -110,7 +115,10 @@ def throughput(equal: System, weak: System, settled, seconds: float) -> list[dic
 
 
 def ranges(rows: list[dict]) -> list[str]:
-    """Lines with the range over the scenes of the ratios to a single long run, from the rows of `throughput`."""
+    """Return lines with the ranges, over the scenes, of the ratios to a single long run.
+
+    The input is the rows of `throughput`.
+    """
     lines = []
     for name in ("final", "observed"):
         now, before = ([row[key] for row in rows] for key in (f"{name} / long run", f"before: {name}"))
@@ -126,7 +134,7 @@ def _long_run(system, state):
 
 
 def _timed(scene, long_run, seconds):
-    """ns per impact of every method."""
+    """Return ns per impact of every method."""
     impacts, systems, states = _impacts(scene), *scene.runs(SAMPLE)
     short = Scene(systems, states, SHORT)
     few = _impacts(short)
@@ -170,8 +178,9 @@ def _closed_form(system, state, cycles):
 
 
 def _compared(scene):
-    """Share of runs with the impacts of single runs, and the median error of the final states, of ensemble and closed
-    form, after SHORT cycles.
+    """Return the share of runs with the impacts of single runs, and the median errors of the final states.
+
+    The errors are those of the ensemble and of the closed form after SHORT cycles.
     """
     systems, states = scene.runs(CHECKED)
     outcomes = ensemble(systems, states, SHORT)

@@ -27,7 +27,7 @@ def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
 
 
 def versions() -> dict[str, str]:
-    """Versions behind a measurement: Python, the processor's architecture, and the packages installed."""
+    """Return the versions behind a measurement: Python, the processor's architecture, and the packages installed."""
     found = {"python": platform.python_version(), "machine": platform.machine()}
     for package in PACKAGES:
         try:

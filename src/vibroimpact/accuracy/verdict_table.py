@@ -28,7 +28,7 @@ _OF_ORBIT = ["case", "label", "symmetric", "admissible", "C1", "C2", *_NUMBERS, 
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
-    """A row per exact orbit, in order: its numbers and the verdict of each criterion.
+    """Return a row per exact orbit, in order: its numbers and the verdict of each criterion.
 
     Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (amplitudes
     of the saw-tooth), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
@@ -52,11 +52,14 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 
 
 def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.DataFrame:
-    """A row per fixed point, by label: verdicts of the criteria, the multipliers being those of its exact orbit.
+    """Return a row per fixed point, by label: verdicts of the criteria, the multipliers being those of its exact orbit.
 
-    Args:
-        labelled: pairs (label, fixed point).
-        orbits: `orbit_rows` of the same case.
+    Parameters
+    ----------
+    labelled
+        Pairs (label, fixed point).
+    orbits : DataFrame
+        `orbit_rows` of the same case.
 
     Columns case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
     orbit that goes with it, see `partners`; "" if there is none), one per criterion.

@@ -36,13 +36,17 @@ class Window:
 def window(system: System, settings: dict) -> Window:
     """Simulate a case and keep its window.
 
-    Args:
-        settings: initial_state (8,); transient_cycles, which are left out; window_cycles; samples_per_cycle; model,
-            "float64" or "reference": there the run is carried with `digits` decimal digits, by default DIGITS, which
-            are doubled until two runs agree.
+    Parameters
+    ----------
+    settings : dict
+        initial_state (8,); transient_cycles, which are left out; window_cycles; samples_per_cycle; model, "float64" or
+        "reference": there the run is carried with `digits` decimal digits, by default DIGITS, which are doubled until
+        two runs agree.
 
-    Raises:
-        ValueError: another model.
+    Raises
+    ------
+    ValueError
+        If another model.
     """
     cycles = settings["transient_cycles"] + settings["window_cycles"]
     starts = np.arange(settings["transient_cycles"]) * system.period
@@ -60,12 +64,12 @@ def window(system: System, settings: dict) -> Window:
 
 
 def window_times(period: float, transient_cycles: int, window_cycles: int, samples_per_cycle: int) -> np.ndarray:
-    """Sample times of the window, both ends included, the same phases in every cycle."""
+    """Return the sample times of the window, both ends included, the same phases in every cycle."""
     return (transient_cycles + np.arange(window_cycles * samples_per_cycle + 1) / samples_per_cycle) * period
 
 
 def _integrate(system, settings, cycles, times):
-    """The run, and what vouches for it."""
+    """Return the run, and what vouches for it."""
     if settings["model"] not in ARITHMETICS:
         raise ValueError(f"model: {settings['model']!r} is not {' or '.join(ARITHMETICS)}")
     if settings["model"] == "float64":

@@ -26,11 +26,14 @@ class Problem:
 
 
 def measure(problem: Problem, methods: list[Method], seconds: float, short: bool = False) -> list[dict]:
-    """One row per method and setting: errors against the reference, time per forcing cycle [s], order fitted.
+    """Return one row per method and setting: errors against the reference, time per forcing cycle [s], order fitted.
 
-    Args:
-        seconds: how long each setting is repeated, all of them in turn, after a first call of each that compiles.
-        short: every second setting of each method only.
+    Parameters
+    ----------
+    seconds : float
+        How long each setting is repeated, all of them in turn, after a first call of each that compiles.
+    short : bool, default False
+        Every second setting of each method only.
     """
     reference = proven_run(problem.system, problem.state, problem.cycles, exact_floats=False).run
     missing = [method for method in methods if method.available()]
@@ -56,7 +59,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 
 
 def _measured(problem, run, time, reference):
-    """Errors, time and steps of a run."""
+    """Return the errors, time and steps of a run."""
     return {
         **compare(run, reference, problem.system.period).columns(),
         "seconds_per_cycle": time / problem.cycles,
@@ -68,7 +71,7 @@ def _measured(problem, run, time, reference):
 
 
 def _order(method, settings, timed, rows):
-    """The order of convergence of a method from its runs with the right impacts."""
+    """Return the order of convergence of a method from its runs with the right impacts."""
     points = [
         (method.scale(setting, run), row["error_state"])
         for (one, setting), (run, _), row in zip(settings, timed, rows, strict=True)
@@ -87,7 +90,10 @@ def _row(problem, method, setting, **measured):
 
 
 def fitted_order(points) -> float | None:
-    """Slope of log error over log scale, by least squares over the resolved points (scale, error); None below three."""
+    """Return the slope of log error over log scale, or None for fewer than three resolved points.
+
+    The points (scale, error) are fitted by least squares.
+    """
     largest, smallest = RESOLVED
     resolved = [(scale, error) for scale, error in points if smallest <= error <= largest]
     if len(resolved) < 3:

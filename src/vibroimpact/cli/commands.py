@@ -77,28 +77,33 @@ def add_system_options(parser) -> None:
 
 
 def system_of(options) -> System:
-    """The system that the options ask for.
+    """Return the system that the options ask for.
 
-    Raises:
-        ValueError: there is none, see System.
+    Raises
+    ------
+    ValueError
+        If there is none, see System.
     """
     given = {name: value for name in NAMES if (value := getattr(options, name)) is not None}
     return System(**{**PARAMETERS, **CASES[options.case], **given})
 
 
 def _no_options(parser):
-    """None but those of the system."""
+    """Add no options besides those of the system."""
 
 
 def _fixed_points(system, options):
-    """A row per fixed point; fast and slow, and theory: both together."""
+    """Return a row per fixed point; fast and slow, and theory: both together."""
     columns = ("label", "C1", "C2", "B1", "B2", "psi1", "psi2", *CRITERIA)
     rows = [point.row() | of_fixed_point(system, point) for point in fixed_points(system)]
     return Table(columns, [tuple(row[name] for name in columns) for row in rows])
 
 
 def _orbits(system, options):
-    """A row per orbit that is a motion; phases in periods, at wall +1 and -1; the modulus of the largest multiplier."""
+    """Return a row per admissible orbit.
+
+    Phases are in forcing periods, at walls +1 and -1; the largest multiplier is given by its modulus.
+    """
     measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
     columns = ("symmetric", "C1", "C2", *measures, "largest_multiplier", "residual", "exact")
     rows = [orbit.row() for orbit in orbits(system) if orbit.admissible]
@@ -106,7 +111,7 @@ def _orbits(system, options):
 
 
 def _simulate_options(parser):
-    """Options of the start, the length and the output."""
+    """Add the options of the initial state, the length and the output."""
     parser.add_argument(
         "--state", type=float, nargs=8, metavar=STATE, default=[0.0] * 8, help="the start (default: at rest)"
     )
@@ -119,7 +124,7 @@ def _simulate_options(parser):
 
 
 def _simulate(system, options):
-    """A row per sample, tau and the state; or per event, with the state just after it."""
+    """Return a row per sample, tau and the state; or per event, with the state just after it."""
     cycles = whole("cycles", options.cycles, 0, _MOST_SAMPLES)
     if options.events:
         events = simulate(system, options.state, cycles, options.tau0).events.tolist()
@@ -133,7 +138,7 @@ def _simulate(system, options):
 
 
 def _design_options(parser):
-    """Options of one machine in SI units, the band, the choice of balls, and a picture."""
+    """Add the options of the machine (SI units), the band, the candidate balls and the plot."""
     group = parser.add_argument_group("machine", "all needed, in SI units")
     for name, words in MACHINE.items():
         kind = _range if name == "m" else float
@@ -152,7 +157,7 @@ def _design_options(parser):
 
 
 def _range(text) -> tuple[float, ...]:
-    """A number, or the two of A..B."""
+    """Return a number, or the two of A..B."""
     try:
         return tuple(float(word) for word in text.split("..", maxsplit=1))
     except ValueError:
@@ -160,7 +165,7 @@ def _range(text) -> tuple[float, ...]:
 
 
 def _design(options):
-    """A row per frequency; the answer is the text of a Design."""
+    """Return a row per frequency; the answer is the text of a Design."""
     if options.plot is not None and options.plot.suffix not in PICTURES:
         raise ValueError(f"plot: {options.plot} does not end in {', '.join(PICTURES)}")
     if options.plot is not None:

@@ -30,7 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The parser of all commands."""
+    """Return the parser of all commands."""
     top = _Parser(prog="vibroimpact", description=vibroimpact.__doc__.splitlines()[0])
     top.add_argument("--version", action="version", version=f"vibroimpact {vibroimpact.__version__}")
     if find_spec("shtab"):

@@ -31,12 +31,16 @@ SPEC = {
 
 
 def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
-    """The saw-tooth Z(tau_0) of (10.11) for constant amplitude C and theta [rad], and its impacts, on [0, tau0_max].
+    """Return the saw-tooth Z(tau_0) of (10.11) and its impacts on [0, tau0_max].
+
+    The amplitude C and the phase theta [rad] are constant.
 
     Returns columns panel, series ("Z" or "impacts"), tau0, Z. The corners are among the points of the line.
 
-    Raises:
-        ValueError: amplitude is not above 0, or the window holds no impact.
+    Raises
+    ------
+    ValueError
+        If amplitude is not above 0, or the window holds no impact.
     """
     if not amplitude > 0:
         raise ValueError(f"amplitude: {amplitude} is not above 0")
@@ -53,7 +57,7 @@ def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """The impacts: instant tau_0, level Z, and time since the impact before."""
+    """Return the impacts: instant tau_0, level Z, and time since the impact before."""
     impacts = select(table, "Z", "impacts")[["tau0", "Z"]]
     return impacts.assign(after=impacts["tau0"].diff()).reset_index(drop=True)
 
@@ -87,5 +91,5 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def _instant(j: int) -> str:
-    """Symbol of the impact j half periods after the first one shown."""
+    """Return the symbol of the impact j half periods after the first one shown."""
     return r"$\theta_i$" if j == 0 else rf"$\theta_i+{'' if j == 1 else j}\pi$"

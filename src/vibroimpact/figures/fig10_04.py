@@ -35,12 +35,16 @@ INSET = (0.335, 0.43, 0.31, 0.38)
 
 
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
-    """The manifold B(C), (10.16), with its branches by (10.26) and the level B_min, (10.25), for 0 <= C <= C_max.
+    """Return the manifold B(C), (10.16), for 0 <= C <= C_max, and its fold.
+
+    The branches are stable or unstable by (10.26); the fold has the level B_min, (10.25).
 
     Returns columns panel, series ("SIM stable", "SIM unstable", "B_min"), C, B.
 
-    Raises:
-        ValueError: C_max does not reach beyond the fold C_min.
+    Raises
+    ------
+    ValueError
+        If C_max does not reach beyond the fold C_min.
     """
     level = curve("SIM", "B_min", C=[0.0, C_max], B=B_min(rho(kappa)))
     return join([*branches("SIM", kappa, C_max), level])

@@ -31,12 +31,16 @@ REGIONS = {"stable": LIGHT_GREY, "unstable": "white"}
 
 
 def compute(C_range: tuple[float, float]) -> pd.DataFrame:
-    """Stable and unstable regions by (10.26) and the fold C_min(kappa), (10.25), for 0 <= kappa <= 1, C in C_range.
+    """Return the stable and unstable regions by (10.26) and the fold C_min(kappa), (10.25).
+
+    The plane is 0 <= kappa <= 1 with C in C_range.
 
     Returns columns panel, series, kappa, C; the series "stable" and "unstable" are the outlines of the regions.
 
-    Raises:
-        ValueError: C_range does not hold the whole border between the regions.
+    Raises
+    ------
+    ValueError
+        If C_range does not hold the whole border between the regions.
     """
     lowest, highest = C_range
     kappa = np.linspace(0.0, 1.0, 201)

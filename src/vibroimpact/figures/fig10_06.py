@@ -64,27 +64,33 @@ MARKERS = {
 
 
 def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd.DataFrame:
-    """Manifold, fixed points P_i and singular points S_i of (10.24) on the planes (C_1, B_1) and (C_2, B_2).
+    """Return the manifold, fixed points P_i and singular points S_i of (10.24) on the planes (C_1, B_1) and (C_2, B_2).
 
-    Args:
-        points: the fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
-        model: slow_flow; or exact_orbit, by which P_i is that of the exact orbit next to the fixed point, and S_i
-            belongs to this; a fixed point without an orbit has no row.
-        C_max: the manifold is shown for 0 <= C_i <= C_max, one number or one per module; further where a fixed
-            point lies beyond.
+    Parameters
+    ----------
+    points : DataFrame
+        The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
+    model : str, default 'slow_flow'
+        slow_flow; or exact_orbit, by which P_i is that of the exact orbit next to the fixed point, and S_i belongs to
+        this; a fixed point without an orbit has no row.
+    C_max
+        The manifold is shown for 0 <= C_i <= C_max, one number or one per module; further where a fixed point lies
+        beyond.
 
     Returns columns panel (label and module: "a1", "a2", ...), series ("SIM stable", "SIM unstable", "P_i", "S_i", and
     "S_i beyond" for singular points with C_i > C_max), C, B. Without fixed points the planes show the manifold alone.
 
-    Raises:
-        ValueError: C_max does not reach beyond the fold of the manifold; another model.
+    Raises
+    ------
+    ValueError
+        If C_max does not reach beyond the fold of the manifold; another model.
     """
     found = motions(system, labelled_points(points), model)
     return join(planes(system, [motion.point for motion in found], C_max))
 
 
 def planes(system, points, C_max) -> list[pd.DataFrame]:
-    """The curves of both planes of each labelled point; see `compute`."""
+    """Return the curves of both planes of each labelled point; see `compute`."""
     ends = np.fmax.reduce([np.broadcast_to(C_max, 2), *(1.1 * point.C for point in points)])
     if not points:
         return [branch for i in MODULES for branch in branches(str(i), system.kappa, ends[i - 1])]
@@ -110,8 +116,10 @@ def _plane(system, point, module, end):
 def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({})) -> Figure:
     """Draw the table of `compute`: a row of planes per fixed point, P_i black circles, S_i grey squares.
 
-    Args:
-        chapter: the chapter's verdicts by label, which the heads show where (10.26) gives another one.
+    Parameters
+    ----------
+    chapter : mapping, optional
+        The chapter's verdicts by label, which the heads show where (10.26) gives another one.
     """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + ENDS)

@@ -48,18 +48,24 @@ COORDINATES = {
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, model: str = "slow_flow") -> pd.DataFrame:
-    """U_i, X_i, W_i and Y_i of both modules over some forcing periods, by (10.9), (10.10) or another model.
+    """Return U_i, X_i, W_i and Y_i of both modules over some forcing periods, by (10.9), (10.10) or another model.
 
-    Args:
-        points: the fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
-        fixed_point: label of the fixed point shown.
-        model: slow_flow, exact_orbit or second_term; see `vibroimpact.accuracy.model_choice`.
+    Parameters
+    ----------
+    points : DataFrame
+        The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
+    fixed_point : str
+        Label of the fixed point shown.
+    model : str, default 'slow_flow'
+        slow_flow, exact_orbit or second_term; see `vibroimpact.accuracy.model_choice`.
 
     Returns columns panel ("module 1", "module 2"), series ("U_1", ...), tau, value. The impacts, where W_i and Y_i
     have their corners, are among the points.
 
-    Raises:
-        ValueError: there is no fixed point of that label, or no motion of it by the model; or periods is not above 0.
+    Raises
+    ------
+    ValueError
+        If there is no fixed point of that label, or no motion of it by the model; or periods is not above 0.
     """
     if not periods > 0:
         raise ValueError(f"periods: {periods} is not above 0")
@@ -75,7 +81,7 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
 
 
 def _times(first: float, period: float, end: float, points: int = 401) -> np.ndarray:
-    """Evenly spaced times in [0, end] and the impacts among them, each half a period after the one before.
+    """Return the evenly spaced times in [0, end] and the impacts among them, each half a period after the one before.
 
     first: time of an impact; NaN if there is none.
     """

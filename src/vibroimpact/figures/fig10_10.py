@@ -31,12 +31,14 @@ SPEC = {
 def compute(
     system, points: pd.DataFrame, fixed_point: str, periods: float, C_max, model: str = "slow_flow"
 ) -> pd.DataFrame:
-    """The planes of figure 10.6 and the response of figure 10.7 for one fixed point.
+    """Return the planes of figure 10.6 and the response of figure 10.7 for one fixed point.
 
     Returns columns panel, series, C, B, tau, value; see `fig10_06.compute` and `fig10_07.compute`.
 
-    Raises:
-        ValueError: as those two.
+    Raises
+    ------
+    ValueError
+        As those two.
     """
     point = motion(system, points, fixed_point, model).point
     return join(

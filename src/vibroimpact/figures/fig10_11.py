@@ -45,7 +45,7 @@ SPEC = {
 
 
 def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """The motion as in figure 10.8, "csv", and how the amplitudes of both boxes vary, "statistics"."""
+    """Return the motion as in figure 10.8, "csv", and how the amplitudes of both boxes vary, "statistics"."""
     return {"csv": simulated.compute(system, samples, events), "statistics": simulated.statistics(system, samples)}
 
 

@@ -66,12 +66,15 @@ LOWEST, LANE = 1e-4, 3e-4
 
 
 def compute(scenes: dict, seconds: float) -> pd.DataFrame:
-    """Errors and run times of all models of each figure.
+    """Return the errors and run times of all models of each figure.
 
-    Args:
-        scenes: by figure its `module`, `notebook`, `model` in use, parameters of its `system`, and `settings`: of the
-            figure, or of its simulation (see `vibroimpact.accuracy.window.window`).
-        seconds: how long each run is repeated for its time, if it is shorter.
+    Parameters
+    ----------
+    scenes : dict
+        By figure its `module`, `notebook`, `model` in use, parameters of its `system`, and `settings`: of the figure,
+        or of its simulation (see `vibroimpact.accuracy.window.window`).
+    seconds : float
+        How long each run is repeated for its time, if it is shorter.
 
     Returns columns figure, model, compared_with, error, tolerance, seconds, in_use; see SPEC.
     """
@@ -85,7 +88,10 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
 
 
 def _motions(module, system, settings, models, seconds):
-    """Model, reference, error and cost of figures of fixed points: the whole computation from the parameters."""
+    """Return the model, reference, error and cost of the figures of fixed points.
+
+    The cost is that of the whole computation from the parameters.
+    """
 
     def made(model):
         try:
@@ -100,7 +106,7 @@ def _motions(module, system, settings, models, seconds):
 
 
 def _simulations(module, system, settings, models, seconds):
-    """The same of a simulated motion, in both arithmetics from where the transient in float64 ends.
+    """Return the same of a simulated motion, in both arithmetics from where the transient in float64 ends.
 
     The transient would keep the reference busy for a minute; its time is that of the window with few samples, in
     proportion to the periods.
@@ -144,7 +150,7 @@ def largest_error(table, reference) -> float:
 
 
 def _plotted(table, column):
-    """Values of one column that are compared, by panel, series and, of curves, time."""
+    """Return the values of one column that are compared, by panel, series and, of curves, time."""
     rows = table[table["series"].str.startswith("P_")] if column != "value" else table.dropna(subset="value")
     return rows.set_index(["panel", "series", *(["tau"] if column == "value" else [])])[column]
 

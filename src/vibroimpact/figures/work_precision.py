@@ -54,8 +54,12 @@ GUIDE = {"color": GREY, "linestyle": ":", "linewidth": 0.9, "zorder": 0}
 def compute(problems: dict, seconds: float, short: bool) -> pd.DataFrame:
     """Return the rows of `accuracy.work_precision.measure` on all problems.
 
-    Args:
-        problems: by name `system` (parameters by name), `initial_state` and `cycles`. seconds, short: as in `measure`.
+    Parameters
+    ----------
+    problems : dict
+        By name `system` (parameters by name), `initial_state` and `cycles`.
+    seconds, short
+        As in `measure`.
     """
     starts = (
         Problem(name, System(**problem["system"]), tuple(problem["initial_state"]), problem["cycles"])

@@ -36,44 +36,47 @@ HUNT_CROSSLEY = Law(1.5, 1.5)
 
 
 def power_law(order: int) -> Law:
-    """W^(2n - 1) and |W|^(n - 1) W', which tend to walls at W = +1 and -1 as n grows (Pilipchuk 2010)."""
+    """Return W^(2n - 1) and |W|^(n - 1) W', which tend to walls at W = +1 and -1 as n grows (Pilipchuk 2010)."""
     return Law(2.0 * order - 1.0, order - 1.0, walls=False)
 
 
 def stiffness_of(law: Law, mass: float, duration: float) -> float:
-    """K with which an undamped contact at speed 1 lasts `duration`."""
+    """Return K with which an undamped contact at speed 1 lasts `duration`."""
     share = 1.0 / (law.stiffness + 1.0)
     path = math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)  # of 1 / sqrt(1 - x^(n + 1))
     return mass / (2.0 * share) * (2.0 * path / duration) ** (law.stiffness + 1.0)
 
 
 def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float, speed: float) -> float:
-    """K of a spring through the box with which a ball of this speed in the middle turns at W = 1."""
+    """Return K of a spring through the box with which a ball of this speed in the middle turns at W = 1."""
     zeta = damping_ratio(kappa)
     deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # u, with 1 / omega for the speed 1
     return 0.5 * (law.stiffness + 1.0) * mass * (deepest * speed) ** 2
 
 
 def damping_of(law: Law, mass: float, kappa: float, stiffness: float) -> float:
-    """D with which a contact at speed 1 has the restitution coefficient kappa."""
+    """Return D with which a contact at speed 1 has the restitution coefficient kappa."""
     if law.damping == law.stiffness:
         return stiffness * hunt_crossley_number(kappa)
     return damping_ratio(kappa) * math.sqrt(2.0 * (law.stiffness + 1.0) * stiffness * mass)
 
 
 def fading(law: Law) -> float:
-    """The power of 1 / V that D must be proportional to, if kappa is to be the same at every speed V."""
+    """Return the power of 1 / V that D must be proportional to, if kappa is to be the same at every speed V."""
     return (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
 
 
 def damping_ratio(kappa: float) -> float:
-    """zeta of the linear oscillator that multiplies the speed by kappa in half a period."""
+    """Return zeta of the linear oscillator that multiplies the speed by kappa in half a period."""
     decay = -math.log(kappa)
     return decay / math.hypot(math.pi, decay)
 
 
 def hunt_crossley_number(kappa: float) -> float:
-    """d = D V / K of an impact at speed V, by (1 + kappa) d = log((1 + d) / (1 - kappa d)), 0 < d < 1 / kappa."""
+    """Return d = D V / K of an impact at speed V, 0 < d < 1 / kappa.
+
+    d solves (1 + kappa) d = log((1 + d) / (1 - kappa d)).
+    """
 
     if 1.0 - kappa < NEARLY_ELASTIC:
         return 1.5 * (1.0 - kappa)

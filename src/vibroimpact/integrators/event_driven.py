@@ -35,7 +35,7 @@ class CertifiedEngine(Engine):
 
 
 def _impacts(run):
-    """The impacts of a run, without its sticks and releases."""
+    """Return the impacts of a run, without its sticks and releases."""
     rows = run.rows[run.rows[:, KIND] == IMPACT]
     return np.stack([run.tau0 + rows[:, TIME], rows[:, MODULE], rows[:, WALL], np.abs(rows[:, APPROACH])], axis=1)
 

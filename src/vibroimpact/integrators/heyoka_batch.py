@@ -29,7 +29,7 @@ class HeyokaBatch:
         self._state = self._taylor.state  # a view: the integrator's own memory
 
     def run(self, systems, states, cycles: int) -> np.ndarray:
-        """Final states (8, LANES) of starts (8, LANES) at tau = 0."""
+        """Return the final states (8, LANES) of starts (8, LANES) at tau = 0."""
         numbers, periods = np.array([coefficients(system) for system in systems]).T, [one.period for one in systems]
         self._taylor.pars[:] = numbers[: len(self._taylor.pars)]  # those that the equations use
         self._epsilon, kappa = numbers[NAMES.index("epsilon")], numbers[NAMES.index("kappa")]

@@ -53,7 +53,9 @@ class HeyokaTaylor(Method):
 
 
 def right_hand_side(numbers, stuck=(False, False)):
-    """The state variables, the accelerations of the boxes, and all equations, with the sine and cosine of the phase.
+    """Return the state variables, the accelerations of the boxes, and the system of equations.
+
+    The system includes the sine and cosine of the forcing phase.
 
     numbers: those of `coefficients`, as floats or parameters of heyoka.
     """
@@ -125,7 +127,10 @@ class _Integrator:
         return callback
 
     def _impact(self, i, wall):
-        """The impact law in place; an impact so slow that the ball may come to rest is left to the contact logic."""
+        """Apply the impact law in place.
+
+        An impact so slow that the ball may come to rest is left to the contact logic.
+        """
         s_box, s_ball = 4 + BOXES[i], 4 + BALLS[i]
 
         def callback(taylor, sign):

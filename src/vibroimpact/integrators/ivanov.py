@@ -33,8 +33,10 @@ HALVINGS = 50  # of a step, to locate a jump in it
 class Ivanov(Method):
     """Steps of equal length in Ivanov's coordinates, setting: steps per cycle.
 
-    Args:
-        located: True if a step ends where the right-hand side jumps.
+    Parameters
+    ----------
+    located
+        True if a step ends where the right-hand side jumps.
     """
 
     family, knob, limit = "transformed coordinates", "steps per cycle", 30_000_000
@@ -57,7 +59,7 @@ class Ivanov(Method):
 
 
 def unfolded(state, epsilon: float, k: float) -> np.ndarray:
-    """[s, v, centre of mass, its velocity] of both modules, shape (8,), of a state (8,): in box n = 0."""
+    """Return [s, v, centre of mass, its velocity] of both modules, shape (8,), of a state (8,): in box n = 0."""
     x, y = state[BOXES], state[BALLS]
     W, W_rate = x[:2] - y[:2], x[2:] - y[2:]
     centre = (x + epsilon * y) / (1.0 + epsilon)
@@ -65,7 +67,7 @@ def unfolded(state, epsilon: float, k: float) -> np.ndarray:
 
 
 def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
-    """The state (8,) of unfolded coordinates (8,), given the box n that each ball is in."""
+    """Return the state (8,) of unfolded coordinates (8,), given the box n that each ball is in."""
     s, v, centre, rate = z.reshape(2, 4).T
     p, sign = s - 2.0 * boxes, 1.0 - 2.0 * (boxes % 2)
     W, W_rate = sign * p, sign * (1.0 + k * np.sign(v) * p) * v
@@ -77,7 +79,7 @@ def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
 
 @disk_cached(error_model="numpy")
 def _rates(tau, z, q, k, boxes, ways, d):
-    """Derivative of unfolded coordinates, into d, with the right-hand side of given boxes and signs of v.
+    """Write the derivative of the unfolded coordinates into d, for given boxes and signs of v.
 
     It goes on smoothly beyond where these hold.
     """
@@ -95,7 +97,10 @@ def _rates(tau, z, q, k, boxes, ways, d):
 
 @disk_cached()
 def _step(tau, z, h, q, k, boxes, ways, looking):
-    """The coordinates a step later; if it is looking, each stage has the right-hand side of the place it is at."""
+    """Return the coordinates one step later.
+
+    If `looking` is set, each stage uses the right-hand side of its own position.
+    """
     rates, ahead, at = np.empty(8), z.copy(), z.copy()
     for stage in range(4):
         if looking:
@@ -109,7 +114,10 @@ def _step(tau, z, h, q, k, boxes, ways, looking):
 
 @disk_cached()
 def _look(z, boxes, ways):
-    """The sign of every v, and which box the ball is in: on a wall the one that it goes on to."""
+    """Write the sign of each v and the box that each ball is in.
+
+    A ball on a wall belongs to the box that it enters.
+    """
     for i in range(2):
         ways[i] = 1.0 if z[4 * i + 1] >= 0.0 else -1.0
         there = 0.5 * (z[4 * i] + ways[i])
@@ -118,13 +126,13 @@ def _look(z, boxes, ways):
 
 @disk_cached()
 def _impact(tau, i, box, direction, speed, k):
-    """The row of an impact, (tau, module, wall, speed), for a ball that leaves a box of the unfolded line."""
+    """Return the row of an impact, (tau, module, wall, speed), for a ball that leaves a box of the unfolded line."""
     return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * direction, (1.0 + k) * abs(speed)
 
 
 @disk_cached()
 def _march_across_jumps(q, k, z, tau0, h, count):
-    """Coordinates and boxes at the end, impacts, number of steps, and nan, for it always gets there."""
+    """Return the coordinates and boxes at the end, impacts, number of steps, and nan, for it always gets there."""
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, ways = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
     for n in range(count):
@@ -142,7 +150,7 @@ def _march_across_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _march_to_jumps(q, k, z, tau0, h, count):
-    """The same with steps that end at jumps; instead of nan, the time after which there is no end of impacts."""
+    """Return the same with steps that end at jumps; instead of nan, the time after which there is no end of impacts."""
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     boxes, ways, idle, steps = np.zeros(2, np.int64), np.ones(2), 0, 0
     for i in range(2):
@@ -170,7 +178,7 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, ways):
-    """The shortest part of a step found to end beyond a jump, by halving, and the coordinates there."""
+    """Return the shortest part of a step found to end beyond a jump, by halving, and the coordinates there."""
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, ways, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)
@@ -184,7 +192,7 @@ def _first_jump(tau, z, part, h, q, k, boxes, ways):
 
 @disk_cached()
 def _beyond(z, boxes, ways):
-    """True if the right-hand side should have jumped, or a step so long that R vanishes has left no numbers."""
+    """Return True if the right-hand side should have jumped, or a step so long that R vanishes has left no numbers."""
     within = True
     for i in range(2):
         to_wall, speed = _ahead_of(z, i, boxes, ways)
@@ -194,12 +202,12 @@ def _beyond(z, boxes, ways):
 
 @disk_cached()
 def _ahead_of(z, i, boxes, ways):
-    """Distance of the next wall, and the size of v: negative once the right-hand side should have jumped."""
+    """Return the distance of the next wall, and the size of v: negative once the right-hand side should have jumped."""
     return 1.0 - ways[i] * (z[4 * i] - 2.0 * boxes[i]), ways[i] * z[4 * i + 1]
 
 
 def variants() -> list[Ivanov]:
-    """Without and with location of the jumps."""
+    """Return the without and with location of the jumps."""
     return [
         Ivanov("Ivanov", False, (100, 300, 1_000, 3_000, 10_000, 30_000), careful=30_000, order=1),
         Ivanov("Ivanov, events", True, (10, 30, 100, 300, 1_000, 3_000), careful=3_000, order=4),

@@ -30,7 +30,7 @@ class LeadingOrder(Method):
 
 
 def steady_state(system, point, tau) -> np.ndarray:
-    """The leading-order state (8,) at a time, with the velocities of the expressions for the displacements."""
+    """Return the leading-order state (8,) at a time, with the velocities of the expressions for the displacements."""
     response = leading_order(system, point, [tau])
     phase = system.Omega * tau - point.psi
     U_rate = system.Omega * point.B * np.cos(phase)

@@ -49,7 +49,7 @@ class Modal(Method):
 
 @lru_cache(maxsize=64)
 def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
-    """Tables of the four contact states, and the largest condition number of their eigenvectors.
+    """Return the tables of the four contact states, and the largest condition number of their eigenvectors.
 
     Tables: numbers of modes, (4,), of which the last is the forcing; their rates, (4, 2, 5), real and imaginary parts;
     what of [X1, X2, X1', X2'] a mode of amplitude 1 is the real part of, doubled if it stands for a pair, (4, 2, 4, 5);
@@ -119,7 +119,10 @@ def _state(s, walls, count, shape, amplitudes, t, there):
 
 @inlined()
 def _guess(before, there, i, low, high):
-    """The zero of the cubic that has the gap and its slope of module i in two states, by two steps from a secant."""
+    """Return the zero of the cubic that interpolates the gap of module i and its slope in two states.
+
+    Two Newton steps from the secant suffice.
+    """
     x = 2 * i
     wall = 1.0 if there[x] - there[x + 1] > 0.0 else -1.0
     h = high - low
@@ -185,7 +188,9 @@ def _march(q, tables, s, tau, end, step, limit):
 
 @inlined()
 def _event(q, flight, tau, i, times, states, memory, event):
-    """The time between two looks at which the guard of module i falls through zero, and the state then in `event`.
+    """Return the time between two samples at which the guard of module i falls through zero.
+
+    The state at that time is written to `event`.
 
     Newton's method from the zero of a cubic through both looks; halving where that fails.
     """

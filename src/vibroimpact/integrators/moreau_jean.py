@@ -28,7 +28,10 @@ class MoreauJean(Method):
 
 @disk_cached()
 def _march(q, s, tau0, h, steps):
-    """The state after a number of steps, and rows [time, module, wall, speed] of the first step of each contact."""
+    """Return the state after a number of steps, and a row per contact.
+
+    Rows hold [time, module, wall, speed] of the first step of each contact.
+    """
     k11, k12, k22, c11, c12, c22, f1, f2, omega, epsilon, kappa = q
     g = 0.5 * h
     m11, m12, m22 = 1.0 + g * (c11 + g * k11), g * (c12 + g * k12), 1.0 + g * (c22 + g * k22)
@@ -62,14 +65,17 @@ def _march(q, s, tau0, h, steps):
 
 @disk_cached()
 def _closed(gap, speed, g):
-    """The wall that the ball is predicted to have reached half a step ahead, or 0."""
+    """Return the wall that the ball is predicted to have reached half a step ahead, or 0."""
     ahead = gap + g * speed
     return 1 if ahead >= 1.0 else (-1 if ahead <= -1.0 else 0)
 
 
 @disk_cached()
 def _impulses(q1, q2, d11, d12, d22):
-    """The impulses P >= 0 with q - D P <= 0 and P (q - D P) = 0, D positive definite; q = -inf where no contact is."""
+    """Return the impulses P >= 0 with q - D P <= 0 and P (q - D P) = 0.
+
+    D is positive definite; q = -inf where there is no contact.
+    """
     if q1 <= 0.0 and q2 <= 0.0:
         return 0.0, 0.0
     if q1 > -math.inf and q2 > -math.inf:

@@ -54,7 +54,7 @@ class Penalty(Method):
         return MethodRun(final, rows, steps, 6 * steps)
 
     def wall(self, system, setting) -> tuple[Law, tuple[float, float, float]]:
-        """The law; K, D at speed 1, and where |W| is in contact."""
+        """Return the law; K, D at speed 1, and where |W| is in contact."""
         mass = system.epsilon / (1.0 + system.epsilon)
         stiffness = stiffness_of(self._law, mass, setting * system.period)
         return self._law, (stiffness, damping_of(self._law, mass, system.kappa, stiffness), 1.0)
@@ -66,8 +66,10 @@ class Penalty(Method):
 class PowerLaw(Penalty):
     """A spring W^(2n - 1) through all of the box; setting: n.
 
-    Args:
-        speed: with which a ball in the middle of its box turns at W = 1; the stiffness is proportional to its square.
+    Parameters
+    ----------
+    speed
+        With which a ball in the middle of its box turns at W = 1; the stiffness is proportional to its square.
     """
 
     knob = "exponent"
@@ -89,12 +91,12 @@ class PowerLaw(Penalty):
 
 
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
-    """[n, m, K, D at speed 1, power of 1 / V in D, where p begins, where |W| is in contact]."""
+    """Return [n, m, K, D at speed 1, power of 1 / V in D, where p begins, where |W| is in contact]."""
     return np.array([law.stiffness, law.damping, stiffness, damping, fading(law), float(law.walls), contact])
 
 
 def variants() -> list[Penalty]:
-    """One method for each law."""
+    """Return one method for each law."""
     return [
         Penalty("penalty", SPRING),
         Penalty("Hertz", HERTZ),
@@ -105,7 +107,7 @@ def variants() -> list[Penalty]:
 
 @disk_cached()
 def force(gap, speed, law, damping):
-    """Force on the ball (its opposite on the box) from its walls, for W and W' and the D of this contact."""
+    """Return the force on the ball (its opposite on the box) from its walls, for W and W' and the D of this contact."""
     depth = abs(gap) - law[5]
     if depth <= 0.0:
         return 0.0
@@ -115,7 +117,10 @@ def force(gap, speed, law, damping):
 
 @disk_cached()
 def _rates(tau, s, contact, d):
-    """Derivative of the state, into d; contact: coefficients, law, and D of both contacts."""
+    """Write the derivative of the state into d.
+
+    `contact` holds the coefficients, the law, and D of both contacts.
+    """
     q, law, dampings = contact
     a = accelerations(math.sin(q[8] * tau), s, q, (0.0, 0.0))
     for i in range(2):
@@ -134,7 +139,7 @@ def _sum(weights, rates, count, c):
 
 @disk_cached()
 def _step(stages, tau, s, h, contact):
-    """The state a step later, and the error as a multiple of the allowed one."""
+    """Return the state a step later, and the error as a multiple of the allowed one."""
     A, B, C, E = stages
     rates, ahead, error = np.empty((7, 8)), s.copy(), 0.0
     for k in range(6):
@@ -152,20 +157,23 @@ def _step(stages, tau, s, h, contact):
 
 @disk_cached()
 def _reach(s, i, law):
-    """Depth of ball i beyond the beginning of contact; negative in flight."""
+    """Return the depth of ball i beyond the beginning of contact; negative in flight."""
     return abs(s[2 * i] - s[2 * i + 1]) - law[6]
 
 
 @disk_cached()
 def _outwards(s, i):
-    """Wall on whose side ball i is, and its speed towards it."""
+    """Return the wall on whose side ball i is, and its speed towards it."""
     wall = 1.0 if s[2 * i] > s[2 * i + 1] else -1.0
     return wall, wall * (s[2 * i + 4] - s[2 * i + 5])
 
 
 @disk_cached()
 def _march(q, law, stages, s, tau, end, limit):
-    """The state where it gets in at most `limit` steps, rows [tau, module, wall, speed] of impacts, steps, time."""
+    """Return the state reached in at most `limit` steps, rows of impacts, the number of steps and the time.
+
+    Rows hold [tau, module, wall, speed].
+    """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     touching, dampings = np.zeros(2, np.bool_), np.full(2, law[3])
     contact, h, steps = (q, law, dampings), 0.01 * (end - tau), 0
@@ -192,7 +200,7 @@ def _march(q, law, stages, s, tau, end, limit):
 
 @disk_cached()
 def _until_contact(stages, tau, s, h, ahead, contact, touching):
-    """The step, cut short just after the first contact that begins in it."""
+    """Return the step, cut short just after the first contact that begins in it."""
     least = 0.0
     for _ in range(HALVINGS):
         if not _begins(ahead, contact[1], touching) or least == h:

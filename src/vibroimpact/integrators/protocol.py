@@ -68,7 +68,7 @@ class Method(ABC):
     compiles_settings: bool = False
 
     def available(self) -> str | None:
-        """None, or why the method cannot run on this machine."""
+        """Return None, or why the method cannot run on this machine."""
         return None
 
     @abstractmethod
@@ -79,10 +79,10 @@ class Method(ABC):
         """
 
     def scale(self, setting, run: MethodRun) -> float:
-        """The small quantity in which the error is expected to fall: by default the mean step."""
+        """Return the small quantity in which the error is expected to fall: by default the mean step."""
         return 1.0 / run.steps
 
 
 def failed(kind: str, reason: str, steps: int, evaluations: int = 0, noted=()) -> MethodRun:
-    """A run without a result; the impacts found until then are kept."""
+    """Return a run without a result; the impacts found until then are kept."""
     return MethodRun(None, noted, steps, evaluations, Failure(kind, reason))

@@ -18,7 +18,7 @@ inlined_source = partial(disk_cached, inline="always")
 
 
 def coefficients(system) -> np.ndarray:
-    """The numbers of (10.2), shape (11,), in the order of NAMES."""
+    """Return the numbers of (10.2), shape (11,), in the order of NAMES."""
     upper = np.triu_indices(2)
     numbers = stiffness_matrix(system)[upper], damping_matrix(system)[upper], system.forcing
     return np.concatenate([*numbers, [system.Omega, system.epsilon, system.kappa]])
@@ -26,7 +26,7 @@ def coefficients(system) -> np.ndarray:
 
 @inlined_source()
 def accelerations(sine, s, q, walls):
-    """X1'' and X2'' in the state s (8,) at a sine of the forcing phase.
+    """Return X1'' and X2'' in the state s (8,) at a sine of the forcing phase.
 
     walls: for each ball the wall it sticks to, or 0; such a ball moves with its box as one mass 1 + epsilon.
     """
@@ -47,14 +47,14 @@ def derivative(sine, s, q, walls, d):
 
 @disk_cached()
 def rates(tau, s, q, walls):
-    """Derivative of the state, shape (8,), at a time."""
+    """Return the derivative of the state, shape (8,), at a time."""
     d = np.empty(8)
     derivative(math.sin(q[8] * tau), s, q, walls, d)
     return d
 
 
 def jacobian(system, stuck) -> np.ndarray:
-    """Derivative of `rates` with respect to the state, shape (8, 8): constant in each contact state."""
+    """Return the derivative of `rates` with respect to the state, shape (8, 8): constant in each contact state."""
     boxes = rate_matrix(system, stuck)[2:4, :4]
     matrix = np.zeros((8, 8))
     matrix[:4, 4:] = np.eye(4)

@@ -21,13 +21,16 @@ ROOM = 64
 
 @inlined()
 def acceleration(tau, s, q, walls, i):
-    """X_i'' in the state s (8,) at a time."""
+    """Return X_i'' in the state s (8,) at a time."""
     return accelerations(math.sin(q[8] * tau), s, q, walls)[i]
 
 
 @inlined()
 def guard(tau, s, q, walls, i):
-    """Function that falls below zero at the next event of module i: its gap, or the push on a ball that sticks."""
+    """Return the function that falls below zero at the next event of module i.
+
+    It is the gap of a flying ball, or the contact force of a sticking ball.
+    """
     if walls[i] != 0.0:
         return walls[i] * acceleration(tau, s, q, walls, i)
     return 1.0 - abs(s[2 * i] - s[2 * i + 1])
@@ -66,7 +69,7 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 
 @inlined()
 def first_look(tau, s, q, walls, step):
-    """A time to look at the gaps first: a step, or half of the shortest hop that has just begun on a wall."""
+    """Return a time to look at the gaps first: a step, or half of the shortest hop that has just begun on a wall."""
     for i in range(2):
         x = 2 * i
         gap, speed = s[x] - s[x + 1], s[x + 4] - s[x + 5]
@@ -79,7 +82,10 @@ def first_look(tau, s, q, walls, step):
 
 @inlined()
 def newton_or_middle(t, value, slope, low, high):
-    """The next time to try for a zero in [low, high], where the value falls below zero; a zero that is hit stays."""
+    """Return the next time at which to evaluate the function, in [low, high].
+
+    The function falls below zero there; an exact zero is returned unchanged.
+    """
     after = t - value / slope if slope != 0.0 else math.inf
     return after if low <= after <= high else 0.5 * (low + high)
 
@@ -96,7 +102,7 @@ class Contacts:
         self.walls, self.impacts = np.zeros(2), []
 
     def start(self, tau, s):
-        """Balls that rest on a wall at the start stick if they are pressed against it."""
+        """Let balls that rest on a wall at the start stick if they are pressed against it."""
         self.resolve(tau, s, [-1])
 
     def resolve(self, tau, s, due):

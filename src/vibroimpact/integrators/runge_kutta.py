@@ -49,7 +49,10 @@ def _step(tau, s, q, walls, h, slopes, there):
 
 @inlined()
 def _event(tau, s, q, walls, i, high, slopes, event):
-    """The length of the step at whose end the guard of module i vanishes, below high, and the state then in `event`."""
+    """Return the step length, below `high`, at whose end the guard of module i vanishes.
+
+    The state at that time is written to `event`.
+    """
     low, t, x = 0.0, 0.5 * high, 2 * i
     for _ in range(TRIES):
         _step(tau, s, q, walls, t, slopes, event)
@@ -65,7 +68,7 @@ def _event(tau, s, q, walls, i, high, slopes, event):
 
 @disk_cached(error_model="numpy", fastmath={"contract"})
 def _march(q, s, tau, end, step, limit):
-    """The state where the run gets in at most `limit` steps, rows [time, module, wall, speed], steps, time."""
+    """Return the state where the run gets in at most `limit` steps, rows [time, module, wall, speed], steps, time."""
     walls, slopes = np.zeros(2), np.empty((4, 8))
     there, event, found = np.empty(8), np.empty(8), np.empty(8)
     rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0, SLOWEST)

@@ -79,7 +79,7 @@ class SolveIvp(Method):
 
 
 def _events(i, wall):
-    """Two functions of which one falls through zero at the next event of module i.
+    """Return two functions of which one falls through zero at the next event of module i.
 
     The gaps to both walls; for a sticking ball the force that holds it, twice, so that their places stay the same.
     """
@@ -106,7 +106,7 @@ def _terminal(function):
 
 
 def integrators() -> list[SolveIvp]:
-    """The explicit, implicit and switching integrators of solve_ivp."""
+    """Return the explicit, implicit and switching integrators of solve_ivp."""
     coarse = 1e-3, 1e-4, 1e-5, 1e-6, 1e-7
     fine = 1e-8, 1e-9, 1e-10, 1e-11
     return [

@@ -53,8 +53,10 @@ def two_sectors(
 ) -> System:
     """Return the System of two sectors that are forced alike at the frequency r; all arguments dimensionless.
 
-    Raises:
-        ValueError: as System.
+    Raises
+    ------
+    ValueError
+        As System.
     """
     epsilon, unit = epsilon_a / (1 - epsilon_a), math.sqrt(1 - epsilon_a)
     damping = 2 * D / unit / epsilon

@@ -6,7 +6,7 @@ from vibroimpact.exact.engine.simulation import simulate
 
 
 def departure(system, state, truth: np.ndarray):
-    """Distance of the float64 run from the truth, and the estimate of it by the run's own certificate.
+    """Return the distance of the float64 run from the truth, and the estimate of it by the run's own certificate.
 
     truth: (n + 1, 8) true states at the starts of cycles 0 to n, tau = 0 first. Returns the largest difference of a
     state's component at each of these times (n + 1,), the certificate's error there (n + 1,), inf past the horizon,

@@ -130,10 +130,12 @@ class Design:
         ])  # fmt: skip
 
     def plot(self):
-        """A Matplotlib Figure of the displacements in `response` over the frequency.
+        """Return a Matplotlib Figure of the displacements in `response` over the frequency.
 
-        Raises:
-            ModuleNotFoundError: Matplotlib is missing; the extra `figures` brings it.
+        Raises
+        ------
+        ModuleNotFoundError
+            If Matplotlib is missing; the extra `figures` brings it.
         """
         need("figures", "matplotlib")
         from matplotlib.figure import Figure
@@ -162,7 +164,7 @@ class Design:
         return self.peak <= FRAGILE * row["later_m"]
 
     def _warnings(self):
-        """A line on each thing to know before the design is built."""
+        """Yield a line on each thing to know before the design is built."""
         machine, first, last = self.machine, self.response[0]["frequency_Hz"], self.response[-1]["frequency_Hz"]
         for name, value in (("restitution", machine.kappa), ("clearance_m", machine.L)):
             tried = sorted({row[name] for row in self.candidates})
@@ -194,19 +196,29 @@ def design(
 
     A machine and its mirror image (the force -F) have the same answer, to the last digit.
 
-    Args:
-        machine: one machine, see `PhysicalSystem.single`; its own L, kappa and forcing frequency do not count.
-        band: first and last frequency of the force [Hz].
-        clearances: those to choose from [m]; by default 8 about F / k M / m, from 1/4 to 4 times this, none above the
-            amplitude without ball (a box that swings less than its clearance never meets a ball at rest), then others
-            beside the best.
-        restitutions: those to choose from, each between 0 and 1.
-        progress: count the candidates on standard error, if that is a terminal.
-        masses: those of the ball to choose from [kg], each with a design of its own; by default that of the machine.
+    Parameters
+    ----------
+    machine : PhysicalSystem
+        One machine, see `PhysicalSystem.single`; its own L, kappa and forcing frequency do not count.
+    band : tuple[float, float]
+        First and last frequency of the force [Hz].
+    clearances : sequence of float, optional
+        Those to choose from [m]; by default 8 about F / k M / m, from 1/4 to 4 times this, none above the amplitude
+        without ball (a box that swings less than its clearance never meets a ball at rest), then others beside the
+        best.
+    restitutions : sequence of float, default RESTITUTIONS
+        Those to choose from, each between 0 and 1.
+    progress : bool, default True
+        Count the candidates on standard error, if that is a terminal.
+    masses : sequence of float, optional
+        Those of the ball to choose from [kg], each with a design of its own; by default that of the machine.
 
-    Raises:
-        ValueError: an argument is malformed; the machine is not alone, or has no damper or no force.
-        ArithmeticError: a run could not be finished.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed; the machine is not alone, or has no damper or no force.
+    ArithmeticError
+        If a run could not be finished.
     """
     instance("machine", machine, PhysicalSystem)
     restitutions = _choices("restitutions", restitutions, 1.0)
@@ -218,7 +230,7 @@ def design(
 
 
 def _choices(name, values, end) -> list[float]:
-    """The values in ascending order, each above 0 and below an end."""
+    """Return the values in ascending order, each above 0 and below an end."""
     given = np.unique(reals(name, values)).tolist()
     if not given or not 0 < given[0] <= given[-1] < end:
         upper = f" and below {end:g}" if end < math.inf else ""
@@ -227,7 +239,7 @@ def _choices(name, values, end) -> list[float]:
 
 
 def _of_mass(found) -> dict:
-    """The row of `Design.masses`."""
+    """Return the row of `Design.masses`."""
     machine = found.machine
     return {
         "mass_kg": machine.m, "clearance_m": machine.L, "restitution": machine.kappa, "peak_m": found.peak,
@@ -236,7 +248,7 @@ def _of_mass(found) -> dict:
 
 
 def _designed(study, clearances, restitutions, progress) -> Design:
-    """The design for one mass of the ball."""
+    """Return the design for one mass of the ball."""
     widest = study.linear(without_balls)
     if clearances is None:
         scale = study.static * study.machine.M / study.machine.m
@@ -275,7 +287,7 @@ def _designed(study, clearances, restitutions, progress) -> Design:
 
 
 def _best(rows) -> list[dict]:
-    """The FEW rows with the lowest peaks."""
+    """Return the FEW rows with the lowest peaks."""
     return sorted(rows, key=lambda row: row["peak_m"])[:FEW]
 
 
@@ -329,11 +341,11 @@ class _Study:
         self.wait = max(self.settle, LONG)
 
     def linear(self, reference) -> float:
-        """The peak of a linear system in place of the machine [m]."""
+        """Return the peak of a linear system in place of the machine [m]."""
         return self.machine.L * reference(self.system).peak(self.band)
 
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
-        """A row per pair of clearance and restitution, with the peak from few starts."""
+        """Return a row per pair of clearance and restitution, with the peak from few starts."""
         rows, states = [], self._starts(TRIED, 1)
         for L, kappa in counted(pairs, "design: tried", progress):
             systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]
@@ -345,7 +357,7 @@ class _Study:
         return rows
 
     def measured(self, machine, factor: float) -> _Measured:
-        """Response of a machine with a multiple of its clearance, from many starts."""
+        """Return the response of a machine with a multiple of its clearance, from many starts."""
         machine = replace(machine, L=factor * machine.L)
         systems = self._systems(machine)
         each = np.array(systems)[:, None]
@@ -355,7 +367,7 @@ class _Study:
         return _Measured(machine, systems, largest, settling[:, 0], before["final"], settled["final"])
 
     def response(self, measured, absorber) -> list[dict]:
-        """The rows of `Design.response`."""
+        """Return the rows of `Design.response`."""
         without, with_absorber = (
             self.machine.L * linear.amplitudes(self.frequencies / self.hertz)[:, 0]
             for linear in (without_balls(self.system), absorber)
@@ -379,7 +391,7 @@ class _Study:
 
 
 def _impacts(machine, run) -> dict:
-    """Speeds and impulses of the impacts of ball 1 in a run, in SI units, and its share of time on a wall."""
+    """Return the speeds and impulses of the impacts of ball 1, and its share of time on a wall, in SI units."""
     events = run.events[run.events["module"] == 1]
     states = events["state"][events["kind"] == IMPACT]
     seconds = run.cycles * run.system.period / machine.omega10
@@ -396,7 +408,7 @@ def _impacts(machine, run) -> dict:
 
 
 def _at_rest(events, run):
-    """Time tau between each stick and its release, or the ends of the run."""
+    """Return the time tau between each stick and its release, or the ends of the run."""
     changes = events[np.isin(events["kind"], (STICK, RELEASE))]
     times, sticks = changes["tau"], changes["kind"] == STICK
     ends = np.append(times[1:], run.tau0 + run.cycles * run.system.period)

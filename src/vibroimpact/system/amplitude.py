@@ -2,17 +2,22 @@
 
 
 def sawtooth_amplitude(epsilon: float, path):
-    """C of a ball that flies `path` from wall to wall: half the path of Z on a flight, the same on both.
+    """Return C of a ball that flies `path` from wall to wall: half the path of Z on a flight, the same on both.
 
     On a flight of half a period it is (1 + epsilon) pi |Y'| / (2 Omega). Flights of unequal length have unequal speeds
     but one amplitude.
 
-    Args:
-        path: displacement of Y from one wall to the other, any shape, dimensionless; C has its sign.
+    Parameters
+    ----------
+    path
+        Displacement of Y from one wall to the other, any shape, dimensionless; C has its sign.
     """
     return (1 + epsilon) * path / 2
 
 
 def path_of(epsilon: float, C):
-    """Displacement of Y on a flight of the saw-tooth of amplitude C, any shape: the inverse of `sawtooth_amplitude`."""
+    """Return the displacement of Y on a flight of the saw-tooth of amplitude C, any shape.
+
+    This is the inverse of `sawtooth_amplitude`.
+    """
     return 2 * C / (1 + epsilon)

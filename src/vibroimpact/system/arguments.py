@@ -11,10 +11,12 @@ _SHOWN = 60
 
 
 def instance(name: str, value, kind: type):
-    """The value, if it is of a kind.
+    """Return the value, if it is of a kind.
 
-    Raises:
-        ValueError: it is not; where it would be after `dimensionless()`, the message says so.
+    Raises
+    ------
+    ValueError
+        If it is not; where it would be after `dimensionless()`, the message says so.
     """
     if not isinstance(value, kind):
         if kind.__name__ == "System" and hasattr(value, "dimensionless"):
@@ -25,10 +27,12 @@ def instance(name: str, value, kind: type):
 
 
 def real(name: str, value) -> float:
-    """A finite real number as a float; rejects str and bool.
+    """Return a finite real number as a float; rejects str and bool.
 
-    Raises:
-        ValueError: it is none, not finite, or beyond the range of floats.
+    Raises
+    ------
+    ValueError
+        If it is none, not finite, or beyond the range of floats.
     """
     if not isinstance(value, float) and not _is_real(value):
         raise ValueError(f"{name}: {shown(value)} is not a number")
@@ -42,10 +46,12 @@ def real(name: str, value) -> float:
 
 
 def pair(name: str, values) -> tuple[float, float]:
-    """Two finite real numbers, of a list, a tuple or an array.
+    """Return two finite real numbers, of a list, a tuple or an array.
 
-    Raises:
-        ValueError: they are not.
+    Raises
+    ------
+    ValueError
+        If they are not.
     """
     try:
         one, two = values
@@ -55,10 +61,12 @@ def pair(name: str, values) -> tuple[float, float]:
 
 
 def whole(name: str, value, least: int, most: int) -> int:
-    """A whole number from least to most, as an int; takes a float of such a value.
+    """Return a whole number from least to most, as an int; takes a float of such a value.
 
-    Raises:
-        ValueError: it is none.
+    Raises
+    ------
+    ValueError
+        If it is none.
     """
     if not (_is_real(value) and least <= value <= most and int(value) == value):
         raise ValueError(f"{name}: {shown(value)} is not a whole number from {least} to {most}")
@@ -66,10 +74,12 @@ def whole(name: str, value, least: int, most: int) -> int:
 
 
 def reals(name: str, values) -> np.ndarray:
-    """A new float array of any shape, maybe not finite.
+    """Return a new float array of any shape, maybe not finite.
 
-    Raises:
-        ValueError: it is no array of real numbers, or some of them are masked.
+    Raises
+    ------
+    ValueError
+        If it is no array of real numbers, or some of them are masked.
     """
     try:
         array = np.array(values)
@@ -89,7 +99,7 @@ def _is_real(value):
 
 
 def shown(value) -> str:
-    """A value on one short line."""
+    """Return a value on one short line."""
     try:
         text = " ".join(repr(value).split())
     except ValueError:  # an integer with more digits than Python prints

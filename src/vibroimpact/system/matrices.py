@@ -4,24 +4,24 @@ import numpy as np
 
 
 def damping_matrix(system) -> np.ndarray:
-    """Damping matrix of the boxes, shape (2, 2), from the left-hand sides of (10.2)."""
+    """Return the damping matrix of the boxes, shape (2, 2), from the left-hand sides of (10.2)."""
     coupling = system.gamma12
     return np.array([[system.gamma1 + coupling, -coupling], [-coupling, system.gamma2 + coupling]])
 
 
 def stiffness_matrix(system) -> np.ndarray:
-    """Stiffness matrix of the boxes, shape (2, 2), from the left-hand sides of (10.2)."""
+    """Return the stiffness matrix of the boxes, shape (2, 2), from the left-hand sides of (10.2)."""
     coupling = system.alpha12
     return np.array([[1.0 + coupling, -coupling], [-coupling, system.stiffness2 + coupling]])
 
 
 def masses(system, stuck=(False, False)) -> np.ndarray:
-    """Moving mass of each module, shape (2,): 1, or 1 + epsilon while its ball sticks to a wall."""
+    """Return the moving mass of each module, shape (2,): 1, or 1 + epsilon while its ball sticks to a wall."""
     return np.array([1.0 + system.epsilon if sticks else 1.0 for sticks in stuck])
 
 
 def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
-    """K - Omega^2 M + i Omega C, shape (2, 2) complex: forcing amplitude over harmonic response."""
+    """Return K - Omega^2 M + i Omega C, shape (2, 2) complex: forcing amplitude over harmonic response."""
     omega = system.Omega
     dynamic = stiffness_matrix(system) + 1j * omega * damping_matrix(system)
     dynamic[[0, 1], [0, 1]] -= omega**2 * masses(system, stuck)
@@ -29,7 +29,7 @@ def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
 
 
 def rate_matrix(system, stuck=(False, False)) -> np.ndarray:
-    """Rate matrix A of (10.2), d/dtau [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)], shape (6, 6).
+    """Return the rate matrix A of (10.2), d/dtau [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)], shape (6, 6).
 
     Carrying the forcing phase as two states keeps the flow one matrix exponential for every parameter,
     repeated, defective, undamped and resonant spectra included.

@@ -19,9 +19,11 @@ class System:
     All parameters are dimensionless. The hatted ones are those of (10.4), (10.5) and (10.6): the physical effect
     is epsilon times the hatted value. A negative forcing amplitude means forcing in anti-phase.
 
-    Raises:
-        ValueError: a parameter is not a finite number, beyond 1e15 or out of its admissible range, or the boxes
-            (balls in free flight) are driven at an undamped resonance, where no bounded linear response exists.
+    Raises
+    ------
+    ValueError
+        If a parameter is not a finite number, beyond 1e15 or out of its admissible range, or the boxes (balls in free
+        flight) are driven at an undamped resonance, where no bounded linear response exists.
     """
 
     epsilon: float
@@ -112,11 +114,13 @@ class System:
         return (1, 2) if coupled and forced else tuple(forced)
 
     def with_idle_damped(self) -> "System":
-        """The same system, with damping at the box of a module that takes no part, so that it has no resonance.
+        """Return the same system, with damping at the box of a module that takes no part, so that it has no resonance.
 
         That box stays at rest whatever its damping.
 
-        Returns:
+        Returns
+        -------
+        System
             A new System for a single machine, else this one.
         """
         if len(self.modules) != 1:
@@ -124,14 +128,19 @@ class System:
         return self.with_(**{f"gamma{3 - self.modules[0]}_hat": 1.0})
 
     def with_(self, **changes: float) -> "System":
-        """The same system with some parameters changed.
+        """Return the same system with some parameters changed.
 
-        Returns:
+        Returns
+        -------
+        System
             A new System.
 
-        Raises:
-            ValueError: as for a System.
-            TypeError: there is no parameter of a name.
+        Raises
+        ------
+        ValueError
+            As for a System.
+        TypeError
+            If there is no parameter of a name.
         """
         return replace(self, **changes)
 

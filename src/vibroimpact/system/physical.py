@@ -19,9 +19,11 @@ class PhysicalSystem:
     omega10, displacement L, velocity L omega10, force k1 L, energy k1 L^2. An absorber has the spring
     epsilon k1 frequency^2 and the damper 2 epsilon M omega10 frequency damping.
 
-    Raises:
-        ValueError: a parameter is not a finite number, a mass, stiffness to ground, frequency or L is not above 0, a
-            damping or k12 is below 0.
+    Raises
+    ------
+    ValueError
+        If a parameter is not a finite number, a mass, stiffness to ground, frequency or L is not above 0, a damping or
+        k12 is below 0.
     """
 
     M: float
@@ -69,11 +71,17 @@ class PhysicalSystem:
         module 1. Arrays per module keep their shape, with NaN for module 2; there are 4 multipliers and exponents, and
         2 slow eigenvalues; a state has zeros for module 2.
 
-        Args:
-            L: half of the play [m]. omega: circular frequency of the force [rad/s], by default the natural one.
+        Parameters
+        ----------
+        L : float, default 1.0
+            Half of the play [m].
+        omega : float, optional
+            Circular frequency of the force [rad/s], by default the natural one.
 
-        Raises:
-            ValueError: as PhysicalSystem.
+        Raises
+        ------
+        ValueError
+            As PhysicalSystem.
         """
         k, M = real("k", k), real("M", M)
         if min(k, M) <= 0:
@@ -102,14 +110,18 @@ class PhysicalSystem:
         return math.sqrt(self.k1 / self.M)
 
     def dimensionless(self) -> System:
-        """The dimensionless system, by the definitions below (10.2) and by (10.4)-(10.6).
+        """Return the dimensionless system, by the definitions below (10.2) and by (10.4)-(10.6).
 
-        Returns:
+        Returns
+        -------
+        System
             The System; its time is tau = omega10 t, its lengths are in units of L.
 
-        Raises:
-            ValueError: the two forcing frequencies differ ((10.5) needs Omega_1 = Omega_2), or a
-                dimensionless parameter is not admissible (see System).
+        Raises
+        ------
+        ValueError
+            If the two forcing frequencies differ ((10.5) needs Omega_1 = Omega_2), or a dimensionless parameter is not
+            admissible (see System).
         """
         if self.omega1 != self.omega2:
             raise ValueError(f"omega2: {self.omega2} differs from omega1 = {self.omega1}; (10.5) needs one frequency")
@@ -131,13 +143,17 @@ class PhysicalSystem:
 
     @classmethod
     def from_dimensionless(cls, system: System, *, M: float, k1: float, L: float) -> "PhysicalSystem":
-        """The physical system with box mass M, first stiffness k1 and characteristic dimension L.
+        """Return the physical system with box mass M, first stiffness k1 and characteristic dimension L.
 
-        Returns:
+        Returns
+        -------
+        PhysicalSystem
             The PhysicalSystem whose `dimensionless` is the given one, up to rounding.
 
-        Raises:
-            ValueError: M, k1 or L is not a number above 0.
+        Raises
+        ------
+        ValueError
+            If M, k1 or L is not a number above 0.
         """
         for name, value in (("M", M), ("k1", k1), ("L", L)):
             if real(name, value) <= 0:

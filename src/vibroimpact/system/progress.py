@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 
 
 def shown(progress: bool) -> bool:
-    """True if progress is asked for and standard error is a terminal."""
+    """Return True if progress is asked for and standard error is a terminal."""
     return progress and sys.stderr.isatty()
 
 

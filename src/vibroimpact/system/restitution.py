@@ -2,7 +2,7 @@
 
 
 def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocity: float):
-    """Velocities (X', Y') just after an impact, from those just before, (10.2).
+    """Return the velocities (X', Y') just after an impact, from those just before, (10.2).
 
     Newton: W'+ = -kappa W'-; momentum X' + epsilon Y' unchanged. Works on floats and arrays alike.
     """
@@ -11,5 +11,8 @@ def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocit
 
 
 def energy_lost(epsilon: float, kappa: float, relative_velocity: float):
-    """Kinetic energy lost in an impact at relative velocity W'-, in units of M L^2 omega_10^2 (never negative)."""
+    """Return the kinetic energy lost in an impact at relative velocity W'-.
+
+    The energy is in units of M L^2 omega_10^2 and never negative.
+    """
     return 0.5 * epsilon / (1.0 + epsilon) * (1.0 - kappa**2) * relative_velocity**2

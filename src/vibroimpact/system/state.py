@@ -33,8 +33,10 @@ def states_array(name: str, values) -> np.ndarray:
     Labelled are mappings, named tuples, structured arrays, and the rows and tables of pandas and its like. They may
     have other entries besides, as the tables of `to_frame` do.
 
-    Raises:
-        ValueError: they are no array of real numbers, or their labels are not those of a state, each once.
+    Raises
+    ------
+    ValueError
+        If they are no array of real numbers, or their labels are not those of a state, each once.
     """
     return reals(name, _ordered(name, values))
 

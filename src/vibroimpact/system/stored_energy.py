@@ -4,11 +4,16 @@ from vibroimpact.system.state import BALLS, BOXES
 
 
 def stored(stiffness2, alpha12, epsilon, boxes, balls):
-    """Kinetic energy of boxes and balls and that of the springs; numbers or arrays.
+    """Return the kinetic energy of boxes and balls and that of the springs; numbers or arrays.
 
-    Args:
-        stiffness2, alpha12, epsilon: those of the System.
-        boxes: (X1, X2, X1', X2'). balls: (Y1, Y2, Y1', Y2').
+    Parameters
+    ----------
+    stiffness2, alpha12, epsilon
+        Those of the System.
+    boxes
+        (X1, X2, X1', X2').
+    balls
+        (Y1, Y2, Y1', Y2').
     """
     x1, x2, v1, v2 = boxes
     kinetic = v1 * v1 + v2 * v2 + epsilon * (balls[2] * balls[2] + balls[3] * balls[3])
@@ -16,7 +21,7 @@ def stored(stiffness2, alpha12, epsilon, boxes, balls):
 
 
 def stored_energy(system, states):
-    """Stored energy of states (..., 8), shape (...)."""
+    """Return the stored energy of states (..., 8), shape (...)."""
     boxes, balls = states[..., BOXES], states[..., BALLS]
     return stored(
         system.stiffness2,

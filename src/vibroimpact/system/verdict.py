@@ -4,11 +4,16 @@ STABLE, UNSTABLE, UNDECIDED = "stable", "unstable", "undecided"
 
 
 def verdict(margin: float, error: float) -> str:
-    """ "stable" or "unstable" by the sign of the margin; "undecided" where it is within its error, or not a number.
+    """Return "stable", "unstable" or "undecided" by the sign of the margin.
 
-    Args:
-        margin: distance from the threshold, positive on the stable side.
-        error: bound on the error of the margin.
+    The verdict is "undecided" where the margin is within its error or not a number.
+
+    Parameters
+    ----------
+    margin : float
+        Distance from the threshold, positive on the stable side.
+    error : float
+        Bound on the error of the margin.
     """
     if margin > error:
         return STABLE
@@ -16,7 +21,7 @@ def verdict(margin: float, error: float) -> str:
 
 
 def all_stable(verdicts) -> str:
-    """ "stable" if every verdict is, "unstable" if one of them is, else "undecided"."""
+    """Return "stable" if every verdict is, "unstable" if one of them is, else "undecided"."""
     found = set(verdicts)
     if UNSTABLE in found:
         return UNSTABLE

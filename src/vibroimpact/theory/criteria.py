@@ -48,18 +48,23 @@ class Stability(NamedTuple):
 
 
 def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
-    """(10.26) as printed, for C of both modules, shape (2,), known to within `error`."""
+    """Return (10.26) as printed, for C of both modules, shape (2,), known to within `error`."""
     limit = printed_limit(rho(kappa))
     return all_stable(verdict(c - limit, error + _ULPS * max(1.0, abs(c))) for c in C if not np.isnan(c))
 
 
 def masri_derived(C, kappa: float, error: float = 0.0) -> str:
-    """Masri's analysis derived anew (docs/stability.md), for C of both modules, shape (2,), known to within `error`."""
+    """Return the verdict of Masri's analysis as derived in docs/stability.md.
+
+    C of both modules, shape (2,), is known to within `error`.
+    """
     return all_stable(masri.stable(c, kappa, error) for c in C if not np.isnan(c))
 
 
 def slow_flow(system, psi, C, error: float = 0.0) -> str:
-    """Signs of the real parts of the slow flow's eigenvalues at phases psi [rad] and C, each (2,), within `error`.
+    """Return the verdict by the real parts of the slow flow's eigenvalues.
+
+    The phases psi [rad] and the amplitudes C, each (2,), are known to within `error`.
 
     The error of each eigenvalue is of first order: rounding and the error of psi and C, through the left and right
     eigenvectors. At the fold of the manifold, where an eigenvalue is infinite, nothing is decided.
@@ -69,12 +74,14 @@ def slow_flow(system, psi, C, error: float = 0.0) -> str:
 
 
 def of_fixed_point(system, point) -> dict[str, str]:
-    """The verdict of each of CRITERIA on a fixed point of the slow flow."""
+    """Return the verdict of each of CRITERIA on a fixed point of the slow flow."""
     return _of(system, point.psi, point.C, fixed_point_error(system, point))
 
 
 def of_orbit(orbit) -> dict[str, str]:
-    """The verdict of each of CRITERIA on an exact orbit (its system, impact_phases, C, multipliers and residual).
+    """Return the verdict of each of CRITERIA on an exact orbit.
+
+    The orbit's system, impact_phases, C, multipliers and residual are used.
 
     The criteria assume a symmetric motion; an asymmetric one is judged as `slow_variables` describes it.
     """
@@ -84,7 +91,7 @@ def of_orbit(orbit) -> dict[str, str]:
 
 
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
-    """(psi, C) of an exact orbit, each (2,): C_i is the amplitude of its saw-tooth, psi_i follows by (10.17).
+    """Return (psi, C) of an exact orbit, each (2,): C_i is the amplitude of its saw-tooth, psi_i follows by (10.17).
 
     Where the flights from both walls differ, the mean of their impact phases is taken.
     """
@@ -113,7 +120,7 @@ def _of(system, psi, C, error):
 
 
 def _eigenvalues(system, psi, C, error):
-    """Eigenvalues of the slow flow and bounds on their errors, each (4,), of a single machine (2,)."""
+    """Return the eigenvalues of the slow flow and bounds on their errors, each (4,), of a single machine (2,)."""
     J, M = linearisation(system, psi, C)
     values, left, right = eig(J, M, left=True, right=True)
     if not np.isfinite(values).all() or not np.isfinite(error):

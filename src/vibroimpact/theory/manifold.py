@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 
 def sawtooth(tau0, C, theta):
-    """Z = (2 C / pi) arcsin cos(tau0 - theta), (10.11); arguments broadcast (dimensionless, radians).
+    """Return Z = (2 C / pi) arcsin cos(tau0 - theta), (10.11); arguments broadcast (dimensionless, radians).
 
     Written as the triangle wave it is: arcsin loses half the digits at the peaks, where the impacts are.
     """
@@ -22,25 +22,27 @@ def sawtooth(tau0, C, theta):
 
 
 def rho(kappa):
-    """rho = 2 (1 - kappa) / (pi (1 + kappa)), (10.15), the dissipation of an impact; 0 for elastic impacts."""
+    """Return rho = 2 (1 - kappa) / (pi (1 + kappa)), (10.15), the dissipation of an impact; 0 for elastic impacts."""
     return 2 * (1 - kappa) / (np.pi * (1 + kappa))
 
 
 def B_of_C(C, rho):
-    """Amplitude B >= 0 of U on the manifold, (10.16), for any real C."""
+    """Return the amplitude B >= 0 of U on the manifold, (10.16), for any real C."""
     return np.hypot(1 - C, rho * C)
 
 
 def slope(C, rho):
-    """dB/dC along the manifold: negative on the lower arm, 0 at the fold C_min, positive on the upper arm."""
+    """Return dB/dC along the manifold: negative on the lower arm, 0 at the fold C_min, positive on the upper arm."""
     return ((1 + rho**2) * C - 1) / B_of_C(C, rho)
 
 
 def C_of_B(B, rho):
-    """Amplitudes C of the saw-tooth on the lower (C <= C_min) and the upper arm of the manifold, (10.15).
+    """Return the amplitudes C of the saw-tooth on the lower (C <= C_min) and the upper arm of the manifold, (10.15).
 
-    Raises:
-        ValueError: some B is below B_min, where the manifold has no real point.
+    Raises
+    ------
+    ValueError
+        If some B is below B_min, where the manifold has no real point.
     """
     B = np.asarray(B, dtype=float)
     above = B - B_min(rho)
@@ -52,22 +54,27 @@ def C_of_B(B, rho):
 
 
 def B_min(rho):
-    """Smallest amplitude B on the manifold, (10.25)."""
+    """Return the smallest amplitude B on the manifold, (10.25)."""
     return rho / np.sqrt(1 + rho**2)
 
 
 def C_min(rho):
-    """Amplitude C at the fold, where B = B_min, (10.25)."""
+    """Return the amplitude C at the fold, where B = B_min, (10.25)."""
     return 1 / (1 + rho**2)
 
 
 def impact_phase(C, rho):
-    """theta + phi in (-pi, pi], the phase of U at the impact with the wall W = +1: U = 1 - C, (10.12), by (10.17)."""
+    """Return theta + phi in (-pi, pi], the phase of U at the impact with the wall W = +1.
+
+    There U = 1 - C, (10.12); the phase follows from (10.17).
+    """
     return np.arctan2(1 - C, rho * C)
 
 
 def overshoot(C, rho):
-    """Largest |W_0| - 1 over a cycle of (10.10) at a manifold point; 0 where the ball stays between the walls.
+    """Return the largest |W_0| - 1 over a cycle of (10.10) at a manifold point.
+
+    It is 0 where the ball stays between the walls.
 
     W_0 is stationary where B cos(tau_0 + phi) = +-2 C / pi, so the maximum is found without sampling.
     """
@@ -81,12 +88,14 @@ def overshoot(C, rho):
 
 
 def grazing_time(kappa: float) -> float:
-    """Time t [rad] after an impact at which the ball grazes the same wall again when C = largest_C(kappa).
+    """Return the time t [rad] after an impact at which the ball grazes the same wall again when C = largest_C(kappa).
 
     The root of p cot p = 1 / (1 + kappa), p = t / 2: the only one, as p cot p falls from 1 to 0 on (0, pi/2).
 
-    Raises:
-        ValueError: kappa is not between 0 and 1.
+    Raises
+    ------
+    ValueError
+        If kappa is not between 0 and 1.
     """
     if not 0 < kappa < 1:
         raise ValueError(f"kappa: {kappa} is not between 0 and 1 (both excluded)")
@@ -96,17 +105,21 @@ def grazing_time(kappa: float) -> float:
 
 
 def _tangent_excess(p):
-    """tan(p) / p - 1, by its series where the difference would lose digits."""
+    """Return tan(p) / p - 1, by its series where the difference would lose digits."""
     return p**2 / 3 + 2 * p**4 / 15 + 17 * p**6 / 315 if p < 0.01 else np.tan(p) / p - 1
 
 
 def largest_C(kappa: float) -> float:
-    """Largest C at which |W_0| <= 1 all the time: 1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p), p = grazing_time / 2.
+    """Return the largest C at which |W_0| <= 1 at all times.
+
+    1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time / 2.
 
     Grows with kappa from 1 at kappa = 0.
 
-    Raises:
-        ValueError: kappa is not between 0 and 1.
+    Raises
+    ------
+    ValueError
+        If kappa is not between 0 and 1.
     """
     p = grazing_time(kappa) / 2
     return float(1 / (1 - 2 * p / np.pi * (1 + kappa / np.tan(p) ** 2)))
@@ -115,7 +128,9 @@ def largest_C(kappa: float) -> float:
 def stays_within_walls(C: float, kappa: float) -> bool:
     """Return True where |W_0| <= 1 all the time: exactly for 0 <= C <= largest_C(kappa).
 
-    Raises:
-        ValueError: kappa is not between 0 and 1.
+    Raises
+    ------
+    ValueError
+        If kappa is not between 0 and 1.
     """
     return 0 <= C <= largest_C(kappa)

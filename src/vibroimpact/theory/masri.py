@@ -19,14 +19,16 @@ SYMMETRY_BREAKING_C = np.pi**2 / (np.pi**2 - 4)
 
 
 def impact_multipliers(C, kappa) -> np.ndarray:
-    """Multipliers, shape (2,), of the map from one impact to the next on the manifold, B and phi held.
+    """Return the multipliers, shape (2,), of the map from one impact to the next on the manifold, B and phi held.
 
     Small changes of impact time and ball speed, seen mirrored from impact to impact; stable where both moduli are
     below 1, that is for C_min < C < SYMMETRY_BREAKING_C. Their product is kappa^2, their sum
     2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C).
 
-    Raises:
-        ValueError: C is 0 (grazing).
+    Raises
+    ------
+    ValueError
+        If C is 0 (grazing).
     """
     if C == 0:
         raise ValueError("C: 0.0 is a grazing motion, which has no linearised impact map")
@@ -38,41 +40,51 @@ def impact_multipliers(C, kappa) -> np.ndarray:
 
 
 def multipliers(C: float, kappa: float) -> np.ndarray:
-    """Multipliers, shape (2,), of small perturbations over one cycle (two impacts), B and phi held.
+    """Return the multipliers, shape (2,), of small perturbations over one cycle (two impacts), B and phi held.
 
     The squares of `impact_multipliers`: half a cycle and mirroring, done twice, is a cycle. Their product is kappa^4.
 
-    Raises:
-        ValueError: C is 0 (grazing).
+    Raises
+    ------
+    ValueError
+        If C is 0 (grazing).
     """
     return impact_multipliers(C, kappa) ** 2
 
 
 def lower_limit(kappa):
-    """C below which a multiplier is above +1: the fold C_min of the manifold, (10.25), for every kappa."""
+    """Return C below which a multiplier is above +1: the fold C_min of the manifold, (10.25), for every kappa."""
     return C_min(rho(kappa))
 
 
 def upper_limit(kappa):
-    """C above which a multiplier of the mirrored map is below -1: pi^2 / (pi^2 - 4), for every kappa (its shape)."""
+    """Return the C above which a multiplier of the mirrored map is below -1.
+
+    It is pi^2 / (pi^2 - 4) for every kappa, in the shape of kappa.
+    """
     return np.full(np.shape(kappa), SYMMETRY_BREAKING_C)[()]
 
 
 def stable(C: float, kappa: float, error: float = 0.0) -> str:
-    """Verdict "stable", "unstable" or "undecided": stable with C between both limits.
+    """Return the verdict "stable", "unstable" or "undecided": stable with C between both limits.
 
-    Args:
-        error: bound on the error of C; rounding is added to it.
+    Parameters
+    ----------
+    error : float, default 0.0
+        Bound on the error of C; rounding is added to it.
     """
     margin = min(C - lower_limit(kappa), upper_limit(kappa) - C)
     return verdict(margin, error + ROUNDING * max(1.0, abs(C)))
 
 
 def printed_limit(rho):
-    """C above which a module's motion is stable according to (10.26), as printed: 4 / (4 + pi rho), shape of rho."""
+    """Return the C above which a module's motion is stable according to (10.26), as printed.
+
+    It is 4 / (4 + pi rho), in the shape of rho.
+    """
     return 4 / (4 + np.pi * rho)
 
 
 def limit_with_squares(rho):
-    """(10.26) if its squares were lost in print: 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2))."""
+    """Return (10.26) if its squares were lost in print: 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2))."""
     return 4 / (4 + (np.pi * rho) ** 2)

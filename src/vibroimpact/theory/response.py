@@ -27,13 +27,16 @@ class Response:
 
 
 def leading_order(system, point, tau) -> Response:
-    """U_i0 and W_i0 of (10.9), (10.10) at a fixed point, and X_i, Y_i that belong to them.
+    """Return U_i0 and W_i0 of (10.9), (10.10) at a fixed point, and X_i, Y_i that belong to them.
 
     A module that takes no part is at rest, all of them 0.
 
-    Args:
-        point: a fixed point (its C, B, psi are used).
-        tau: times, shape (n,), dimensionless; the forcing is f_i sin(Omega tau).
+    Parameters
+    ----------
+    point
+        A fixed point (its C, B, psi are used).
+    tau
+        Times, shape (n,), dimensionless; the forcing is f_i sin(Omega tau).
     """
     phase = system.Omega * np.asarray(tau, dtype=float)[:, None] - point.psi
     U = point.B * np.sin(phase)
@@ -44,12 +47,16 @@ def leading_order(system, point, tau) -> Response:
 
 
 def impact_times(system, point) -> np.ndarray:
-    """Time tau in [0, period) at which each ball meets the wall W = +1, shape (2,); half a period later it is at -1.
+    """Return the time tau in [0, period) at which each ball meets the wall W = +1, shape (2,).
+
+    Each ball meets the wall W = -1 half a period later.
 
     NaN of a module that takes no part.
 
-    Args:
-        point: a fixed point (its C and psi are used).
+    Parameters
+    ----------
+    point
+        A fixed point (its C and psi are used).
     """
     phase = impact_phase(point.C, rho(system.kappa)) + point.psi
     return np.remainder(phase, 2 * np.pi) / system.Omega
@@ -77,13 +84,15 @@ class MeanPower:
 
 
 def mean_power(system, point) -> MeanPower:
-    """The power balance at a fixed point of (10.23): the imaginary part of the complex balance times conj(b_i).
+    """Return the power balance at a fixed point of (10.23): the imaginary part of the complex balance times conj(b_i).
 
     A module that takes no part has no power.
 
-    Args:
-        point: a FixedPoint of the system, or what else has the slow variables B, psi, C (2,) of a motion on the
-            manifold, where what is not dissipated is stored.
+    Parameters
+    ----------
+    point
+        A FixedPoint of the system, or what else has the slow variables B, psi, C (2,) of a motion on the manifold,
+        where what is not dissipated is stored.
     """
     half = system.epsilon / 2
     B, psi, C = (np.where(np.isin([1, 2], system.modules), of, 0.0) for of in (point.B, point.psi, point.C))

@@ -13,7 +13,7 @@ _ONE = np.eye(2)
 
 
 def impedances(system) -> tuple[np.ndarray, complex]:
-    """Slow impedances (e_1, e_2), shape (2,), of the uncoupled boxes without balls, and K of the coupling.
+    """Return the slow impedances (e_1, e_2), shape (2,), of the uncoupled boxes without balls, and K of the coupling.
 
     With b_i = B_i exp(-i psi_i) the slow flow reads
     2i D_1 b_i = f_i - (e_i + N(C_i)) b_i - K (b_i - b_j), where N is the describing function of the ball.
@@ -24,16 +24,18 @@ def impedances(system) -> tuple[np.ndarray, complex]:
 
 
 def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """(D_1 B_i, D_1 psi_i), each shape (2,), by (10.22); where both vanish, (10.23), is a fixed point.
+    """Return (D_1 B_i, D_1 psi_i), each shape (2,), by (10.22); where both vanish, (10.23), is a fixed point.
 
-    Args:
-        B, psi, C: amplitudes, phases [rad] and saw-tooth amplitudes of the modules, each shape (2,).
+    Parameters
+    ----------
+    B, psi, C
+        Amplitudes, phases [rad] and saw-tooth amplitudes of the modules, each shape (2,).
     """
     return rates_from_phasors(system, np.asarray(B), np.cos(psi), np.sin(psi), np.asarray(C))
 
 
 def rates_from_phasors(system, B, cosine, sine, C):
-    """`rates` as rational functions of B, cos psi, sin psi and C, each shape (2,): open to computer algebra."""
+    """Return `rates` as rational functions of B, cos psi, sin psi and C, each shape (2,): open to computer algebra."""
     forcing = np.array([system.f10_hat, system.f20_hat])
     damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat
     stiffness = np.array([0, system.sigma20_hat]) + system.alpha12_hat - 2 * system.sigma_e_hat
@@ -50,12 +52,16 @@ def rates_from_phasors(system, B, cosine, sine, C):
 
 
 def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """D_1 of (B_1, psi_1, B_2, psi_2) on the manifold, (4,), and its derivative by (C_1, psi_1, C_2, psi_2), (4, 4).
+    """Return D_1 of (B_1, psi_1, B_2, psi_2) on the manifold, (4,), and its derivative (4, 4).
+
+    The derivative is with respect to (C_1, psi_1, C_2, psi_2).
 
     Of a single machine, those of its module: (2,) and (2, 2).
 
-    Args:
-        psi, C: phases [rad] and saw-tooth amplitudes, each shape (2,).
+    Parameters
+    ----------
+    psi, C
+        Phases [rad] and saw-tooth amplitudes, each shape (2,).
     """
     psi, C = (np.where(_taking_part(system)[::2], of, 0.0) for of in (psi, C))
     rest = np.column_stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C)).ravel()
@@ -63,14 +69,16 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Matrices (J, M), each (..., 4, 4), of M d/dtau_1 = J for small changes of (C_1, psi_1, C_2, psi_2).
+    """Return the matrices (J, M), each (..., 4, 4), of M d/dtau_1 = J for small changes of (C_1, psi_1, C_2, psi_2).
 
     Both stay finite at the fold C_min, where M (the slope of the manifold) is singular because C cannot
     follow B; the usual Jacobian in (B, psi) is infinite there. Of a single machine both are (..., 2, 2).
 
-    Args:
-        psi, C: phases [rad] and saw-tooth amplitudes on the manifold, each shape (..., 2); of a single machine
-            those of the other module have no effect.
+    Parameters
+    ----------
+    psi, C
+        Phases [rad] and saw-tooth amplitudes on the manifold, each shape (..., 2); of a single machine those of the
+        other module have no effect.
     """
     r = rho(system.kappa)
     psi, C = (np.where(_taking_part(system)[::2], of, 0.0) for of in (psi, C))
@@ -81,12 +89,18 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
-    """`linearisation` for modules on any curve B(x), N(x) B(x) of a parameter x, for small changes of (x_i, psi_i).
+    """Return `linearisation` for modules on any curve B(x), N(x) B(x) of a parameter x.
 
-    Args:
-        psi: phases [rad], shape (..., 2).
-        B, ball: amplitudes B_i and complex N_i B_i, each shape (..., 2).
-        B_x, ball_x: their derivatives by x_i.
+    The perturbations are those of (x_i, psi_i).
+
+    Parameters
+    ----------
+    psi
+        Phases [rad], shape (..., 2).
+    B, ball
+        Amplitudes B_i and complex N_i B_i, each shape (..., 2).
+    B_x, ball_x
+        Their derivatives by x_i.
     """
     e, K = impedances(system)
     forcing = np.array([system.f10_hat, system.f20_hat])
@@ -110,19 +124,23 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _taking_part(system):
-    """Rows (4,) of the modules that take part; all of a system at rest, for motions that die out."""
+    """Return the rows (4,) of the modules that take part; all of a system at rest, for motions that die out."""
     part = system.modules or (1, 2)
     return np.array([module in part for module in MODULES])
 
 
 def jacobian(system, psi, C) -> np.ndarray:
-    """Jacobian (4, 4) of (10.22) in (B_1, psi_1, B_2, psi_2), C following B on its arm of the manifold.
+    """Return the Jacobian (4, 4) of (10.22) in (B_1, psi_1, B_2, psi_2), C following B on its arm of the manifold.
 
-    Args:
-        psi, C: phases [rad] and saw-tooth amplitudes on the manifold, each shape (2,).
+    Parameters
+    ----------
+    psi, C
+        Phases [rad] and saw-tooth amplitudes on the manifold, each shape (2,).
 
-    Raises:
-        ValueError: some C_i is at the fold, where the Jacobian is infinite.
+    Raises
+    ------
+    ValueError
+        If some C_i is at the fold, where the Jacobian is infinite.
     """
     J, M = linearisation(system, psi, C)
     follow = np.diag(M)
@@ -132,16 +150,18 @@ def jacobian(system, psi, C) -> np.ndarray:
 
 
 def slow_eigenvalues(system, psi, C) -> np.ndarray:
-    """The eigenvalues, complex, per unit of tau_1, sorted by descending real part; infinite at the fold.
+    """Return the eigenvalues, complex, per unit of tau_1, sorted by descending real part; infinite at the fold.
 
     There are two for each module that takes part.
 
-    Args:
-        psi, C: phases [rad] and saw-tooth amplitudes of a fixed point, each shape (2,).
+    Parameters
+    ----------
+    psi, C
+        Phases [rad] and saw-tooth amplitudes of a fixed point, each shape (2,).
     """
     return descending(eigvals(*linearisation(system, psi, C)))
 
 
 def descending(values) -> np.ndarray:
-    """Eigenvalues by descending real part."""
+    """Return the eigenvalues by descending real part."""
     return values[np.argsort(-values.real, kind="stable")]

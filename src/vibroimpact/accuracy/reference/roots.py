@@ -8,13 +8,15 @@ class Undecidable(ArithmeticError):
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
-    """A ball that contains the first root of the series in (0, end] and no other, or None if there is none.
+    """Return a ball that contains the first root of the series in (0, end] and no other, or None if there is none.
 
     series: arb_poly, positive at 0. Every interval before the ball is excluded: there the mean-value
     enclosure of the series is positive. hint (< end): where to split first, for a root much nearer than end.
 
-    Raises:
-        Undecidable: near-tangent approach that the precision cannot tell from a contact.
+    Raises
+    ------
+    Undecidable
+        If near-tangent approach that the precision cannot tell from a contact.
     """
     if not series(arb(0)) > 0:
         raise Undecidable("the distance at the start is not positive to working precision")
@@ -41,7 +43,7 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
 
 
 def refine(series, ball: arb) -> arb:
-    """The single root inside the ball, a falling one, to working precision: interval Newton, else bisection."""
+    """Return the single root inside the ball, a falling one, to working precision: interval Newton, else bisection."""
     slope = series.derivative()
     while True:
         middle = ball.mid()

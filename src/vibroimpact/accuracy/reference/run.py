@@ -78,9 +78,12 @@ def reference_run(
     A ball that rests on a wall at the start sticks there if the wall pushes it (w X'' > 0, or the first
     derivative that does not vanish to the digits), else it leaves at once.
 
-    Raises:
-        ValueError: inadmissible parameters, a start beyond a wall, or times outside the window.
-        Undecidable: a decision, such as graze or miss, that needs more digits.
+    Raises
+    ------
+    ValueError
+        If inadmissible parameters, a start beyond a wall, or times outside the window.
+    Undecidable
+        If a decision, such as graze or miss, that needs more digits.
     """
     if digits < 20:
         raise ValueError(f"digits: {digits} is below 20; use simulate for float64 accuracy")
@@ -112,15 +115,20 @@ def proven_run(
     max_digits=5000,
     exact_floats=None,
 ) -> ProvenRun:
-    """The run of reference_run with the digits doubled until two precisions agree to the absolute accuracy.
+    """Return the run of reference_run with the digits doubled until two precisions agree to the absolute accuracy.
 
-    Args:
-        system_parameters, state, cycles, tau0, sample_times, exact_floats: as in `reference_run`.
-        digits: where to start; by default enough for a loss of 0.33 digits per forcing period, measured in the
-            modulated case, and 40 more.
+    Parameters
+    ----------
+    system_parameters, state, cycles, tau0, sample_times, exact_floats
+        As in `reference_run`.
+    digits : optional
+        Where to start; by default enough for a loss of 0.33 digits per forcing period, measured in the modulated case,
+        and 40 more.
 
-    Raises:
-        ArithmeticError: no agreement up to max_digits.
+    Raises
+    ------
+    ArithmeticError
+        If no agreement up to max_digits.
     """
     digits = digits or int(40 + 0.33 * float(to_fraction("cycles", cycles)))
     coarse, agreement = None, np.inf

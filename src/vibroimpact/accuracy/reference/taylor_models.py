@@ -15,10 +15,14 @@ REACH = 4
 
 
 def to_fraction(name: str, value, exact_floats: bool = False) -> Fraction:
-    """The rational number that a value stands for: a float its binary value, or its shortest decimal, 0.1 then 1/10.
+    """Return the rational number that a value represents.
 
-    Raises:
-        ValueError: not a finite number.
+    A float stands for its binary value, or for its shortest decimal (0.1 is then 1/10).
+
+    Raises
+    ------
+    ValueError
+        If not a finite number.
     """
     try:
         if isinstance(value, Fraction | int | str | Decimal):
@@ -29,7 +33,7 @@ def to_fraction(name: str, value, exact_floats: bool = False) -> Fraction:
 
 
 def to_ball(value: Fraction) -> arb:
-    """Enclosure of a rational number at the current precision."""
+    """Return the enclosure of a rational number at the current precision."""
     return arb(fmpq(value.numerator, value.denominator))
 
 
@@ -50,8 +54,10 @@ class ExactSystem:
 
         With exact floats Omega is a float, too, as the engine has it.
 
-        Raises:
-            ValueError: a parameter is missing, unknown or not admissible (see System).
+        Raises
+        ------
+        ValueError
+            If a parameter is missing, unknown or not admissible (see System).
         """
         names = [field.name for field in fields(System)]
         if isinstance(parameters, System):
@@ -112,14 +118,14 @@ class Flow:
         return Fraction(REACH) / self.norm
 
     def size(self, vector) -> arb:
-        """Upper bound of the weighted norm of s; norm times it bounds the accelerations |X1''|, |X2''|."""
+        """Return the upper bound of the weighted norm of s; norm times it bounds the accelerations |X1''|, |X2''|."""
         largest = arb(0)
         for weight, entry in zip(self._weights, vector, strict=True):
             largest = largest.max(abs(weight * entry))
         return largest.upper()
 
     def series(self, vector) -> tuple[arb_poly, arb_poly]:
-        """X1 and X2 as power series, from the six entries of s."""
+        """Return X1 and X2 as power series, from the six entries of s."""
         with ctx.workprec(self.bits):
             entries = (self._table * arb_mat(6, 1, vector)).entries()
             tail = arb(0, (self._tail * self.size(vector)).upper())
@@ -127,7 +133,10 @@ class Flow:
 
 
 def rate_matrix(system: ExactSystem, stuck) -> list:
-    """Exact rate matrix A (6 rows) of s = [X1, X2, X1', X2', sin, cos], for balls in flight or stuck, (2,) bool."""
+    """Return the exact rate matrix A (6 rows) of s = [X1, X2, X1', X2', sin, cos].
+
+    `stuck`, (2,) bool, is True for a ball that sticks to a wall.
+    """
     rows = [[Fraction(0)] * 6 for _ in range(6)]
     for i in range(2):
         mass = 1 + system.epsilon if stuck[i] else Fraction(1)
@@ -141,7 +150,7 @@ def rate_matrix(system: ExactSystem, stuck) -> list:
 
 
 def _weighted_norm(rate):
-    """Weights >= 1 of the six entries of s and the row-sum norm of the rate matrix in them.
+    """Return the weights >= 1 of the six entries of s and the row-sum norm of the rate matrix in them.
 
     Weighing displacements by about the highest natural frequency keeps the norm near that frequency.
     """

@@ -32,7 +32,10 @@ class _Ball:
     stuck: bool = False
 
     def walls_ahead(self):
-        """Walls at which this module's next event may be: both in flight, its own while a force holds it there."""
+        """Return the walls at which the next event of this module may occur.
+
+        These are both walls in flight, and the ball's own wall while a force holds it there.
+        """
         if not self.stuck:
             return (1, -1)
         return () if self.order is None else (self.wall,)
@@ -105,7 +108,7 @@ class Trajectory:
         self.samples += [self.state() for _ in self.pending]
 
     def _fly(self):
-        """One flight: to the next event, the end of the window or the longest step, whichever comes first."""
+        """Advance to the next event, the end of the window or the longest step, whichever comes first."""
         self.flights += 1
         self._settle()
         flow, search_flow = self._flow(self.bits + GUARD_BITS), self._flow(SEARCH_BITS)
@@ -147,7 +150,7 @@ class Trajectory:
         self.record.append((self.tau, module, self.balls[module].wall, kind, tuple(self.state())))
 
     def _point(self, value):
-        """The midpoint of an enclosure, where the next flight starts; the radius goes into local_error."""
+        """Return the midpoint of an enclosure, where the next flight starts; the radius goes into local_error."""
         if not value.rad() < self.tolerance:
             raise Undecidable(f"a flight's enclosure has radius {value.rad()}, wider than the digits asked for")
         self.local_error = self.local_error.max(value.rad())
@@ -167,7 +170,7 @@ class Trajectory:
         self.tau = self._point(self.tau + step)
 
     def _free(self, i, t):
-        """Y and Y' of a ball in free flight, after a time t."""
+        """Return Y and Y' of a ball in free flight, after a time t."""
         speed = self.box[2 + i] - self.balls[i].rate
         return self.box[i] - self.balls[i].gap + speed * t, speed
 
@@ -190,7 +193,7 @@ class Trajectory:
     # -- the next event ----------------------------------------------------------------------------------
 
     def _next_events(self, series, search_series, longest):
-        """The earliest event within the longest step, with all that coincide with it to the digits."""
+        """Return the earliest event within the longest step, with all that coincide with it to the digits."""
         try:
             with ctx.workprec(SEARCH_BITS):
                 found = self._bracket(search_series, longest)
@@ -202,7 +205,10 @@ class Trajectory:
         return [_Candidate(module, wall, root.mid()) for (module, wall), root in _earliest(found, self.tolerance)]
 
     def _bracket(self, series, longest):
-        """[(module, wall), ball that contains the first root] of every distance with a root before the others."""
+        """Return [(module, wall), ball] for each distance with a root before the others.
+
+        The ball contains the first root.
+        """
         keys = [(module, wall) for module in range(2) for wall in self.balls[module].walls_ahead()]
         distances = [(key, self._distance(key, series)) for key in keys]
         hints = {key: _parabola_hint(distance, longest) for key, distance in distances}
@@ -216,7 +222,9 @@ class Trajectory:
         return found
 
     def _distance(self, key, series):
-        """Power series that is positive until the event: distance to a wall, or force that holds a stuck ball.
+        """Return a power series that is positive until the event.
+
+        It is the distance to a wall, or the force that holds a stuck ball.
 
         At a wall just left (or a force just set) the vanishing leading coefficients are divided out.
         """
@@ -247,7 +255,10 @@ class Trajectory:
                 self._settle(i, started=True)
 
     def _impact(self, module):
-        """Newton's restitution with X' + epsilon Y' conserved; slower than the digits show, the ball sticks."""
+        """Apply Newton's restitution law, which conserves X' + epsilon Y'.
+
+        A ball slower than the working precision resolves sticks.
+        """
         ball = self.balls[module]
         if not ball.wall * ball.rate > -self.tolerance:
             raise Undecidable("an impact whose approach speed is not positive to the digits")
@@ -297,7 +308,7 @@ class Trajectory:
             self._complete(contacts, others)
 
     def _is_complete(self, contacts):
-        """The limit is known to the digits, and nothing else can happen before the impacts accumulate."""
+        """Return the limit is known to the digits, and nothing else can happen before the impacts accumulate."""
         if not self.chatter.change < self.tolerance:
             return False
         if any(abs(self.balls[module].rate) > to_ball(LISTED_SPEED) for module, _ in contacts):
@@ -309,7 +320,7 @@ class Trajectory:
         return bool(time > 0 and self.tau + time < next_stop + self.tolerance and self._is_undisturbed(contacts, time))
 
     def _is_undisturbed(self, contacts, time):
-        """Contact forces keep their sign and other balls stay off the walls, with a wide margin."""
+        """Return the contact forces keep their sign and other balls stay off the walls, with a wide margin."""
         flow, vector = self._flow(SEARCH_BITS), self._vector()
         acceleration = flow.size(vector) * to_ball(flow.norm)
         series = flow.series(vector)
@@ -345,19 +356,19 @@ class Trajectory:
 
 
 def _relative(ball, motion):
-    """W = X - Y of a ball in free flight as a power series: that of X from the second order on."""
+    """Return W = X - Y of a ball in free flight as a power series: that of X from the second order on."""
     relative = arb_poly(motion)
     relative[0], relative[1] = ball.gap, ball.rate
     return relative
 
 
 def _force(ball, motion):
-    """w X'' as a power series, the acceleration that wall w gives a ball that rests on it."""
+    """Return w X'' as a power series, the acceleration that wall w gives a ball that rests on it."""
     return ball.wall * motion.derivative().derivative()
 
 
 def _parabola_hint(distance, longest):
-    """Twice the root of the distance's first two terms, where that is far nearer than the longest step.
+    """Return twice the root of the distance's first two terms, where that is far nearer than the longest step.
 
     It separates the short flights of a chatter from the long step in one split.
     """
@@ -369,7 +380,7 @@ def _parabola_hint(distance, longest):
 
 
 def _earliest(found, tolerance):
-    """The pairs (key, ball) whose ball may be the earliest, or comes within the tolerance of it."""
+    """Return the pairs (key, ball) whose ball may be the earliest, or comes within the tolerance of it."""
     if not found:
         return []
     first = min(ball.upper() for _, ball in found)

@@ -15,9 +15,12 @@ WORKER = threading.local()
 def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], progress: bool) -> list:
     """Return `work(*piece)` for each piece, in order; raise the first error of any.
 
-    Args:
-        runs: how many runs each piece has.
-        progress: count finished runs on standard error, about once a second.
+    Parameters
+    ----------
+    runs : sequence of int
+        How many runs each piece has.
+    progress : bool
+        Count finished runs on standard error, about once a second.
     """
     if min(cores(), len(pieces)) <= 1 and not progress:  # nobody to share with; a pool would cost 0.1 ms and more
         return [work(*piece) for piece in pieces]

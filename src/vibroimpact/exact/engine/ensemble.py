@@ -98,26 +98,38 @@ def ensemble(
     at most 2.6 times the estimate of that certificate (docs/engine.md). For events, samples or a certificate use
     `simulate`.
 
-    Args:
-        systems: a System, or an array of them (a list, or lists in a list).
-        states: (..., 8) starts, by position or by name as for `simulate`. Systems and starts are combined as NumPy
-            combines arrays: n systems and n starts pair by pair, one start with every system, systems (m, 1) with
-            starts (n, 8) all with all.
-        cycles, tau0: as for `simulate`.
-        settle: cycles before the observation, from 0 to cycles; if all, only the final state is returned.
-        progress: count finished runs on standard error, about once a second.
-        energy: add the energy balance over the observed cycles (`Run.energy`) as the field energy (ENERGY).
-        by_cycle: return an outcome for each observed cycle, in a last axis of their number; its final state is that at
-            the end of the cycle.
+    Parameters
+    ----------
+    systems : System | sequence of System | Sequence[sequence of System] | array_like
+        A System, or an array of them (a list, or lists in a list).
+    states : array_like
+        (..., 8) starts, by position or by name as for `simulate`. Systems and starts are combined as NumPy combines
+        arrays: n systems and n starts pair by pair, one start with every system, systems (m, 1) with starts (n, 8) all
+        with all.
+    cycles, tau0
+        As for `simulate`.
+    settle : int, default 0
+        Cycles before the observation, from 0 to cycles; if all, only the final state is returned.
+    progress : bool, default False
+        Count finished runs on standard error, about once a second.
+    energy : bool, default False
+        Add the energy balance over the observed cycles (`Run.energy`) as the field energy (ENERGY).
+    by_cycle : bool, default False
+        Return an outcome for each observed cycle, in a last axis of their number; its final state is that at the end of
+        the cycle.
 
-    Returns:
+    Returns
+    -------
+    ndarray
         A structured array (OUTCOME, or WITH_ENERGY) in the shape of the combination. The status (STATUSES) of a run
         that failed gives the reason; its numbers are nan and its counts 0, and other runs are not affected. Numbers of
         a run that was not observed are nan, too. The largest |X_i| is exact except for turns of a box almost at rest
         (1e-5 of its path); the means are exact to rounding.
 
-    Raises:
-        ValueError: an argument is malformed, or systems and states cannot be combined.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, or systems and states cannot be combined.
     """
     known, numbers, states = _combined(systems, states)
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
@@ -148,9 +160,12 @@ def ensemble(
 def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
     """Return the final states (n, 8) of runs of one system from initial states (n, 8) at tau = 0.
 
-    Raises:
-        ArithmeticError: one of them could not be finished.
-        ValueError: as for `ensemble`.
+    Raises
+    ------
+    ArithmeticError
+        If one of them could not be finished.
+    ValueError
+        As for `ensemble`.
     """
     outcomes = ensemble(system, states, cycles, settle=cycles)
     failed = np.flatnonzero(outcomes["status"] != FINISHED)

@@ -38,8 +38,10 @@ ROUNDED = 1e-12
 def checked_state(state) -> np.ndarray:
     """Return an initial state (8,) with its balls between the walls.
 
-    Raises:
-        ValueError: it is none.
+    Raises
+    ------
+    ValueError
+        If it is none.
     """
     state = states_array("state", state)
     values = state.tolist()
@@ -72,8 +74,10 @@ def within_walls(states) -> np.ndarray:
 def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
     """Return the exact start of a run and its number of cycles.
 
-    Raises:
-        ValueError: one of them is malformed, or the run leaves the range of times.
+    Raises
+    ------
+    ValueError
+        If one of them is malformed, or the run leaves the range of times.
     """
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     begin = _instant(tau0)
@@ -99,8 +103,10 @@ def _instant(tau0):
 def checked_times(name, times, start, end) -> np.ndarray:
     """Return sample times (n,) within a run from start to end.
 
-    Raises:
-        ValueError: they are not ascending, not finite or not within the run.
+    Raises
+    ------
+    ValueError
+        If they are not ascending, not finite or not within the run.
     """
     times = reals(name, times)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
@@ -212,11 +218,15 @@ class Run(Representation):
     def errors(self, times: ArrayLike) -> np.ndarray:
         """Return estimated errors (n,) of the states at some times, as `certificate.error` is for the final one.
 
-        Args:
-            times: ascending tau within the run.
+        Parameters
+        ----------
+        times : array_like
+            Ascending tau within the run.
 
-        Raises:
-            ValueError: they are not.
+        Raises
+        ------
+        ValueError
+            If they are not.
         """
         begin = self.tau0
         times = checked_times("times", times, begin, begin + self.cycles * self.system.period)
@@ -267,27 +277,37 @@ def simulate(
 ) -> Run:
     """Integrate the exact system over a number of forcing cycles, impacts, chatter, sticking and release included.
 
-    Args:
-        system: parameters.
-        state: (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless; or with these by name, in any order: a
-            mapping, or a row of a table as `to_frame` makes them.
-        cycles: forcing periods to run, a whole number from 0 to ten million, since a run holds all its events; a longer
-            motion is a run from `run.final` with tau0=run.end.
-        tau0: dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or
-            the end of a run, `run.end`, which this run then continues: a ball at rest on a wall sticks there already,
-            and this is no event again. |tau0| and the end stay below 2**43, where floats still tell times apart.
-        sample_times: ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
+    Parameters
+    ----------
+    system : System
+        Parameters.
+    state : array_like or mapping
+        (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless; or with these by name, in any order: a mapping,
+        or a row of a table as `to_frame` makes them.
+    cycles : int
+        Forcing periods to run, a whole number from 0 to ten million, since a run holds all its events; a longer motion
+        is a run from `run.final` with tau0=run.end.
+    tau0 : float, Fraction or Instant, default 0.0
+        Dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or the
+        end of a run, `run.end`, which this run then continues: a ball at rest on a wall sticks there already, and this
+        is no event again. |tau0| and the end stay below 2**43, where floats still tell times apart.
+    sample_times : array_like, optional
+        Ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
 
-    Returns:
-        The Run: its events, samples and final state. `run.certificate`, `run.energy` and `run.jacobian`, the
-        derivative of the final state, are computed on first access. On a new machine the first run waits for the
-        compilation of the engine, with a notice; `python -m vibroimpact.compile` does that beforehand.
+    Returns
+    -------
+    Run
+        The Run: its events, samples and final state. `run.certificate`, `run.energy` and `run.jacobian`, the derivative
+        of the final state, are computed on first access. On a new machine the first run waits for the compilation of
+        the engine, with a notice; `python -m vibroimpact.compile` does that beforehand.
 
-    Raises:
-        ValueError: an argument is malformed, the start has a ball beyond a wall (|X_i - Y_i| > 1), or names of other
-            components.
-        ArithmeticError: an invariant of the motion broke (a ball went through a wall, or time stood still), or there
-            were too many events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, the start has a ball beyond a wall (|X_i - Y_i| > 1), or names of other components.
+    ArithmeticError
+        If an invariant of the motion broke (a ball went through a wall, or time stood still), or there were too many
+        events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
     """
     instance("system", system, System)
     state = checked_state(state)
@@ -304,18 +324,28 @@ def simulate_many(
 ) -> list[Run]:
     """Simulate from many starts on all cores; every run equals its `simulate` bit by bit.
 
-    Args:
-        system: parameters.
-        states: (n, 8) starts, each as for `simulate`, or a table with their columns by name.
-        cycles, tau0: as for `simulate`.
-        progress: report on standard error, about once a second.
+    Parameters
+    ----------
+    system : System
+        Parameters.
+    states : array_like
+        (n, 8) starts, each as for `simulate`, or a table with their columns by name.
+    cycles, tau0
+        As for `simulate`.
+    progress : bool, default False
+        Report on standard error, about once a second.
 
-    Returns:
+    Returns
+    -------
+    list of Run
         One Run for each start, in their order.
 
-    Raises:
-        ValueError: an argument is malformed or a start inadmissible (its row is named).
-        ArithmeticError: an invariant broke in one of the runs.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed or a start inadmissible (its row is named).
+    ArithmeticError
+        If an invariant broke in one of the runs.
     """
     instance("system", system, System)
     states = np.ascontiguousarray(states_array("states", states))  # rows of another order would be compiled for anew

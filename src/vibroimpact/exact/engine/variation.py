@@ -208,9 +208,12 @@ class Growth(NamedTuple):
 def growth(run, frame: np.ndarray) -> Growth:
     """Carry an orthonormal frame (8, k) along a run, made orthonormal again after every cycle by QR.
 
-    Args:
-        run: a `Run`. frame: columns in the order of the public state, 0 in the components of a module that takes no
-            part.
+    Parameters
+    ----------
+    run
+        A `Run`.
+    frame : ndarray
+        Columns in the order of the public state, 0 in the components of a module that takes no part.
     """
     flow, flights, events = run.trajectory
     factors, counts = np.empty((run.cycles, frame.shape[1])), np.zeros((run.cycles, 2), dtype=int)

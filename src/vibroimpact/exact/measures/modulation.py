@@ -10,14 +10,19 @@ PER_CYCLE = 24
 
 
 def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
-    """Half the peak-to-peak value in each whole forcing period, shape (cycles,), of values (n,), per_cycle in each."""
+    """Return half the peak-to-peak value in each whole forcing period, shape (cycles,).
+
+    `values` has shape (n,), with `per_cycle` values in each period.
+    """
     cycles = len(values) // per_cycle
     by_cycle = np.asarray(values)[: cycles * per_cycle].reshape(cycles, per_cycle)
     return 0.5 * (by_cycle.max(axis=1) - by_cycle.min(axis=1))
 
 
 def variation(amplitudes) -> float:
-    """Standard deviation of the amplitudes over their mean: 0 for a steady response, d / sqrt(2) for a beat 1 + d cos.
+    """Return the standard deviation of the amplitudes over their mean.
+
+    It is 0 for a steady response and d / sqrt(2) for a beat 1 + d cos.
 
     It tends to a limit with the length of the window, which the depth from largest and smallest amplitude does not.
     """
@@ -26,13 +31,18 @@ def variation(amplitudes) -> float:
 
 
 def extreme_depth(amplitudes) -> float:
-    """(largest - smallest) / (largest + smallest) amplitude, which grows with the window: kept for comparison."""
+    """Return (largest - smallest) / (largest + smallest) amplitude.
+
+    This measure grows with the window and is kept for comparison.
+    """
     largest, smallest = np.max(amplitudes), np.min(amplitudes)
     return float((largest - smallest) / (largest + smallest)) if largest > 0 else 0.0
 
 
 def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
-    """Cycles at which the amplitude has swollen: risen above `high` of its range since it was last below `low`.
+    """Return the cycles at which the amplitude has swollen.
+
+    A swell begins where the amplitude rises above `high` of its range after it was below `low`.
 
     The two thresholds (parts of the range between smallest and largest amplitude) keep ripples from counting.
     Returns indices into the amplitudes (n,), shape (s,): their distances are the modulation periods. Empty for a
@@ -52,13 +62,15 @@ def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
 
 
 def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
-    """Resonant bursts of one ball: start and end time of each, shape (b, 2), from its impacts in order.
+    """Return the resonant bursts of one ball: start and end time of each, shape (b, 2), from its impacts in order.
 
     A flight is resonant if it leads to the opposite wall and lasts between a quarter and three quarters of the forcing
     period; a burst is an unbroken sequence of at least so many resonant flights.
 
-    Args:
-        tau, wall: time and wall of each impact, shape (m,).
+    Parameters
+    ----------
+    tau, wall
+        Time and wall of each impact, shape (m,).
     """
     tau, wall = np.asarray(tau), np.asarray(wall)
     duration = np.diff(tau)
@@ -70,7 +82,7 @@ def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
 
 
 def bursts_in(run: Run, module: int) -> np.ndarray:
-    """Resonant bursts of a module's ball in a run: start and end time of each, shape (b, 2)."""
+    """Return the resonant bursts of a module's ball in a run: start and end time of each, shape (b, 2)."""
     mine = run.events[(run.events["module"] == module) & (run.events["kind"] == IMPACT)]
     return bursts(mine["tau"], mine["wall"], run.system.period)
 
@@ -105,7 +117,10 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
 
 
 def mean_and_error(values) -> tuple[float, float, int]:
-    """Mean over starts, its standard error (nan for one start), and the number of starts that have the quantity."""
+    """Return the mean over starts, its standard error and the number of starts that have the quantity.
+
+    The error of a single start is nan.
+    """
     values = np.asarray(values, dtype=float)
     values = values[np.isfinite(values)]
     error = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else np.nan

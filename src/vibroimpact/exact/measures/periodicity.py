@@ -8,10 +8,12 @@ import numpy as np
 
 
 def samples_per_cycle(tau, period: float) -> int:
-    """Number of samples per forcing period of evenly spaced times tau, shape (n,).
+    """Return the number of samples per forcing period of evenly spaced times tau, shape (n,).
 
-    Raises:
-        ValueError: the times are not evenly spaced, or do not divide the period, or span less than one period.
+    Raises
+    ------
+    ValueError
+        If the times are not evenly spaced, or do not divide the period, or span less than one period.
     """
     tau = np.asarray(tau, dtype=float)
     if tau.ndim != 1 or len(tau) < 2:
@@ -27,15 +29,19 @@ def samples_per_cycle(tau, period: float) -> int:
 
 
 def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
-    """Largest change of any displacement over some forcing periods, over the whole window.
+    """Return the largest change of any displacement over some forcing periods, over the whole window.
 
     0 for a motion that repeats after `cycles` periods.
 
-    Args:
-        displacements: shape (n, k), evenly sampled, per_cycle times in a forcing period.
+    Parameters
+    ----------
+    displacements
+        Shape (n, k), evenly sampled, per_cycle times in a forcing period.
 
-    Raises:
-        ValueError: so many periods are not within the window.
+    Raises
+    ------
+    ValueError
+        If so many periods are not within the window.
     """
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
@@ -44,12 +50,14 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
 
 
 def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None:
-    """The smallest number of forcing periods after which the motion repeats within a tolerance, or None.
+    """Return the smallest number of forcing periods after which the motion repeats within a tolerance, or None.
 
     Only numbers up to half the window are tried, so that every claimed repetition was seen at least twice.
 
-    Args:
-        displacements, per_cycle: as in `distance_after`.
+    Parameters
+    ----------
+    displacements, per_cycle
+        As in `distance_after`.
     """
     displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
@@ -59,12 +67,14 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
 
 
 def mirror_distance(displacements, per_cycle: int) -> float:
-    """Largest |x(tau + T/2) + x(tau)| over the window: 0 for a motion that is its own mirror image.
+    """Return the largest |x(tau + T/2) + x(tau)| over the window: 0 for a motion that is its own mirror image.
 
     The equations of motion turn into themselves under state to minus state and half a period later.
 
-    Raises:
-        ValueError: per_cycle is odd, so that half a period is not a whole number of samples.
+    Raises
+    ------
+    ValueError
+        If per_cycle is odd, so that half a period is not a whole number of samples.
     """
     if per_cycle % 2:
         raise ValueError(f"per_cycle: {per_cycle} is odd, half a period lies between samples")
@@ -73,11 +83,14 @@ def mirror_distance(displacements, per_cycle: int) -> float:
 
 
 def impacts_per_cycle(tau, module, wall, start: float, period: float, cycles: int) -> np.ndarray:
-    """Number of impacts in each forcing period, module and wall (+1, -1), shape (cycles, 2, 2).
+    """Return the number of impacts in each forcing period, module and wall (+1, -1), shape (cycles, 2, 2).
 
-    Args:
-        tau, module, wall: of each impact, shape (m,).
-        start: time at which the first of the periods begins.
+    Parameters
+    ----------
+    tau, module, wall
+        Of each impact, shape (m,).
+    start : float
+        Time at which the first of the periods begins.
     """
     tau, module, wall = np.asarray(tau), np.asarray(module), np.asarray(wall)
     edges = start + period * np.arange(cycles + 1)

@@ -10,13 +10,18 @@ WALLS = (1, -1)
 
 
 def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray]:
-    """B and psi [rad] of the first harmonic B sin(Omega tau - psi), per column of values.
+    """Return B and psi [rad] of the first harmonic B sin(Omega tau - psi), per column of values.
 
-    Args:
-        tau: evenly spaced times that cover whole forcing periods, the end left out, shape (n,).
-        values: shape (n, k), U_1 and U_2 say.
+    Parameters
+    ----------
+    tau
+        Evenly spaced times that cover whole forcing periods, the end left out, shape (n,).
+    values
+        Shape (n, k), U_1 and U_2 say.
 
-    Returns:
+    Returns
+    -------
+    tuple[ndarray, ndarray]
         B and psi in (-pi, pi], each shape (k,).
     """
     turning = np.exp(-1j * Omega * np.asarray(tau))[:, None]
@@ -25,12 +30,12 @@ def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray
 
 
 def phase_in_cycle(tau, period: float):
-    """Fraction of the forcing period, in [0, 1), at which events at times tau happen; the shape is that of tau."""
+    """Return the fraction of the forcing period, in [0, 1), of times tau; the shape is that of tau."""
     return np.remainder(np.asarray(tau) / period, 1.0)
 
 
 def mean_phase(phases) -> float:
-    """Mean of phases (fractions of a period) on the circle, in [0, 1)."""
+    """Return the mean of phases (fractions of a period) on the circle, in [0, 1)."""
     return float(np.angle(np.mean(np.exp(2j * np.pi * np.asarray(phases)))) / (2 * np.pi) % 1.0)
 
 
@@ -50,19 +55,24 @@ class SlowVariables:
     impact_phases: np.ndarray
 
     def distance(self, point) -> float:
-        """Distance to a fixed point: of the phasors B_i exp(-i psi_i) of both modules together."""
+        """Return the distance to a fixed point: of the phasors B_i exp(-i psi_i) of both modules together."""
         return float(np.linalg.norm(self.B * np.exp(-1j * self.psi) - point.B * np.exp(-1j * np.asarray(point.psi))))
 
 
 def measure(system, tau, displacements, impacts) -> SlowVariables:
     """Measure the slow variables of a periodic motion.
 
-    Args:
-        tau, displacements: evenly spaced times of whole periods (end left out) and X1, Y1, X2, Y2 there, shape (n, 4).
-        impacts: mapping of arrays (m,): tau, module, wall, Y1, Y2.
+    Parameters
+    ----------
+    tau, displacements
+        Evenly spaced times of whole periods (end left out) and X1, Y1, X2, Y2 there, shape (n, 4).
+    impacts
+        Mapping of arrays (m,): tau, module, wall, Y1, Y2.
 
-    Raises:
-        ValueError: a ball misses one of its walls.
+    Raises
+    ------
+    ValueError
+        If a ball misses one of its walls.
     """
     X, Y = displacements[:, 0::2], displacements[:, 1::2]
     B, psi = amplitude_and_lag(tau, X + system.epsilon * Y, system.Omega)

@@ -37,8 +37,10 @@ _PLASTIC = 1.2207440846057596  # root of x^4 = x + 1: the additive sequence of i
 class AsymmetricConditions:
     """The equations above for one system.
 
-    Raises:
-        ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
+    Raises
+    ------
+    ValueError
+        If undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
 
     def __init__(self, system):
@@ -48,7 +50,10 @@ class AsymmetricConditions:
         self._response = impulse_response(system, sign=1)
 
     def __call__(self, unknowns: np.ndarray):
-        """Residual (n, 6) and Jacobian (n, 6, 6) for unknowns (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6)."""
+        """Return the residual (n, 6) and Jacobian (n, 6, 6) for unknowns of shape (n, 6).
+
+        The unknowns are (p_1, q_1, p_2, q_2, I_1, I_2).
+        """
         system = self.system
         times, strengths = unknowns[:, :4], unknowns[:, 4:]
         forced = self.amplitude * np.exp(1j * system.Omega * times)
@@ -60,19 +65,22 @@ class AsymmetricConditions:
         return residual, jacobian
 
     def linear_system(self, times: np.ndarray):
-        """Matrix (n, 6, 4) of the equations for (I_1, I_2, c, s), forcing phase exp(i Omega tau) (c + i s)."""
+        """Return the matrix (n, 6, 4) of the equations for (I_1, I_2, c, s).
+
+        The forcing phase is exp(i Omega tau) (c + i s).
+        """
         forced = self.amplitude * np.exp(1j * self.system.Omega * times)
         by_phase = np.stack([self._forced(forced), self._forced(1j * forced)], axis=2)
         return np.concatenate([self._linear(times)[0], by_phase], axis=2)
 
     def _forced(self, forced):
-        """The six conditions' terms in the forced response, (n, 6), from its complex value at the impacts."""
+        """Return the six conditions' terms in the forced response, (n, 6), from its complex value at the impacts."""
         velocity = (1 + self.system.kappa) * self.system.Omega * forced.real
         distance = forced.imag[:, 0::2] - forced.imag[:, 1::2]
         return np.concatenate([velocity, distance], axis=1)
 
     def _linear(self, times):
-        """Coefficients of the strengths, (n, 6, 2), and the responses to unit changes of ball velocity."""
+        """Return the coefficients of the strengths, (n, 6, 2), and the responses to unit changes of ball velocity."""
         system = self.system
         x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))
         by_impact = np.concatenate([(1 + system.kappa) * v, x[:, 0::2] - x[:, 1::2]], axis=1)
@@ -82,11 +90,11 @@ class AsymmetricConditions:
         return by_impact.reshape(-1, 6, 2, 2).sum(axis=3) - _MODULES * own[..., None], (v, a)
 
     def _fractions(self, times):
-        """Flight times from wall +1 over the period, (n, 2)."""
+        """Return the flight times from wall +1 over the period, (n, 2)."""
         return wrapped(times[:, 1::2] - times[:, 0::2], self.system.period) / self.system.period
 
     def _moved(self, forced, responses, strengths, times):
-        """Derivatives (n, 6, 4) by the impact times."""
+        """Return the derivatives (n, 6, 4) by the impact times."""
         system = self.system
         others = 1 - np.eye(4)
         v, a = (r * others * strengths[:, None, _BOXES] for r in responses)
@@ -100,12 +108,16 @@ class AsymmetricConditions:
 
 
 def asymmetric_solutions(system, starts: int = STARTS):
-    """Roots (p_1, q_1, p_2, q_2, I_1, I_2) found, times in [0, T), shape (n, 6), and how many starts led to each, (n,).
+    """Return the roots (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6), and how many starts led to each, (n,).
+
+    Times are in [0, T).
 
     Mirror images are roots of their own; each is credited with the starts that led to the other.
 
-    Raises:
-        ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
+    Raises
+    ------
+    ValueError
+        If undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
     if not system.modules:
         return np.empty((0, 6)), np.empty(0, dtype=int)
@@ -136,6 +148,6 @@ def _starts(system, conditions, count):
 
 
 def _mirrored(roots, period):
-    """The images under state(tau) -> -state(tau + T/2): the walls change roles."""
+    """Return the images under state(tau) -> -state(tau + T/2): the walls change roles."""
     times = wrapped(roots[:, [1, 0, 3, 2]] + period / 2, period)
     return np.concatenate([times, roots[:, 4:]], axis=1)

@@ -18,7 +18,7 @@ _ROUNDING = 100 * np.finfo(float).eps
 
 
 def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    """d state / d tau in free flight for states (..., 8) at times tau (...), shape (..., 8), from (10.2)."""
+    """Return d state / d tau in free flight for states (..., 8) at times tau (...), shape (..., 8), from (10.2)."""
     phase = system.Omega * np.asarray(tau)[..., None]
     field = np.zeros(state.shape)
     boxes = np.concatenate([state[..., BOXES], np.sin(phase), np.cos(phase)], axis=-1)
@@ -28,7 +28,10 @@ def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
 
 
 def impact_matrix(system, module: np.ndarray) -> np.ndarray:
-    """The linear map R, shape (..., 8, 8), from the state just before an impact in `module` (1 or 2) to just after."""
+    """Return the restitution matrix R, shape (..., 8, 8): state just before an impact to state just after.
+
+    `module` is 1 or 2.
+    """
     matrices = np.stack([np.eye(8)] * 2)
     for matrix, velocities in zip(matrices, ([4, 5], [6, 7]), strict=True):
         matrix[np.ix_(velocities, velocities)] = after_impact(system.epsilon, system.kappa, *np.eye(2))
@@ -36,15 +39,19 @@ def impact_matrix(system, module: np.ndarray) -> np.ndarray:
 
 
 def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.ndarray) -> np.ndarray:
-    """Saltation matrix S, shape (..., 8, 8): perturbation after = S perturbation before, both taken at the time tau.
+    """Return the saltation matrix S, shape (..., 8, 8): perturbation after = S perturbation before.
+
+    Both perturbations are taken at the time tau of the impact.
 
     before: states (..., 8) just before impacts of `module` (1 or 2) at times tau, both (...). The perturbed motion
     meets the wall n . x = const earlier or later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n . f-)
     (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters through f- and f+ alone: wall and
     impact law do not depend on time. det S = kappa^2.
 
-    Raises:
-        ValueError: the relative velocity before an impact is zero (grazing), where no such matrix exists.
+    Raises
+    ------
+    ValueError
+        If the relative velocity before an impact is zero (grazing), where no such matrix exists.
     """
     normal = _NORMALS[np.asarray(module) - 1]
     before_field = vector_field(system, before, tau)
@@ -80,7 +87,9 @@ class Passage(NamedTuple):
 
 
 def impact_sequence(times: np.ndarray, period: float):
-    """Times, modules and walls, each (4,), of impacts at times (2, 2) [module, wall +1 / wall -1] in [0, T), in order.
+    """Return the times, modules and walls of four impacts, each (4,), in order of time.
+
+    The times given, (2, 2) [module, wall +1 / wall -1], are in [0, T).
 
     One at 0 comes last, at T: the state at tau = 0 is the one after it. A module whose times are NaN has no impacts.
     """
@@ -108,8 +117,10 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
 
     The impacts are taken as given: that a ball is at its wall at that time is the caller's business.
 
-    Raises:
-        ValueError: an impact without relative velocity (see impact_saltation).
+    Raises
+    ------
+    ValueError
+        If an impact without relative velocity (see impact_saltation).
     """
     edges = np.array([0.0, *times, end])
     flights, pushes = free_flights(system, edges[:-1], np.diff(edges))
@@ -125,19 +136,22 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
 
 
 def of_modules(system, jacobian: np.ndarray) -> np.ndarray:
-    """A monodromy matrix (8, 8), or of a single machine the part (4, 4) of the module that takes part."""
+    """Return a monodromy matrix (8, 8), or of a single machine the part (4, 4) of the module that takes part."""
     part = np.isin(MODULES, system.modules)
     return jacobian[part][:, part]
 
 
 def multipliers(jacobian: np.ndarray) -> np.ndarray:
-    """Eigenvalues (n,) complex of a monodromy matrix (n, n), by descending modulus, then descending imaginary part."""
+    """Return the complex eigenvalues (n,) of a monodromy matrix (n, n).
+
+    They are sorted by descending modulus, then by descending imaginary part.
+    """
     values = np.linalg.eigvals(jacobian).astype(complex)
     return values[np.lexsort((-values.imag.round(12), -abs(values).round(12)))]
 
 
 def floquet(orbit) -> str:
-    """ "stable" if all multipliers are inside the unit circle, "unstable" if one is outside, else "undecided".
+    """Return "stable" if all multipliers are inside the unit circle, "unstable" if one is outside, else "undecided".
 
     A multiplier decides where its modulus differs from 1 by more than its own error, estimated to first order: the
     condition number of the eigenvalue times the error of the monodromy matrix. That is rounding and the error of the

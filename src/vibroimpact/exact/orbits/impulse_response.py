@@ -15,10 +15,12 @@ _UNIT_IMPULSES = np.eye(4)[:, 2:]
 
 
 def forced_amplitude(system) -> np.ndarray:
-    """Complex amplitude a, shape (2,): the boxes without balls move as Im(a exp(i Omega tau)).
+    """Return the complex amplitude a, shape (2,): the boxes without balls move as Im(a exp(i Omega tau)).
 
-    Raises:
-        ValueError: the undamped boxes are at a resonance, so that they have such motions of any amplitude.
+    Raises
+    ------
+    ValueError
+        If the undamped boxes are at a resonance, so that they have such motions of any amplitude.
     """
     try:
         return np.linalg.solve(dynamic_stiffness(system.with_idle_damped()), system.forcing.astype(complex))
@@ -39,8 +41,10 @@ class ImpulseResponse:
 
     sign = +1: equal impulses, one a period T. sign = -1: alternating impulses, one every T / 2.
 
-    Raises:
-        ValueError: the boxes are undamped and in resonance with the train, so that no steady response exists.
+    Raises
+    ------
+    ValueError
+        If the boxes are undamped and in resonance with the train, so that no steady response exists.
     """
 
     def __init__(self, system, sign: int):
@@ -63,14 +67,19 @@ class ImpulseResponse:
         self._readings = np.stack([np.eye(4)[:2], np.eye(4)[2:], self._rate[2:]], axis=2)
 
     def __call__(self, s: np.ndarray) -> np.ndarray:
-        """The motion at times s (any real) since an impulse, shape (*s.shape, 4, 2): column j for a train on box j.
+        """Return the motion at times s since an impulse, shape (*s.shape, 4, 2).
+
+        s is any real array; column j belongs to a train of impulses on box j.
 
         At an impulse it is the value just after.
         """
         return self.of_trains(np.asarray(s)[..., None], np.arange(2)).swapaxes(-1, -2)
 
     def of_trains(self, s: np.ndarray, boxes: np.ndarray) -> np.ndarray:
-        """The motion (..., 4) at times s since an impulse of a train on box `boxes` (0, 1), arrays that combine."""
+        """Return the motion (..., 4) at times s since an impulse of a train on box `boxes` (0, 1).
+
+        The arguments broadcast.
+        """
         impulses, within = np.divmod(s, self.interval)
         node = np.rint(within / self._spacing).astype(int)
         step = (within - node * self._spacing)[..., None]
@@ -104,7 +113,7 @@ def _singular(matrices, scale):
 
 
 def powers(matrix: np.ndarray, count: int) -> np.ndarray:
-    """matrix**n for n = 0 .. count - 1, stacked, by doubling (rounding grows with log(count) only)."""
+    """Return matrix**n for n = 0 .. count - 1, stacked, by doubling (rounding grows with log(count) only)."""
     powers = np.eye(len(matrix))[None]
     while len(powers) < count:
         powers = np.concatenate([powers, powers @ np.linalg.matrix_power(matrix, len(powers))])
@@ -112,7 +121,7 @@ def powers(matrix: np.ndarray, count: int) -> np.ndarray:
 
 
 def impulse_response(system, sign: int) -> ImpulseResponse:
-    """The impulse response of a system, kept for reuse: it is the same under all forces."""
+    """Return the impulse response of a system, kept for reuse: it is the same under all forces."""
     return _kept(system.with_idle_damped().with_(f10_hat=0.0, f20_hat=0.0), sign)
 
 

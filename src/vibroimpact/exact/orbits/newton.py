@@ -7,7 +7,7 @@ _SETTLED, _STALLED = 1e-12, 1e-8  # the second, the root of rounding, near a dou
 
 
 def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
-    """Roots reached from `starts`, shape (n, d), in no particular order and with repetitions.
+    """Return the roots reached from `starts`, shape (n, d), in no particular order and with repetitions.
 
     equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened to at most
     `reach` in every component. A start has converged once its step is below 1e-12 (1 + |x|), or, if all steps are used

@@ -80,15 +80,17 @@ class Orbit(Representation):
         return self.proof is not None and self.proof.stability in (STABLE, UNSTABLE)
 
     def with_proof(self) -> "Orbit":
-        """The same orbit with `proof` of its existence, its motion between the walls and its stability.
+        """Return the same orbit with `proof` of its existence, its motion between the walls and its stability.
 
-        Raises:
-            ModuleNotFoundError: python-flint is missing; the extra `reference` brings it.
+        Raises
+        ------
+        ModuleNotFoundError
+            If python-flint is missing; the extra `reference` brings it.
         """
         return replace(self, proof=prove(self))
 
     def row(self) -> dict:
-        """Numbers and verdicts by name, as `to_frame` tells them: phases in periods, at wall +1 and -1."""
+        """Return the numbers and verdicts by name, as `to_frame` tells them: phases in periods, at wall +1 and -1."""
         numbers = np.ravel([self.impact_phases, self.ball_speeds]).tolist()
         largest = float(abs(self.multipliers[0]))
         verdicts = largest, self.residual, self.stability, self.proved
@@ -129,15 +131,19 @@ class OrbitSearch:
 
 
 def orbits(system: System) -> list[Orbit]:
-    """All 1:1 responses of (10.2) with one impact per cycle at each wall of each module: exact, at any epsilon.
+    """Return all 1:1 responses of (10.2) with one impact per cycle at each wall of each module: exact, at any epsilon.
 
-    Returns:
+    Returns
+    -------
+    list of Orbit
         A list of Orbit. Roots that are no motions of the system (see Orbit.admissible) are in it too, marked. Order:
         symmetric ones first, then by ascending sum of the two ball speeds of module 1, of module 2, then by phases; an
         asymmetric orbit and its mirror image are neighbours.
 
-    Raises:
-        ValueError: system is not a System, or its undamped boxes are in resonance with a harmonic of the impacts.
+    Raises
+    ------
+    ValueError
+        If system is not a System, or its undamped boxes are in resonance with a harmonic of the impacts.
     """
     return Found(search(system).orbits, COLUMNS)
 
@@ -145,8 +151,10 @@ def orbits(system: System) -> list[Orbit]:
 def search(system: System, starts: int = STARTS) -> OrbitSearch:
     """Return orbits(system) with the effort spent on asymmetric ones, which tells how likely one was missed.
 
-    Raises:
-        ValueError: as orbits; starts is not a whole number from 1 to 2**20.
+    Raises
+    ------
+    ValueError
+        As orbits; starts is not a whole number from 1 to 2**20.
     """
     instance("system", system, System)
     starts = whole("starts", starts, 1, _MOST_STARTS)
@@ -160,9 +168,12 @@ def search(system: System, starts: int = STARTS) -> OrbitSearch:
 def prove(orbit: Orbit):
     """Prove an orbit in interval arithmetic: existence, motion between the walls, multipliers.
 
-    Raises:
-        ValueError: orbit is no Orbit; undamped boxes in resonance with the impacts.
-        ModuleNotFoundError: python-flint is missing; the extra `reference` brings it.
+    Raises
+    ------
+    ValueError
+        If orbit is no Orbit; undamped boxes in resonance with the impacts.
+    ModuleNotFoundError
+        If python-flint is missing; the extra `reference` brings it.
     """
     from vibroimpact.exact.orbits.proof import orbit as proofs
 
@@ -170,12 +181,16 @@ def prove(orbit: Orbit):
 
 
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:
-    """Multipliers of a symmetric orbit over half a period and mirroring: the roots of its multipliers, as many.
+    """Return the multipliers of a symmetric orbit over half a period followed by mirroring.
+
+    Their squares are the multipliers of the orbit.
 
     They tell apart what the full ones do not: +1 is a fold, -1 is symmetry breaking.
 
-    Raises:
-        ValueError: the orbit is not symmetric.
+    Raises
+    ------
+    ValueError
+        If the orbit is not symmetric.
     """
     if not orbit.symmetric:
         raise ValueError("orbit: it is not symmetric, so half a period does not map it to its mirror image")
@@ -187,37 +202,45 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
 
 
 def _order(orbit):
-    """Sorting key; phases break ties between modules that do not feel each other."""
+    """Return the sorting key; phases break ties between modules that do not feel each other."""
     numbers = [*orbit.ball_speeds.sum(axis=1), *orbit.impact_phases.ravel()]
     return (not orbit.symmetric, *np.nan_to_num(numbers).round(9))
 
 
 def symmetric_orbit(system, root) -> Orbit:
-    """The orbit of a root (4,) of the symmetric equations: impact times of both modules at one wall, then C_1, C_2."""
+    """Return the orbit of a root (4,) of the symmetric equations.
+
+    The root holds the impact times of both modules at one wall, then C_1 and C_2.
+    """
     return _orbit(system, *_symmetric_impacts(system, root), np.full(2, 0.5), sign=-1)
 
 
 def symmetric_boxes(system, root, tau) -> np.ndarray:
-    """X_1 and X_2 of a root of the symmetric equations at times tau (n,), shape (n, 2)."""
+    """Return X_1 and X_2 of a root of the symmetric equations at times tau (n,), shape (n, 2)."""
     return _boxes(system, *_symmetric_impacts(system, root), -1, tau)[:, :2]
 
 
 def _symmetric_impacts(system, root):
-    """Impact times (2, 2) of a root of the symmetric equations, and the changes (2,) of the balls' velocities there."""
+    """Return the impact times (2, 2) and ball velocity changes (2,) of a root of the symmetric equations."""
     times, C = root[:2], root[2:]
     later = wrapped(times + system.period / 2, system.period)
     return np.stack([times, later], axis=1), 4 * path_of(system.epsilon, C) / system.period
 
 
 def asymmetric_orbit(system, root) -> Orbit:
-    """The orbit of a root of the asymmetric equations: impact times (module, wall) flattened, then what they carry."""
+    """Return the orbit of a root of the asymmetric equations.
+
+    The root holds the impact times, (module, wall) flattened, then the impulses.
+    """
     times = root[:4].reshape(2, 2)
     fractions = wrapped(times[:, 1] - times[:, 0], system.period) / system.period
     return _orbit(system, times, root[4:], fractions, sign=1)
 
 
 def _orbit(system, times, changes, fractions, sign):
-    """The orbit with impacts at `times` (2, 2), ball velocity changes (2,) there, flight fractions (2,) from wall +1.
+    """Return the orbit with impacts at `times` (2, 2) and ball velocity changes (2,).
+
+    The flight fractions (2,) are those of the flights from wall +1.
 
     sign: -1 if it is symmetric, so that each module's kicks are one alternating train; +1 if they are two trains.
     """
@@ -246,7 +269,9 @@ def _orbit(system, times, changes, fractions, sign):
 
 
 def _boxes(system, times, changes, sign, tau):
-    """Motion [X_1, X_2, X_1', X_2'] at times tau (n,) by superposition of the forced response and the trains of kicks.
+    """Return the motion [X_1, X_2, X_1', X_2'] at times tau (n,).
+
+    It is the superposition of the forced response and of the responses to the impulse trains.
 
     times (2, 2), changes (2,), sign: of the impacts, as for `_orbit`.
     """
@@ -259,7 +284,7 @@ def _boxes(system, times, changes, sign, tau):
 
 
 def _state(system, times, changes, speeds, sign):
-    """State (8,) at tau = 0."""
+    """Return the state (8,) at tau = 0."""
     since = wrapped(-times, system.period)
     modules, last = np.arange(2), since.argmin(axis=1)
     walls = np.array([1, -1])[last]
@@ -273,7 +298,7 @@ def _state(system, times, changes, speeds, sign):
 
 
 def extremes(system, passage: Passage) -> np.ndarray:
-    """|W_i| at its extrema inside the free flights of a motion; it is 1 at the impacts themselves."""
+    """Return |W_i| at its extrema inside the free flights of a motion; it is 1 at the impacts themselves."""
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     count = 1 + math.ceil(durations.max() * fastest / _STEP)
@@ -293,7 +318,7 @@ def extremes(system, passage: Passage) -> np.ndarray:
 
 
 def _samples(step, start, count):
-    """step^k start for k < count, shape (n, count, d), by doubling: rounding grows with log(count) only."""
+    """Return step^k start for k < count, shape (n, count, d), by doubling: rounding grows with log(count) only."""
     samples, ahead = start[:, None], step.swapaxes(1, 2)
     while (made := samples.shape[1]) < count:
         samples = np.concatenate([samples, samples[:, : count - made] @ ahead], axis=1)
@@ -302,7 +327,10 @@ def _samples(step, start, count):
 
 
 def _turning_values(W, V):
-    """Values of W where it turns, from samples (n, count, 2) of it and of its velocity times their spacing."""
+    """Return the values of W at its turning points.
+
+    The samples (n, count, 2) hold W and its velocity times the sample spacing.
+    """
     turns = V[:, :-1] * V[:, 1:] < 0
     w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
     s = v0 / (v0 - v1)  # where the velocity vanishes, up to O(spacing^2), which W does not feel there

@@ -38,11 +38,15 @@ MODULES = np.array([1, 2, 1, 2])
 class SymmetricConditions:
     """The equations above for one system, or for it under several forces.
 
-    Args:
-        forced: the boxes' forced amplitudes under each of the forces, (m, 2) complex; else under those of the system.
+    Parameters
+    ----------
+    forced
+        The boxes' forced amplitudes under each of the forces, (m, 2) complex; else under those of the system.
 
-    Raises:
-        ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
+    Raises
+    ------
+    ValueError
+        If undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
 
     def __init__(self, system, forced=None):
@@ -56,7 +60,7 @@ class SymmetricConditions:
         self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
 
     def matrix(self, times: np.ndarray):
-        """P and the factor dP of its derivatives for impact times (..., 2): both (..., 2, 2) complex.
+        """Return P and the factor dP of its derivatives for impact times (..., 2): both (..., 2, 2) complex.
 
         Off the diagonal, dP / d tau_i is +dP in row i and -dP in column i.
         """
@@ -67,7 +71,7 @@ class SymmetricConditions:
         return matrix, change
 
     def __call__(self, unknowns: np.ndarray):
-        """Residual (n, 4) and Jacobian (n, 4, 4) for unknowns (tau_1, tau_2, C_1, C_2), shape (n, 4).
+        """Return the residual (n, 4) and Jacobian (n, 4, 4) for unknowns (tau_1, tau_2, C_1, C_2), shape (n, 4).
 
         A fifth column, if there is one, numbers the forces.
         """
@@ -84,7 +88,7 @@ class SymmetricConditions:
         return residual, jacobian
 
     def linear_system(self, delta: np.ndarray, force: np.ndarray):
-        """Matrix (..., 4, 4) and right-hand side (4,) of the equations for (C_1, C_2, c, s) at each delta (...).
+        """Return the matrix (..., 4, 4) and right-hand side (4,) for (C_1, C_2, c, s) at each delta (...).
 
         force: the numbers of the forces, (...).
         """
@@ -95,27 +99,31 @@ class SymmetricConditions:
 
 
 def symmetric_solutions(system) -> np.ndarray:
-    """Every root (tau_1, tau_2, C_1, C_2) with 0 <= tau_i < T, shape (n, 4), admissible or not.
+    """Return every root (tau_1, tau_2, C_1, C_2) with 0 <= tau_i < T, shape (n, 4), admissible or not.
 
     A module that takes no part has tau_i = C_i = 0.
 
-    Raises:
-        ValueError: undamped boxes in resonance with the impacts (see ImpulseResponse).
+    Raises
+    ------
+    ValueError
+        If undamped boxes in resonance with the impacts (see ImpulseResponse).
     """
     return _solutions(system, [system])[0]
 
 
 def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
-    """`symmetric_solutions` of the system under each of some forces (f10_hat, f20_hat), shape (n, 2).
+    """Return `symmetric_solutions` of the system under each of some forces (f10_hat, f20_hat), shape (n, 2).
 
-    Raises:
-        ValueError: as `symmetric_solutions`; or there is no system under one of the forces.
+    Raises
+    ------
+    ValueError
+        As `symmetric_solutions`; or there is no system under one of the forces.
     """
     return _solutions(system, [system.with_(f10_hat=one, f20_hat=other) for one, other in forces])
 
 
 def _solutions(system, systems):
-    """The roots of each of some systems that differ from one in their forces alone."""
+    """Return the roots of each of some systems that differ from one in their forces alone."""
     found = [np.empty((0, 4))] * len(systems)
     for modules in {one.modules for one in systems} - {()}:
         alike = [k for k, one in enumerate(systems) if one.modules == modules]
@@ -131,7 +139,7 @@ def _solutions(system, systems):
 
 
 def _uncoupled_starts(conditions, modules):
-    """Each module alone: |P_ii C_i + i| = |a_i| is quadratic in C_i. All pairs of its roots."""
+    """Return each module alone: |P_ii C_i + i| = |a_i| is quadratic in C_i. All pairs of its roots."""
     diagonal = np.diagonal(conditions.matrix(np.zeros((1, 2)))[0][0])
     starts = []
     for force, amplitudes in enumerate(conditions.amplitudes):
@@ -146,7 +154,7 @@ def _uncoupled_starts(conditions, modules):
 
 
 def _coupled_starts(system, conditions):
-    """Newton starts at the real roots delta of the condition c^2 + s^2 = 1."""
+    """Return the Newton starts at the real roots delta of the condition c^2 + s^2 = 1."""
     delta, force = _roots_of_condition(system, conditions)
     C1, C2, c, s = np.moveaxis(_circle_points(*conditions.linear_system(delta, force)), -1, 0)
     time = np.arctan2(s, c) / conditions.omega
@@ -154,7 +162,10 @@ def _coupled_starts(system, conditions):
 
 
 def _roots_of_condition(system, conditions):
-    """Real parts of the near-real roots delta in [0, T], by Chebyshev interpolation piece by piece, and forces."""
+    """Return the real parts of the nearly real roots delta in [0, T], and their forces.
+
+    The condition is interpolated by Chebyshev polynomials on pieces of the interval.
+    """
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     pieces = 2 * math.ceil(system.period / 2 * fastest / _RADIANS_PER_PIECE)
     nodes = chebyshev.chebpts1(_DEGREE + 1)
@@ -175,7 +186,7 @@ def _roots_of_condition(system, conditions):
 
 
 def _condition(conditions, delta, force):
-    """N_c^2 + N_s^2 - D^2 with Cramer's determinants of the linear system for (C_1, C_2, c, s), c = N_c / D.
+    """Return N_c^2 + N_s^2 - D^2 with Cramer's determinants of the linear system for (C_1, C_2, c, s), c = N_c / D.
 
     Up to a factor for each piece, delta (pieces, n) under one force (pieces, 1), chosen so that no force is too weak or
     too strong to be squared.
@@ -193,7 +204,9 @@ def _condition(conditions, delta, force):
 
 
 def _circle_points(matrices, constant):
-    """Three points (C_1, C_2, c, s) of each solution set that are on, or nearest to, c^2 + s^2 = 1, shape (n, 3, 4).
+    """Return three points (C_1, C_2, c, s) of each solution set, shape (n, 3, 4).
+
+    The points lie on c^2 + s^2 = 1 or nearest to it.
 
     Where the matrix is singular (identical modules in step, say) the solution set is a line and meets the circle twice;
     near such a matrix both points are needed as starts, so the line through the weakest direction is always taken. No
@@ -211,13 +224,13 @@ def _circle_points(matrices, constant):
 
 
 def wrapped(value, modulus):
-    """value modulo modulus, in [0, modulus) also after rounding."""
+    """Return value modulo modulus, in [0, modulus) also after rounding."""
     value = np.mod(value, modulus)
     return np.where(value >= modulus, 0.0, value)
 
 
 def distinct(roots: np.ndarray, period: float, phases: int):
-    """One of each group of equal rows, and the size of each group.
+    """Return one of each group of equal rows, and the size of each group.
 
     The first `phases` columns are compared on the circle of the given period.
     """

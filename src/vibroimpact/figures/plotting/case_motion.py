@@ -22,14 +22,19 @@ AS_ASYMMETRIC = "as in no motion of the chapter's theory"
 
 
 def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Samples and events of the simulated window of a case, from the files in inputs if they are given.
+    """Return the samples and events of the simulated window of a case, from the files in inputs if they are given.
 
-    Args:
-        parameters: of the system, by name.
-        settings: of the simulation, see `vibroimpact.accuracy.window.window`.
+    Parameters
+    ----------
+    parameters : dict
+        Of the system, by name.
+    settings : dict
+        Of the simulation, see `vibroimpact.accuracy.window.window`.
 
-    Raises:
-        ValueError: the files hold another case, or were made with other parameters or settings.
+    Raises
+    ------
+    ValueError
+        If the files hold another case, or were made with other parameters or settings.
     """
     if inputs:
         made = json.loads(Path(inputs["summary"]).read_text(encoding="utf-8"))
@@ -43,9 +48,14 @@ def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tupl
 def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -> str:
     """Return whether a simulated motion repeats, and how long its balls fly, in Markdown: measured in its window.
 
-    Args:
-        displacements: shape (n, 4), `per_cycle` times in a forcing period.
-        impacts: columns tau, module, wall, in the window. period: of the forcing.
+    Parameters
+    ----------
+    displacements
+        Shape (n, 4), `per_cycle` times in a forcing period.
+    impacts : DataFrame
+        Columns tau, module, wall, in the window.
+    period : float
+        Of the forcing.
     """
     mirror = mirror_distance(displacements, per_cycle)
     kind = f"symmetric, {AS_SYMMETRIC}" if mirror <= SETTLED else f"**asymmetric**, {AS_ASYMMETRIC}"

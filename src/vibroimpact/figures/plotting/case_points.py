@@ -19,10 +19,12 @@ HINT = "with inputs = {} the notebook computes from its own parameters"
 
 
 def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
-    """The fixed points of a case, from inputs["points"] if that is given; see `fixed_point_table`.
+    """Return the fixed points of a case, from inputs["points"] if that is given; see `fixed_point_table`.
 
-    Raises:
-        ValueError: the file holds another case, or other points than those of the system.
+    Raises
+    ------
+    ValueError
+        If the file holds another case, or other points than those of the system.
     """
     computed = fixed_point_table(case, system)
     if not inputs:
@@ -38,8 +40,10 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
     Columns label, orbit (label of the exact orbit that goes with the point), exact (verdict of its multipliers),
     largest multiplier (their largest modulus), ...
 
-    Raises:
-        ValueError: the file holds another case, or other points.
+    Raises
+    ------
+    ValueError
+        If the file holds another case, or other points.
     """
     if inputs:
         orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["points"])

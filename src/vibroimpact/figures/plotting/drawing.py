@@ -14,7 +14,7 @@ CENTRE_LINE = (0, (7, 2, 1.5, 2))
 
 
 def sheet(width: float, height: float) -> tuple[Figure, object]:
-    """A figure with one bare set of axes whose data units are mm from the lower left corner of the paper."""
+    """Return a figure with one bare set of axes whose data units are mm from the lower left corner of the paper."""
     figure = new_figure(width, height, layout=None)
     axes = figure.add_axes((0, 0, 1, 1), xlim=(0, width), ylim=(0, height))
     axes.set_axis_off()
@@ -22,19 +22,19 @@ def sheet(width: float, height: float) -> tuple[Figure, object]:
 
 
 def polyline(axes, x, y, linewidth=LINE, **style):
-    """A line through points."""
+    """Return a line through points."""
     style = {"color": BLACK, "solid_capstyle": "round", "solid_joinstyle": "round"} | style
     return axes.plot(x, y, linewidth=linewidth, **style)[0]
 
 
 def symbol(axes, x, y, text, **style):
-    """A symbol centred on a point."""
+    """Return a symbol centred on a point."""
     style = {"fontsize": SYMBOL, "ha": "center", "va": "center"} | style
     return axes.text(x, y, text, **style)
 
 
 def ground(axes, x, y, outside, spacing=1.5, length=1.5):
-    """The surface of the ground through the points (x, y), hatched on the side of the unit vector `outside`."""
+    """Draw the surface of the ground through the points (x, y), hatched on the side of the unit vector `outside`."""
     polyline(axes, x, y, OUTLINE)
     start, end = np.array([x[0], y[0]]), np.array([x[-1], y[-1]])
     run = np.linalg.norm(end - start)
@@ -47,7 +47,7 @@ def ground(axes, x, y, outside, spacing=1.5, length=1.5):
 
 
 def spring(axes, x0, x1, y, teeth=5, height=1.5, lead=2.0):
-    """A linear spring from (x0, y) to (x1, y)."""
+    """Draw a linear spring from (x0, y) to (x1, y)."""
     zigzag = np.linspace(x0 + lead, x1 - lead, 2 * teeth + 1)
     offset = np.concatenate([[0.0], height * np.resize([1.0, -1.0], 2 * teeth), [0.0]])
     middles = np.concatenate([zigzag[:1], 0.5 * (zigzag[1:] + zigzag[:-1]), zigzag[-1:]])
@@ -55,7 +55,7 @@ def spring(axes, x0, x1, y, teeth=5, height=1.5, lead=2.0):
 
 
 def damper(axes, x0, x1, y, height=1.5, length=4.0):
-    """A viscous damper from (x0, y) to (x1, y): a cup fixed to the left end, a piston to the right one."""
+    """Draw a viscous damper from (x0, y) to (x1, y): a cup fixed to the left end, a piston to the right one."""
     left, right = 0.5 * (x0 + x1 - length), 0.5 * (x0 + x1 + length)
     piston = left + 0.45 * length
     polyline(axes, [x0, left], [y, y])
@@ -65,19 +65,19 @@ def damper(axes, x0, x1, y, height=1.5, length=4.0):
 
 
 def body(axes, x, y, width, height, **style):
-    """A rigid body with its lower left corner at (x, y)."""
+    """Draw a rigid body with its lower left corner at (x, y)."""
     style = {"facecolor": LIGHT_GREY, "edgecolor": BLACK, "linewidth": OUTLINE} | style
     axes.add_patch(Rectangle((x, y), width, height, **style))
 
 
 def ball(axes, x, y, radius, **style):
-    """A ball centred at (x, y)."""
+    """Draw a ball centred at (x, y)."""
     style = {"facecolor": "white", "edgecolor": BLACK, "linewidth": OUTLINE} | style
     axes.add_patch(Circle((x, y), radius, **style))
 
 
 def arrow(axes, tail, head, style="-|>", linewidth=LINE, size=6.0):
-    """An arrow between two points, its tip exactly on the second."""
+    """Draw an arrow between two points, its tip exactly on the second."""
     axes.add_patch(
         FancyArrowPatch(
             tail,
@@ -95,12 +95,12 @@ def arrow(axes, tail, head, style="-|>", linewidth=LINE, size=6.0):
 
 
 def coordinate(axes, x, y, length, text):
-    """The positive direction of a coordinate that is measured at x."""
+    """Draw the positive direction of a coordinate that is measured at x."""
     arrow(axes, (x, y), (x + length, y), linewidth=0.7 * LINE)
     symbol(axes, x + length + 0.8, y, text, ha="left")
 
 
 def dimension(axes, x0, x1, y, text):
-    """A dimension line between x0 and x1."""
+    """Draw a dimension line between x0 and x1."""
     arrow(axes, (x0, y), (x1, y), style="<|-|>", linewidth=THIN)
     symbol(axes, 0.5 * (x0 + x1), y + 0.8, text, va="bottom")

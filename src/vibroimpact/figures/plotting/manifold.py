@@ -12,12 +12,14 @@ BRANCHES = {"SIM unstable": UNSTABLE, "SIM stable": STABLE}
 
 
 def branches(panel: str, kappa: float, C_max: float, points: int = 401) -> list[pd.DataFrame]:
-    """Both branches of B(C), (10.16), for 0 <= C <= C_max, split where (10.26) says; columns C, B.
+    """Return both branches of B(C), (10.16), for 0 <= C <= C_max, split where (10.26) says; columns C, B.
 
     The point where the branches meet is in both, and the fold C_min of (10.25) is among the points.
 
-    Raises:
-        ValueError: C_max does not reach beyond the fold.
+    Raises
+    ------
+    ValueError
+        If C_max does not reach beyond the fold.
     """
     r = rho(kappa)
     limit, fold = printed_limit(r), C_min(r)

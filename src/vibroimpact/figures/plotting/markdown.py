@@ -9,19 +9,19 @@ EXACTLY = "**The exact system:**"
 
 
 def one_line(text) -> str:
-    """A text on one line, without characters that cannot be seen."""
+    """Return a text on one line, without characters that cannot be seen."""
     return "".join(
         letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in " ".join(str(text).split())
     )
 
 
 def plain(text) -> str:
-    """A text as it is: no markup, formula, link or entity begins in it, and a cell of a table ends behind it."""
+    """Return a text as it is: no markup, formula, link or entity begins in it, and a cell of a table ends behind it."""
     return ESCAPED.sub(r"\\\1", one_line(text))
 
 
 def code(text) -> str:
-    """A text in the letters of code, however many backticks are in it."""
+    """Return a text in the letters of code, however many backticks are in it."""
     text = one_line(text)
     fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
     return f"{fence} {text} {fence}" if "`" in text else f"{fence}{text}{fence}"

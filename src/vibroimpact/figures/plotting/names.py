@@ -24,8 +24,12 @@ def name_curves(figure, panels: dict, **style) -> None:
 
     Call this last: it fixes the limits and the layout of the figure. A halo hides what is no line, as a shade.
 
-    Args:
-        panels: by axes the names with the Line2D that show each curve, as pairs. style: of the texts.
+    Parameters
+    ----------
+    panels : dict
+        By axes the names with the Line2D that show each curve, as pairs.
+    style
+        Of the texts.
     """
     figure.draw_without_rendering()
     for axes, curves in panels.items():
@@ -91,7 +95,7 @@ class _Names:
 
 
 def _outline(line, point):
-    """Points along a line and the radius of its marker, or of what lies between, (n, 3) pixels."""
+    """Return the points along a line and the radius of its marker, or of what lies between, (n, 3) pixels."""
     corners = line.get_transform().transform(line.get_xydata())
     corners = corners[np.isfinite(corners).all(axis=1)]
     marked = line.get_marker() not in ("", "None", None)
@@ -104,7 +108,7 @@ def _outline(line, point):
 
 
 def _gaps(place, half, points):
-    """Distances of a box from discs (n, 3)."""
+    """Return the distances of a box from discs (n, 3)."""
     apart = np.maximum(np.abs(points[:, :2] - place) - half, 0.0)
     return np.hypot(apart[..., 0], apart[..., 1]) - points[:, 2]
 

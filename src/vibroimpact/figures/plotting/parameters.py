@@ -12,12 +12,17 @@ OF_ALL = ("figure", "alt", "case", "inputs")
 def refuse_unknown(shell, known) -> None:
     """Check the names that the cells of parameters assign, where they were run last.
 
-    Args:
-        shell: the running IPython, which keeps the sources of cells.
-        known: names of the parameters, but for those of all notebooks.
+    Parameters
+    ----------
+    shell
+        The running IPython, which keeps the sources of cells.
+    known
+        Names of the parameters, but for those of all notebooks.
 
-    Raises:
-        ValueError: others are assigned.
+    Raises
+    ------
+    ValueError
+        If others are assigned.
     """
     cells = shell.user_ns["In"]
     last = max(number for number, source in enumerate(cells) if source.startswith(FIRST))

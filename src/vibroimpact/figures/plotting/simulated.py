@@ -16,11 +16,14 @@ LONG_WINDOW = 300.0
 
 
 def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
-    """X_2 and W_2 = X_2 - Y_2 over tau, as simulated.
+    """Return X_2 and W_2 = X_2 - Y_2 over tau, as simulated.
 
-    Args:
-        samples: columns tau, X2, Y2 (others are ignored), ascending in tau.
-        events: impacts, sticks and releases, columns tau, module, wall, X2 (others are ignored).
+    Parameters
+    ----------
+    samples : DataFrame
+        Columns tau, X2, Y2 (others are ignored), ascending in tau.
+    events : DataFrame
+        Impacts, sticks and releases, columns tau, module, wall, X2 (others are ignored).
 
     Returns columns panel ("a", "b"), series ("X_2", "W_2"), tau, cycle (tau in forcing periods), value. The second
     module's events between the first and the last sample are among the points: there W_2 is exactly at a wall and has
@@ -65,8 +68,10 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
 def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
     """Draw the table of `compute`: a X_2 above b W_2, the walls W_2 = 1 and W_2 = -1 as thin lines.
 
-    Args:
-        shaded: intervals of time in forcing cycles, (n, 2), on a grey ground.
+    Parameters
+    ----------
+    shaded : ndarray, default ()
+        Intervals of time in forcing cycles, (n, 2), on a grey ground.
     """
     figure = new_figure(SINGLE_COLUMN, 80.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True)

@@ -41,12 +41,12 @@ def styled(function):
 
 
 def new_figure(width: float, height: float, layout: str | None = "constrained") -> Figure:
-    """An empty figure of exactly width by height in mm."""
+    """Return an empty figure of exactly width by height in mm."""
     return Figure(figsize=(width / 25.4, height / 25.4), layout=layout)
 
 
 def side_by_side(panels: int, most: int = 3) -> tuple[int, int]:
-    """Columns and rows of so many panels, at most three to a row of two columns' width."""
+    """Return the columns and rows of so many panels, at most three to a row of two columns' width."""
     columns = min(panels, most)
     return columns, -(-panels // columns)
 
@@ -72,7 +72,7 @@ def hatch_gaps(axes) -> None:
 
 @styled
 def png(figure: Figure) -> bytes:
-    """The picture of a figure, to be shown and not to be kept."""
+    """Return the picture of a figure, to be shown and not to be kept."""
     buffer = BytesIO()
     figure.savefig(buffer, format="png")
     return buffer.getvalue()
@@ -104,9 +104,12 @@ def draw_tables(figure, read: dict) -> Figure:
 def write_and_draw(figure, computed, outputs: dict) -> None:
     """Write what a figure's `compute` returned, and draw what was written: the picture is that of the files.
 
-    Args:
-        figure: its module.
-        outputs: paths by kind of picture and by name of table.
+    Parameters
+    ----------
+    figure
+        Its module.
+    outputs : dict
+        Paths by kind of picture and by name of table.
     """
     for name, table in _by_name(computed).items():
         tables.write(table, outputs[name])
@@ -116,10 +119,14 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
 def shown(figure, inputs: dict, *args, **settings) -> tuple:
     """Return what a page shows of a figure: what its `compute` returns, and its PNG (a path or the content).
 
-    Args:
-        figure: its module.
-        inputs: paths of its tables and "png" in a build, which are read; empty: it is computed and drawn.
-        args, settings: of `compute`.
+    Parameters
+    ----------
+    figure
+        Its module.
+    inputs : dict
+        Paths of its tables and "png" in a build, which are read; empty: it is computed and drawn.
+    args, settings
+        Of `compute`.
     """
     if not inputs:
         computed = figure.compute(*args, **settings)

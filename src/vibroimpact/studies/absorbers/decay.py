@@ -22,20 +22,28 @@ at most, at so many times as many impulses; so many of the least times found the
 
 
 def decay_time(system: System, impulse: float, module: int = 1, fraction: float = 0.1, cycles: int = 10_000) -> float:
-    """Time tau after an impulse on a box, until a fraction of the energy is left; the forces are left out.
+    """Return the time tau after an impulse on a box, until a fraction of the energy is left; the forces are left out.
 
     Before, all is at rest, the balls in the middle of their boxes. Without force energy only falls, so it passes the
     fraction once, in a flight (the root is found on its closed form) or in an impact.
 
-    Args:
-        impulse: velocity that it gives to the box (of mass 1), dimensionless: in units of L omega_10.
-        module: 1 or 2.
-        fraction: between 0 and 1, of the energy at the start.
-        cycles: forcing periods after which the search is given up; then the time is inf.
+    Parameters
+    ----------
+    impulse : float
+        Velocity that it gives to the box (of mass 1), dimensionless: in units of L omega_10.
+    module : int, default 1
+        1 or 2.
+    fraction : float, default 0.1
+        Between 0 and 1, of the energy at the start.
+    cycles : int, default 10000
+        Forcing periods after which the search is given up; then the time is inf.
 
-    Raises:
-        ValueError: an argument is malformed.
-        ArithmeticError: as `simulate`.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed.
+    ArithmeticError
+        As `simulate`.
     """
     free = instance("system", system, System).with_(f10_hat=0.0, f20_hat=0.0)
     state, impulse, start = np.zeros(8), real("impulse", impulse), 0.0
@@ -56,17 +64,24 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
 
 
 def quickest_decay(system: System, impulses, times, module: int = 1, fraction: float = 0.1) -> tuple[float, float]:
-    """Impulse after which a fraction of the energy is left soonest, and the time that it takes.
+    """Return the impulse after which a fraction of the energy is left soonest, and the time that it takes.
 
     The time jumps where an impact comes or goes, and has many minima in between. The search is as fine as `FINER` says:
     what is quicker over a narrower range of impulses is not seen.
 
-    Args:
-        system, module, fraction: as for `decay_time`.
-        impulses: (n,) ascending, to look between. times: (n,) those of `decay_time` after them.
+    Parameters
+    ----------
+    system, module, fraction
+        As for `decay_time`.
+    impulses
+        (n,) ascending, to look between.
+    times
+        (n,) those of `decay_time` after them.
 
-    Raises:
-        ArithmeticError: as `decay_time`.
+    Raises
+    ------
+    ArithmeticError
+        As `decay_time`.
     """
 
     def time(logarithm):
@@ -94,13 +109,13 @@ def quickest_decay(system: System, impulses, times, module: int = 1, fraction: f
 
 
 def _energies(system, states):
-    """Stored energy of states (..., 8), [boxes, balls]."""
+    """Return the stored energy of states (..., 8), [boxes, balls]."""
     values = np.moveaxis(states, -1, 0)
     return stored(system.stiffness2, system.alpha12, system.epsilon, values[:4], values[4:])
 
 
 def _time_within(system, flight, target):
-    """Time in a flight at which the energy falls to the target; 0 if it starts there."""
+    """Return the time in a flight at which the energy falls to the target; 0 if it starts there."""
     stuck = flight[WALLS : WALLS + 2] != 0
     rate, boxes, balls = rate_matrix(system, stuck)[:4, :4], flight[BEFORE : BEFORE + 4], flight[BEFORE + 4 : AFTER]
 

@@ -28,19 +28,26 @@ class Linear:
     force: np.ndarray
 
     def amplitudes(self, Omega) -> np.ndarray:
-        """Largest |X_i| of the steady response, shape (..., 2), at frequencies (...); the rms is that over sqrt(2).
+        """Return the largest |X_i| of the steady response, shape (..., 2), at frequencies (...).
 
-        Raises:
-            numpy.linalg.LinAlgError: it is driven at an undamped resonance.
+        The root mean square is this value over sqrt(2).
+
+        Raises
+        ------
+        numpy.linalg.LinAlgError
+            If it is driven at an undamped resonance.
         """
         return np.abs(self._responses(Omega)[..., :2])
 
     def strokes(self, Omega) -> np.ndarray:
-        """Largest |X_i - Y_i| of the steady response, shape (..., 2): strokes of absorbers in their boxes.
+        """Return the largest |X_i - Y_i| of the steady response, shape (..., 2): strokes of absorbers in their boxes.
 
-        Raises:
-            ValueError: there are no absorbers.
-            numpy.linalg.LinAlgError: it is driven at an undamped resonance.
+        Raises
+        ------
+        ValueError
+            If there are no absorbers.
+        numpy.linalg.LinAlgError
+            If it is driven at an undamped resonance.
         """
         if len(self.force) != 4:
             raise ValueError(f"strokes: needs two boxes with an absorber each, got {len(self.force)} coordinates")
@@ -48,30 +55,36 @@ class Linear:
         return np.abs(responses[..., :2] - responses[..., 2:])
 
     def _responses(self, Omega):
-        """Complex amplitudes of all coordinates, shape (..., n)."""
+        """Return the complex amplitudes of all coordinates, shape (..., n)."""
         Omega = np.asarray(Omega, float)[..., None, None]
         impedance = self.stiffness - Omega**2 * self.mass + 1j * Omega * self.damping
         force = np.broadcast_to(self.force, impedance.shape[:-1])[..., None]
         return np.linalg.solve(impedance, force)[..., 0]
 
     def peak(self, band: tuple[float, float]) -> float:
-        """The largest |X_i| of both boxes over a band of frequencies; inf if an undamped resonance is in it.
+        """Return the largest |X_i| of both boxes over a band of frequencies; inf if an undamped resonance is in it.
 
-        Raises:
-            ValueError: the band is none.
+        Raises
+        ------
+        ValueError
+            If the band is none.
         """
         return self._highest(self.amplitudes, band)
 
     def stroke(self, band: tuple[float, float]) -> float:
-        """The largest |X_i - Y_i| of both absorbers over a band of frequencies: the room that they need on each side.
+        """Return the largest |X_i - Y_i| of both absorbers over a band of frequencies.
 
-        Raises:
-            ValueError: the band is none, or there are no absorbers.
+        This is the room that an absorber needs on each side.
+
+        Raises
+        ------
+        ValueError
+            If the band is none, or there are no absorbers.
         """
         return self._highest(self.strokes, band)
 
     def _highest(self, measure, band):
-        """The largest value of amplitudes or strokes over a band; inf if an undamped resonance is in it."""
+        """Return the largest value of amplitudes or strokes over a band; inf if an undamped resonance is in it."""
         low, high = checked_band(band)
         resonances = np.abs(self.poles.imag)
         inside = resonances[(resonances > low) & (resonances < high)]
@@ -97,12 +110,16 @@ class Linear:
         return eigvals(self.rate)
 
     def decay_time(self, module: int = 1, fraction: float = 0.1) -> float:
-        """Time tau after an impulse on a box, all at rest before, until a fraction of the energy is left; inf: never.
+        """Return the time tau until a fraction of the energy of an impulse is left, or inf.
+
+        The impulse acts on one box of a system at rest.
 
         Without force energy only falls, so it passes the fraction once. It does not depend on the impulse.
 
-        Raises:
-            ValueError: module is not 1 or 2, or the fraction not between 0 and 1.
+        Raises
+        ------
+        ValueError
+            If module is not 1 or 2, or the fraction not between 0 and 1.
         """
         i, n = whole("module", module, 1, 2) - 1, len(self.force)
         left = np.linalg.solve(self.mass, np.eye(n)[i])
@@ -124,7 +141,7 @@ class Linear:
 
 
 def _height(measure, low, high):
-    """The largest value between two frequencies with one hump between them."""
+    """Return the largest value between two frequencies with one hump between them."""
     best = minimize_scalar(
         lambda Omega: -measure(Omega).max(), bounds=(low, high), method="bounded", options={"xatol": 1e-10}
     )
@@ -132,10 +149,12 @@ def _height(measure, low, high):
 
 
 def checked_band(band) -> tuple[float, float]:
-    """Two frequencies, the first above 0 and the second above it.
+    """Return two frequencies, the first above 0 and the second above it.
 
-    Raises:
-        ValueError: they are not.
+    Raises
+    ------
+    ValueError
+        If they are not.
     """
     low, high = pair("band", band)
     if not 0 < low < high:
@@ -144,10 +163,12 @@ def checked_band(band) -> tuple[float, float]:
 
 
 def checked_fraction(fraction) -> float:
-    """A number between 0 and 1.
+    """Return a number between 0 and 1.
 
-    Raises:
-        ValueError: it is none.
+    Raises
+    ------
+    ValueError
+        If it is none.
     """
     fraction = real("fraction", fraction)
     if not 0 < fraction < 1:

@@ -49,14 +49,19 @@ class Cycles:
 
 
 def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Peak:
-    """The peak of systems along a band, each from all states (n, 8).
+    """Return the peak of systems along a band, each from all states (n, 8).
 
-    Args:
-        cycles, settle: of `ensemble`; a run is observed after `settle` cycles.
+    Parameters
+    ----------
+    cycles, settle : int
+        Of `ensemble`; a run is observed after `settle` cycles.
 
-    Raises:
-        ArithmeticError: a run could not be finished.
-        ValueError: as `ensemble`.
+    Raises
+    ------
+    ArithmeticError
+        If a run could not be finished.
+    ValueError
+        As `ensemble`.
     """
     runs = by_cycle(systems, states, cycles, settle)
     if runs.unfinished:
@@ -71,8 +76,10 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
 
     A module that takes no part is put at rest.
 
-    Raises:
-        ValueError: no cycle is observed, or as `ensemble`.
+    Raises
+    ------
+    ValueError
+        If no cycle is observed, or as `ensemble`.
     """
     if not cycles > settle:
         raise ValueError(f"cycles: {cycles} with {settle} to settle leave none to observe")
@@ -85,13 +92,16 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
 
 
 def peak_of(largest: ArrayLike) -> np.ndarray:
-    """Quantile PART of `Cycles.largest` over the cycles of all starts, at each system; nan without any cycle."""
+    """Return the quantile PART of `Cycles.largest` over the cycles of all starts, at each system.
+
+    The result is nan without any cycle.
+    """
     largest = np.asarray(largest)
     return np.array([np.quantile(one[~np.isnan(one)], PART) if not np.isnan(one).all() else np.nan for one in largest])
 
 
 def standard_error(largest: ArrayLike) -> float:
-    """Standard error of the highest `peak_of` all systems: the jackknife, one start left out at a time.
+    """Return the standard error of the highest `peak_of` all systems: the jackknife, one start left out at a time.
 
     It takes the starts as drawn independently; it does not take their cycles so, which are not. Where a peak is that
     of a single start it is large. nan with fewer than 2 starts.
@@ -105,10 +115,12 @@ def standard_error(largest: ArrayLike) -> float:
 
 
 def finished(runs: np.ndarray) -> np.ndarray:
-    """The outcomes of `ensemble`, if all runs finished.
+    """Return the outcomes of `ensemble`, if all runs finished.
 
-    Raises:
-        ArithmeticError: a run could not be finished.
+    Raises
+    ------
+    ArithmeticError
+        If a run could not be finished.
     """
     failed = runs["status"][runs["status"] != FINISHED]
     if len(failed):

@@ -23,21 +23,23 @@ class Tuning:
 
 
 def without_balls(system) -> Linear:
-    """The boxes alone, of mass 1."""
+    """Return the boxes alone, of mass 1."""
     return Linear(np.diag(masses(system)), damping_matrix(system), stiffness_matrix(system), system.forcing)
 
 
 def fixed_balls(system) -> Linear:
-    """Boxes with their balls fixed in them, of mass 1 + epsilon."""
+    """Return the boxes with their balls fixed in them, of mass 1 + epsilon."""
     stuck = np.diag(masses(system, (True, True)))
     return Linear(stuck, damping_matrix(system), stiffness_matrix(system), system.forcing)
 
 
 def tuned(system, tuning: Tuning) -> Linear:
-    """The boxes, each with a linear absorber in place of its ball; coordinates (X1, X2, Y1, Y2).
+    """Return the boxes, each with a linear absorber in place of its ball; coordinates (X1, X2, Y1, Y2).
 
-    Raises:
-        ValueError: a frequency is not above 0 or a damping ratio below 0.
+    Raises
+    ------
+    ValueError
+        If a frequency is not above 0 or a damping ratio below 0.
     """
     frequency, damping = _pair("frequency", tuning.frequency), _pair("damping", tuning.damping)
     if not (frequency > 0).all() or not (damping >= 0).all():
@@ -52,7 +54,7 @@ def tuned(system, tuning: Tuning) -> Linear:
 
 
 def _attached(matrix, links):
-    """A matrix (2, 2) of the boxes with links (2,) to the absorbers, shape (4, 4)."""
+    """Return a matrix (2, 2) of the boxes with links (2,) to the absorbers, shape (4, 4)."""
     link = np.diag(links)
     return np.block([[matrix + link, -link], [-link, link]])
 

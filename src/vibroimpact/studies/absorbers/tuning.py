@@ -14,7 +14,10 @@ resonance, the least peak is that of an absorber with as little damping, or stif
 
 
 def den_hartog(system) -> Tuning:
-    """The tuning of the textbook (Den Hartog, Mechanical Vibrations, 4th edition 1956, chapter 3; damping: Brock 1946).
+    """Return the textbook tuning.
+
+    The frequency is that of Den Hartog (Mechanical Vibrations, 4th edition 1956, chapter 3), the damping that of Brock
+    (1946).
 
     It makes both fixed points of the response of a single undamped box equally high, sqrt(1 + 2 / epsilon) of its
     static deflection, and nearly its peaks. Each box is taken as if it were alone: where boxes are damped or coupled
@@ -31,14 +34,17 @@ def den_hartog(system) -> Tuning:
 
 
 def best(system, band: tuple[float, float]) -> Tuning:
-    """The tuning with the lowest peak (`Linear.peak`) over a band of frequencies, the forces kept.
+    """Return the tuning with the lowest peak (`Linear.peak`) over a band of frequencies, the forces kept.
 
     The peak is a largest value, which has kinks: a bound on all values in the band is minimised instead, by sequential
     quadratic programming from three starts. It is a local optimum from each, the best of which is returned.
 
-    Raises:
-        ValueError: the band is none, or no force acts.
-        ArithmeticError: no start led to an optimum.
+    Raises
+    ------
+    ValueError
+        If the band is none, or no force acts.
+    ArithmeticError
+        If no start led to an optimum.
     """
     frequencies = np.linspace(*checked_band(band), POINTS)
     if not system.forcing.any():
@@ -68,8 +74,10 @@ def best(system, band: tuple[float, float]) -> Tuning:
 def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
     """Return all linear systems for comparison, by name; the best absorbers are those of a band of frequencies.
 
-    Raises:
-        ValueError, ArithmeticError: as `best`.
+    Raises
+    ------
+    ValueError, ArithmeticError
+        As `best`.
     """
     return {
         "without balls": without_balls(system),
@@ -80,7 +88,7 @@ def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
 
 
 def _levels(logarithms, system, frequencies):
-    """Logarithms of |X_i| at all frequencies, of both boxes that move."""
+    """Return the logarithms of |X_i| at all frequencies, of both boxes that move."""
     amplitudes = tuned(system, _tuning(logarithms)).amplitudes(frequencies)
     return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
 

@@ -90,7 +90,7 @@ class Evidence:
         return super().__getattribute__(name)
 
     def rows(self, name: str, case: str) -> pd.DataFrame:
-        """Rows of a table for one case."""
+        """Return the rows of a table for one case."""
         _refuse(("system", name, case), self.unlike)
         table = super().__getattribute__(name)
         return table[table["case"] == case]
@@ -102,21 +102,21 @@ class Evidence:
         return System(**PARAMETERS, **CASES["equal"]) if "equal" in self.unlike else self.systems["equal"]
 
     def points(self, case: str) -> pd.DataFrame:
-        """Fixed points of a case, a row each, by label."""
+        """Return the fixed points of a case, a row each, by label."""
         return self.rows("fixed_points", case).set_index("label")
 
     def motions(self, case: str) -> pd.DataFrame:
-        """Exact orbits of a case that stay between the walls."""
+        """Return the exact orbits of a case that stay between the walls."""
         orbits = self.rows("orbits", case)
         return orbits[orbits["admissible"].astype(bool)]
 
     def measured(self, case: str, start: str, quantity: str) -> pd.DataFrame:
-        """Rows of the table of modulation for one quantity, of spread starts or the one from rest."""
+        """Return the rows of the table of modulation for one quantity, of spread starts or the one from rest."""
         table = self.rows("modulation", case)
         return table[(table["start"] == start) & (table["quantity"] == quantity)]
 
     def shares(self, case: str) -> pd.Series:
-        """Share of the spread starts that end in each regime, by its name."""
+        """Return the share of the spread starts that end in each regime, by its name."""
         return self.measured(case, "spread", "share of starts").set_index("regime")["mean"]
 
 

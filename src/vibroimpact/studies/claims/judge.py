@@ -40,12 +40,14 @@ def problems(claims: list[dict]) -> list[str]:
 
 
 def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
-    """The claims, each with its verdict, the parts that hold or do not, and the numbers.
+    """Return the claims, each with its verdict, the parts that hold or do not, and the numbers.
 
     One that reads evidence which is not about the chapter is not judged, and has the reason.
 
-    Raises:
-        ValueError: the list of claims has problems.
+    Raises
+    ------
+    ValueError
+        If the list of claims has problems.
     """
     found = problems(claims)
     if found:
@@ -63,7 +65,7 @@ def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
 
 
 def to_markdown(judged: list[dict], unlike=()) -> str:
-    """A readable table of judged claims, after counts of verdicts and facts; and why some were not judged."""
+    """Return a readable table of judged claims, after counts of verdicts and facts; and why some were not judged."""
     verdicts = (*VERDICTS, NOT_JUDGED) if unlike else VERDICTS
     counts = {verdict: sum(claim["verdict"] == verdict for claim in judged) for verdict in verdicts}
     lines = [
@@ -82,7 +84,7 @@ def to_markdown(judged: list[dict], unlike=()) -> str:
 
 
 def facts(judged: list[dict]) -> dict[str, list[dict]]:
-    """The facts that refute claims, in their order, each with all claims that do not hold because of it.
+    """Return the facts that refute claims, in their order, each with all claims that do not hold because of it.
 
     A refuted claim that names none counts as a fact of its own: what would refute it does.
     """

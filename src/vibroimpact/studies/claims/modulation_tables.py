@@ -25,14 +25,23 @@ SHOWN = 4
 def modulation_tables(
     systems: dict, starts: int, seed: int, cycles: int, blocks: int, block: int, windows: list[int], observation: dict
 ) -> dict:
-    """Measures of every regime that starts end in, case by case; the start from rest is kept apart.
+    """Return the measures of every regime that starts end in, case by case; the start from rest is kept apart.
 
-    Args:
-        systems: case -> system. starts: number of spread starts beside the one from rest.
-        cycles: window of the measures. blocks, block: of Lyapunov exponents of chaotic spread starts, so
-            many blocks of so many cycles; exponents of other starts come from the window.
-        windows: lengths in cycles over which measures of the envelope are compared.
-        observation: arguments of `regimes.settling.Observation`.
+    Parameters
+    ----------
+    systems : dict
+        Case -> system.
+    starts : int
+        Number of spread starts beside the one from rest.
+    cycles : int
+        Window of the measures.
+    blocks, block : int
+        Of Lyapunov exponents of chaotic spread starts, so many blocks of so many cycles; exponents of other starts come
+        from the window.
+    windows : list of int
+        Lengths in cycles over which measures of the envelope are compared.
+    observation : dict
+        Arguments of `regimes.settling.Observation`.
 
     Returns "measures": columns case, start ("rest", "spread"), regime, starts, quantity, module (0: both), mean,
     uncertainty (standard error over starts; binomial for the share of starts; of one start that of its exponent, from
@@ -88,7 +97,7 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
 
 
 def _windows(case, system, states, windows):
-    """Measures of the envelope over windows of several lengths, which begin together."""
+    """Return the measures of the envelope over windows of several lengths, which begin together."""
     runs = [sampled(system, state, max(windows)) for state in states]
     rows = []
     for module in (1, 2):

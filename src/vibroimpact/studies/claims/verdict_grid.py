@@ -16,7 +16,7 @@ NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 
 
 def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
-    """A row per fixed point and epsilon, for forces at the centres of points x points cells.
+    """Return a row per fixed point and epsilon, for forces at the centres of points x points cells.
 
     Columns epsilon, f10_hat, f20_hat, C1, C2 (of the fixed point, the same for every epsilon), one per criterion of the
     theory, admissible (True if its exact orbit stays between the walls) and exact: the verdict on that orbit,
@@ -40,7 +40,9 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
 
 
 def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
-    """A row per fixed point of a system and epsilon: label, verdicts as in `compute`, and the largest multiplier.
+    """Return a row per fixed point of a system and epsilon.
+
+    A row has the label, the verdicts as in `compute`, and the largest multiplier.
 
     Columns epsilon, label, C1, C2 (of the fixed point), one per criterion of the theory, exact, multiplier (largest
     modulus of the exact orbit; blank where there is none).
@@ -59,7 +61,7 @@ def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
 
 
 def exact_orbits(system, points, roots):
-    """The Orbit of each fixed point, by their C (n, 2), None where there is none.
+    """Yield the Orbit of each fixed point, by their C (n, 2), None where there is none.
 
     roots: of all symmetric orbits, as `symmetric_solutions` lists them.
     """

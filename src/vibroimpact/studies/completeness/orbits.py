@@ -58,8 +58,10 @@ def certify(system) -> Proof:
 
     There is none where nothing is driven.
 
-    Raises:
-        ValueError: undamped boxes in resonance with the impacts.
+    Raises
+    ------
+    ValueError
+        If undamped boxes in resonance with the impacts.
     """
     listed = symmetric_solutions(system)
     if system.modules == (1, 2):
@@ -72,7 +74,7 @@ def certify(system) -> Proof:
 
 
 def _of_one_module(system):
-    """Intervals of C with exactly one root, and those that stay open, both ascending."""
+    """Return the intervals of C with exactly one root, and those that stay open, both ascending."""
     if not system.modules:
         return [], []
     i, condition = system.modules[0] - 1, _Condition(system)
@@ -89,7 +91,7 @@ def _of_one_module(system):
 
 
 def _bisect(condition):
-    """Intervals of the lag over T with exactly one root, and those that stay open, both ascending."""
+    """Return the intervals of the lag over T with exactly one root, and those that stay open, both ascending."""
     pending = [(half, k / _FIRST, (k + 1) / _FIRST) for half in (0, 1) for k in range(_FIRST)]
     isolated, undecided = [], []
     for visited in itertools.count():
@@ -121,7 +123,7 @@ class _Condition:
         self.larger = int(abs(self.amplitude[1]).mid() > abs(self.amplitude[0]).mid())
 
     def count(self, lower, upper, half):
-        """Roots with delta in (half + [lower, upper]) T/2: 0, 1, or None where that stays open."""
+        """Return the roots with delta in (half + [lower, upper]) T/2: 0, 1, or None where that stays open."""
         radius = (upper - lower) / 2
         step = arb(0, radius) * self.half_period
         F0, _ = self._at(arb((lower + upper) / 2), half)
@@ -135,7 +137,10 @@ class _Condition:
         return int((ends[0] > 0) != (ends[1] > 0))
 
     def _at(self, position, half):
-        """Taylor coefficients 0, 1, 2 of F and D at delta = (half + position) T/2, position a number or interval."""
+        """Return the Taylor coefficients 0, 1, 2 of F and D at delta = (half + position) T/2.
+
+        The position is a number or an interval.
+        """
         sign = 1 - 2 * half
         forward = (self.rate * (self.half_period * position)).exp() * self.start
         backward = (self.rate * (self.half_period * (1 - position))).exp() * self.start
@@ -153,18 +158,18 @@ class _Condition:
         return _coefficients(F), _coefficients(D)
 
     def _taylor(self, motion, direction):
-        """Taylor coefficients of a motion of the boxes, forward or backward in time."""
+        """Return the Taylor coefficients of a motion of the boxes, forward or backward in time."""
         terms = [motion]
         for k in range(1, _TERMS):
             terms.append(self.rate * terms[-1] * (arb(direction) / k))
         return terms
 
     def _entry(self, terms, row, column):
-        """P[row, column], row != column, from the response terms."""
+        """Return P[row, column], row != column, from the response terms."""
         return _series([self.kick * acb(m[2 + row, column] / self.omega, m[row, column]) for m in terms])
 
     def _own(self, i):
-        """P[i, i]: the response just before the own impact."""
+        """Return P[i, i]: the response just before the own impact."""
         velocity = self.own_velocity + self.kick * (self.start[2 + i, i] - 1)
         return _series([acb(velocity / self.omega, self.kick * self.start[i, i] - self.place)])
 
@@ -174,7 +179,7 @@ def _series(coefficients):
 
 
 def _parts(series):
-    """Real and imaginary part of a series in a real variable."""
+    """Return the real and imaginary part of a series in a real variable."""
     coefficients = series.coeffs()
     return (arb_series([getattr(c, part) for c in coefficients], prec=_TERMS) for part in ("real", "imag"))
 

@@ -64,8 +64,10 @@ def certify(system) -> Proof:
     There is none where nothing is driven: what the balls dissipate, mu rho C_i^2, leaves C_i = 0, and the search
     refuses the free motion that would be left.
 
-    Raises:
-        ValueError: as `symmetric_points.search`.
+    Raises
+    ------
+    ValueError
+        As `symmetric_points.search`.
     """
     listed = search(system)
     found, undecided = _all_zeros(system, SYMMETRIC_PAIRS)
@@ -81,8 +83,10 @@ def certify(system) -> Proof:
 def certify_asymmetric(system) -> Proof:
     """Prove the number of fixed points with an asymmetric module, mirror images counted once.
 
-    Raises:
-        ValueError: as `asymmetric_points.search`.
+    Raises
+    ------
+    ValueError
+        As `asymmetric_points.search`.
     """
     listed = asymmetric.search(system)
     isolated, undecided = _all_zeros(system, asymmetric.PAIRS)
@@ -107,7 +111,7 @@ def _matched(boxes, points):
 
 
 def _in_amplitudes(pair, box) -> Box:
-    """The box of C_i, which is x_i on the chart of small C and 1 / x_i on that of large C."""
+    """Return the box of C_i, which is x_i on the chart of small C and 1 / x_i on that of large C."""
     ends = []
     for name, (low, high) in zip(pair, box, strict=True):
         if name == LARGE:
@@ -124,7 +128,10 @@ def _same(box, known):
 
 
 def _all_zeros(system, pairs):
-    """Charts of the modules with the boxes that have exactly one zero in the square, and with those that stay open."""
+    """Return the charts of the modules with their resolved and open boxes.
+
+    A resolved box has exactly one zero in the square; an open one is undecided.
+    """
     found, undecided = [], []
     with ctx.workprec(_BITS):
         for pair in asymmetric.pairs_of(system, pairs):
@@ -136,12 +143,12 @@ def _all_zeros(system, pairs):
 
 
 def _taking_part(system, both) -> tuple:
-    """What belongs to the modules that take part, of two things."""
+    """Return the what belongs to the modules that take part, of two things."""
     return tuple(both[module - 1] for module in system.modules)
 
 
 def _subdivide(conditions):
-    """Boxes with exactly one zero, and those that stay open."""
+    """Return the boxes with exactly one zero, and those that stay open."""
     pending, found, undecided = [(0.0, 0.0, 1.0)], [], []  # all halves are powers of two, so that centres are exact
     for visited in itertools.count():
         if not pending:
@@ -168,7 +175,10 @@ def _subdivide(conditions):
 
 
 def _narrowed(conditions, x, y, half):
-    """Centre and half-width of a small box about the zero of a wide one, or None where it cannot be made small."""
+    """Return the centre and half-width of a small box about the zero of a wide one, or None.
+
+    The result is None where the box cannot be narrowed.
+    """
     while half > _KNOWN:
         _, (x, y, half) = conditions.count(x, y, half)
         half = max(half, _KNOWN)
@@ -198,7 +208,9 @@ class _Conditions:
         self._chart = functools.lru_cache(maxsize=None)(self._expanded)
 
     def count(self, x, y, half):
-        """Zeros in the box of this half-width about (x, y): 0 none, 1 exactly one in _REACH times it, or None.
+        """Return the number of zeros in the box of this half-width about (x, y).
+
+        0: none; 1: exactly one in _REACH times the box; None: undecided.
 
         With 1, also centre and half-width of a box around the zero.
         """
@@ -232,13 +244,13 @@ class _Conditions:
         return _excludes_zero(self._sides(x, y, _REACH * half)[0])
 
     def _sides(self, x, y, half):
-        """Local |Delta|^2, |beta_1 n_1|^2 and |beta_2 n_2|^2."""
+        """Return the local |Delta|^2, |beta_1 n_1|^2 and |beta_2 n_2|^2."""
         (z1, q1, beta1, n2), (z2, q2, beta2, n1) = (self._chart(i, at, half) for i, at in enumerate((x, y)))
         delta = np.multiply.outer(q1, q2 + self.K * z2) + np.multiply.outer(self.K * z1, q2)
         return _modulus_squared(delta), np.multiply.outer(beta1, n1), np.multiply.outer(n2, beta2)
 
     def _expanded(self, module, at, half):
-        """Coefficients of z, q = e z + n, beta^2 and |n_j|^2, j the other module, in t = (x - at) / half.
+        """Return the coefficients of z, q = e z + n, beta^2 and |n_j|^2, j the other module, in t = (x - at) / half.
 
         The highest of z, q and beta and of the numerator n_j are enclosed for |t| <= _REACH.
         """
@@ -252,7 +264,7 @@ class _Conditions:
 
 
 def _functions(name, at, kappa):
-    """Taylor coefficients at a point, or over an interval, of Re z, Im z, n and beta of a chart."""
+    """Return the Taylor coefficients at a point, or over an interval, of Re z, Im z, n and beta of a chart."""
     pi = arb.pi()
     rho, mu, x = 2 * (1 - kappa) / (pi * (1 + kappa)), 8 / pi**2, arb_series([at, 1], prec=_ORDERS)
     one = arb_series([1], prec=_ORDERS)
@@ -277,7 +289,7 @@ def _evaluated(coefficients, x):
 
 
 def _modulus_squared(polynomial):
-    """Coefficients of |polynomial|^2 in one or two variables."""
+    """Return the coefficients of |polynomial|^2 in one or two variables."""
     real, imaginary = _REAL(polynomial), _IMAGINARY(polynomial)
     square = np.full(2 * np.array(polynomial.shape) - 1, arb(0))
     for place in np.ndindex(polynomial.shape):
@@ -292,12 +304,12 @@ def _excludes_zero(polynomial):
 
 
 def _size(polynomial, reach):
-    """Bound on all terms but the constant one for |t| <= reach."""
+    """Return the bound on all terms but the constant one for |t| <= reach."""
     return (abs(polynomial) * reach ** _degrees(polynomial)).ravel()[1:].sum()
 
 
 def _slope(polynomial, reach):
-    """Bound on the sum of both derivatives for |t| <= reach."""
+    """Return the bound on the sum of both derivatives for |t| <= reach."""
     degrees = _degrees(polynomial)
     return (degrees * abs(polynomial) * reach ** np.maximum(degrees - 1, 0)).sum()
 

@@ -27,18 +27,24 @@ COORDINATES = ["X1", "Y1", "X2", "Y2"]
 
 
 def compute(samples: pd.DataFrame, events: pd.DataFrame, period: float, cycles: int) -> dict[str, pd.DataFrame]:
-    """The first so many forcing cycles of a simulated window.
+    """Return the first so many forcing cycles of a simulated window.
 
-    Args:
-        samples: columns tau, X1, Y1, X2, Y2 (others are ignored), ascending in tau.
-        events: impacts, sticks and releases, columns tau, module, wall, kind and the coordinates.
-        period: of the forcing.
+    Parameters
+    ----------
+    samples : DataFrame
+        Columns tau, X1, Y1, X2, Y2 (others are ignored), ascending in tau.
+    events : DataFrame
+        Impacts, sticks and releases, columns tau, module, wall, kind and the coordinates.
+    period : float
+        Of the forcing.
 
     Returns "motion": columns t (in periods from the start), X1, Y1, X2, Y2, at all samples and events, so that straight
     lines between the rows follow every flight up to its corner; "impacts": columns t, module, wall.
 
-    Raises:
-        ValueError: the window holds fewer cycles.
+    Raises
+    ------
+    ValueError
+        If the window holds fewer cycles.
     """
     start = samples["tau"].iloc[0]
     end = start + cycles * period
@@ -59,7 +65,7 @@ def _timed(table, start, period):
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """A still of the animation: one row per instant, over the first cycle that has impacts; impacts are marked.
+    """Return a still of the animation: one row per instant, over the first cycle that has impacts; impacts are marked.
 
     Of more than a cycle it is the displacement of each box over time, and its envelope.
     """
@@ -78,7 +84,7 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
 
 
 def _envelopes(motion):
-    """The displacements of both boxes, and their largest and smallest value in each cycle."""
+    """Return the displacements of both boxes, and their largest and smallest value in each cycle."""
     figure = new_figure(DOUBLE_COLUMN, ROW * INSTANTS)
     cycle = np.minimum(motion["t"].astype(int), round(motion["t"].iloc[-1]) - 1)
     for axes, module in zip(figure.subplots(2, 1, sharex=True, sharey=True), PLACES, strict=True):
@@ -113,7 +119,7 @@ def _instant(axes, tables, t):
 
 
 def _spring(left: float, right: float, turns: int = 7):
-    """A zigzag between two places."""
+    """Return a zigzag between two places."""
     lead = 0.15 * (right - left)
     inner = np.linspace(left + lead, right - lead, 2 * turns + 1)
     x = np.concatenate([[left], inner, [right]])

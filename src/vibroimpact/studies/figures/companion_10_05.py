@@ -46,13 +46,15 @@ END = 1e-9
 
 
 def compute(C_range: tuple[float, float]) -> dict:
-    """The limits of docs/stability.md and of (10.26) over kappa, and the region between, for C in C_range.
+    """Return the limits of docs/stability.md and of (10.26) over kappa, and the region between, for C in C_range.
 
     Returns "csv": columns series ("fold", "symmetry breaking", "penetration", "printed"), kappa, C, lines that stop
     where they leave C_range; "outline" of the region of stable motions within the walls: kappa, C.
 
-    Raises:
-        ValueError: C_range does not hold all of the stable region and of (10.26).
+    Raises
+    ------
+    ValueError
+        If C_range does not hold all of the stable region and of (10.26).
     """
     lowest, highest = C_range
     kappa = np.clip(np.linspace(0.0, 1.0, 401), END, 1 - END)

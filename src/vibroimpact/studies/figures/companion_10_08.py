@@ -39,12 +39,18 @@ MOST_FLIGHTS = 4
 
 
 def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
-    """W_2 over two forcing periods, by (10.10) at the fixed point nearest to the simulated motion, and as simulated.
+    """Return W_2 over two forcing periods as predicted and as simulated.
 
-    Args:
-        points: the fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
-        samples: of the simulation, evenly spaced from the start of a forcing period on; columns tau, X1, Y1, X2, Y2.
-        events: of the same, columns tau, module, wall, kind, X2, Y2.
+    The prediction is (10.10) at the fixed point nearest to the simulated motion.
+
+    Parameters
+    ----------
+    points : DataFrame
+        The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
+    samples : DataFrame
+        Of the simulation, evenly spaced from the start of a forcing period on; columns tau, X1, Y1, X2, Y2.
+    events : DataFrame
+        Of the same, columns tau, module, wall, kind, X2, Y2.
 
     Returns columns panel ("theory", "simulation"), series ("W_2"; "mirror image": the motion half a period later,
     turned over; "impact"), label (of the fixed point), phase (periods of the forcing since one began), W2. Without a
@@ -69,7 +75,7 @@ def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.Data
 
 
 def _theory(system, points, samples):
-    """Curves of the nearest fixed point, none if there is none."""
+    """Yield the curves of the nearest fixed point, none if there is none."""
     period = system.period
     whole = samples[samples["tau"] < samples["tau"].iloc[0] + period * (1 - 1e-9)]
     U = np.column_stack([whole[f"X{i}"] + system.epsilon * whole[f"Y{i}"] for i in (1, 2)])
@@ -105,7 +111,7 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def _name_flights(axes, impacts):
-    """Between the walls' ends of each flight its length in periods, beyond the wall that it leads to."""
+    """Label each flight with its length in periods, beyond the wall that it leads to."""
     phase, wall = impacts["phase"].to_numpy(), impacts["W2"].to_numpy()
     if len(phase) > MOST_FLIGHTS * PERIODS:
         return

@@ -132,13 +132,22 @@ def compute(
     between them (`absorbers.peaks`), and the lowest of these is taken, with its standard error. A motion that none of
     the starts meets may still move the boxes further.
 
-    Args:
-        system: whose other parameters the sweeps keep.
-        response: table of a sweep over sigma_e_hat, then both forces, of regimes, amplitudes and envelopes.
-        clearance, design: of peaks along `band`, over both forces; over kappa, then both forces.
-        band: arguments of `sweeps.grid.axis`, along sigma_e_hat.
-        observation, starts: how long, and from how many starts, the regime at an optimum is looked for.
-        seed: of the starts of the sweeps. cycles, settle: of their runs.
+    Parameters
+    ----------
+    system
+        Whose other parameters the sweeps keep.
+    response
+        Table of a sweep over sigma_e_hat, then both forces, of regimes, amplitudes and envelopes.
+    clearance, design
+        Of peaks along `band`, over both forces; over kappa, then both forces.
+    band : dict
+        Arguments of `sweeps.grid.axis`, along sigma_e_hat.
+    observation, starts
+        How long, and from how many starts, the regime at an optimum is looked for.
+    seed : int
+        Of the starts of the sweeps.
+    cycles, settle : int
+        Of their runs.
 
     Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f), one_ball.
     "summary": columns quantity, who, value, ... (see SPEC).
@@ -174,7 +183,7 @@ def compute(
 
 
 def _peaks(system, table):
-    """The table with peaks over f, f = epsilon f10_hat, and 1 / f."""
+    """Return the table with peaks over f, f = epsilon f10_hat, and 1 / f."""
     force = system.epsilon * table["f10_hat"]
     kappa = table.get("kappa", system.kappa)
     return table.assign(
@@ -183,7 +192,7 @@ def _peaks(system, table):
 
 
 def _lowest(table, number):
-    """The places of a sweep over the clearance with the lowest peaks, and the margin of the clearance of each."""
+    """Return the points of a sweep over the clearance with the lowest peaks, and the margin of each clearance."""
     beside, places = table.sort_values("clearance").reset_index(drop=True), []
     for here in beside["ratio"].nsmallest(number).index:
         place = beside.loc[here].to_dict()
@@ -195,12 +204,15 @@ def _lowest(table, number):
 
 
 def _lowest_again(system, table, **again):
-    """The lowest of the FEW lowest peaks of a sweep, measured again."""
+    """Return the lowest of the FEW lowest peaks of a sweep, measured again."""
     return min((_again(system, place, **again) for place in _lowest(table, FEW)), key=lambda place: place["value"])
 
 
 def _again(system, place, band, states, cycles, settle):
-    """A place with its peak measured again: value, spread, largest, per force, and sigma_e_hat where it is met."""
+    """Return a point with its peak measured again.
+
+    The result has value, spread, largest, per force, and the sigma_e_hat of the peak.
+    """
     there = system.with_(**{name: place[name] for name in ("kappa", *FORCES)})
     detunings = np.sort(np.ravel(axis(**band).values))
     detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
@@ -215,7 +227,7 @@ def _told(place):
 
 
 def _regime(system, place, observation, number, seed):
-    """The regime that most starts end in at a place, at the frequency of its peak."""
+    """Return the regime that most starts end in at a place, at the frequency of its peak."""
     there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
     names = Counter(regime.name for regime in settled(there, spread_starts(number, seed), Observation(**observation)))
     return names.most_common(1)[0][0]
@@ -228,8 +240,9 @@ def _of_restitution(places):
 
 
 def plateau(places):
-    """The largest kappa up to which all lowest peaks are at most LEVEL times the lowest, and the least and the greatest
-    of these; nan if the first is not.
+    """Return the largest kappa of the plateau, and the least and greatest of its lowest peaks.
+
+    Up to this kappa all lowest peaks are at most LEVEL times the lowest; nan if the first is not.
     """
     level = LEVEL * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))

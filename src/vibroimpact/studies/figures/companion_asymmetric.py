@@ -150,14 +150,22 @@ COMPARED = ["lost_at", "orbit", "distance", "onset", "order", "uncertainty", "sl
 
 
 def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fit_below: float, C_max: float) -> dict:
-    """The manifold, all asymmetric fixed points of the cases, and the exact pairs that lead to them.
+    """Return the manifold, all asymmetric fixed points of the cases, and the exact pairs that lead to them.
 
-    Args:
-        systems: case -> system; orbits: `verdict_table.orbit_rows` of all cases.
-        kappa: of the manifold; cases of another are left out.
-        epsilon: ends of so many values, evenly on a log scale, to which the pairs are followed from the systems' own.
-        fit_below: the order in which the distance falls is fitted where epsilon is below this.
-        C_max: right end of the symmetric branch.
+    Parameters
+    ----------
+    systems : dict
+        Case -> system.
+    orbits : DataFrame
+        `verdict_table.orbit_rows` of all cases.
+    kappa
+        Of the manifold; cases of another are left out.
+    epsilon
+        Ends of so many values, evenly on a log scale, to which the pairs are followed from the systems' own.
+    fit_below : float
+        The order in which the distance falls is fitted where epsilon is below this.
+    C_max : float
+        Right end of the symmetric branch.
 
     Returns "csv", the manifold: columns series (a piece of a branch), C, B; "modules" with unequal flights: case,
     series (fixed point or exact orbit), label, module, C, B; "pairs": case, label, exact, epsilon, squared (the larger
@@ -195,7 +203,10 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fi
 
 
 def _manifold(kappa, C_max):
-    """Pieces of both branches, the asymmetric one up to where its B is that of the symmetric one at C_max."""
+    """Return the pieces of both branches.
+
+    The asymmetric branch ends where its B equals that of the symmetric one at C_max.
+    """
     edges = (0.0, lower_limit(kappa), SYMMETRY_BREAKING_C, C_max)
     r, end = rho(kappa), branch.period_doubling(kappa)
     symmetric = [np.linspace(*ends, 101) for ends in pairwise(edges)]
@@ -208,7 +219,7 @@ def _manifold(kappa, C_max):
 
 
 def _pairs(system, orbits):
-    """One orbit of each mirror pair with positive C: label and root of the asymmetric equations."""
+    """Yield one orbit of each mirror pair with positive C: label and root of the asymmetric equations."""
     rows = orbits[~orbits["symmetric"].astype(bool) & ~(orbits["C1"] <= 0) & ~(orbits["C2"] <= 0)]
     one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]
     for _, row in one_each.iterrows():

@@ -57,10 +57,14 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
 
     Where there is no such orbit, the boxes start from rest.
 
-    Args:
-        case: what the system is called.
-        points: starts along each axis, in the middles of equal parts of -1 < W_i < 1.
-        observation: arguments of `regimes.settling.Observation`.
+    Parameters
+    ----------
+    case : str
+        What the system is called.
+    points : int
+        Starts along each axis, in the middles of equal parts of -1 < W_i < 1.
+    observation : dict
+        Arguments of `regimes.settling.Observation`.
 
     Returns "csv", a row per start: columns panel (the case), label (regime), W1, W2; "orbits": series ("shared",
     the state that all starts have in common but for the balls, "mirror image", of the orbit), NAMES; and "shares":

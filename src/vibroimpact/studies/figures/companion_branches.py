@@ -158,14 +158,20 @@ def compute(
     observation: dict,
     systems: dict,
 ) -> dict:
-    """Branches along each path, their special points, and attractors from several starts.
+    """Return the branches along each path, their special points, and attractors from several starts.
 
-    Args:
-        paths: each with `along` (names of the parameters that move together) and `range` (low, high).
-        longest_step, seeds: of the continuation, see `regimes.branches`; the seeds are evenly spread over the range.
-        attractors: `values` of the parameter, evenly spread, `starts` at each, `seed`.
-        observation: arguments of `regimes.settling.Observation`.
-        systems: case -> system; those on a path are marked.
+    Parameters
+    ----------
+    paths : list of dict
+        Each with `along` (names of the parameters that move together) and `range` (low, high).
+    longest_step, seeds
+        Of the continuation, see `regimes.branches`; the seeds are evenly spread over the range.
+    attractors : dict
+        `values` of the parameter, evenly spread, `starts` at each, `seed`.
+    observation : dict
+        Arguments of `regimes.settling.Observation`.
+    systems : dict
+        Case -> system; those on a path are marked.
 
     Returns "csv", the nodes of the branches (columns panel, series, label, branch, piece, p, C1, C2, stable,
     admissible), "attractors" (panel, label, p, and C1, C2 of half of the ball's mean path per cycle), "cases" (panel,
@@ -194,7 +200,7 @@ def compute(
 
 
 def _special_points(nodes, names):
-    """Special points by path, in the order of the paths; a path without any has a row that says so."""
+    """Return the special points by path, in the order of the paths; a path without any has a row that says so."""
     found = nodes[nodes["label"].ne("")].sort_values("admissible")
     found = found.drop_duplicates(["panel", "series", "label", "branch", "p"], keep="last").sort_index()
     without = pd.DataFrame({"panel": [one for one in names if one not in set(found["panel"])], "label": "none"})
@@ -204,7 +210,7 @@ def _special_points(nodes, names):
 
 
 def _on(path, interval, systems):
-    """Cases on a path, and where."""
+    """Yield the cases on a path, and where."""
     places = {case: getattr(system, path.names[0]) for case, system in systems.items()}
     for case, p in places.items():
         if interval[0] <= p <= interval[1] and path(p) == systems[case]:
@@ -266,7 +272,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _cases(theory, exact, cases):
-    """Thin lines where the cases lie, with their names above the foot of the first panel."""
+    """Draw thin lines at the cases, with their names above the foot of the first panel."""
     for case, p in cases[["case", "p"]].itertuples(index=False):
         for axes in (theory, exact):
             axes.axvline(p, **CASE)

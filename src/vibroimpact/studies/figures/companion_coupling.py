@@ -113,8 +113,10 @@ _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "marker
 def compute(systems: dict) -> dict:
     """Return the errors over the coupling, the patterns of lean, and the power at the impacts.
 
-    Args:
-        systems: case -> system; patterns and power are of the case "equal", patterns with the modules tuned alike.
+    Parameters
+    ----------
+    systems : dict
+        Case -> system; patterns and power are of the case "equal", patterns with the modules tuned alike.
 
     Returns "csv": panel "error" (series damper in proportion, held: case, coupling, error, predicted, stable, orbits),
     "lean" (series pattern and where it was found: coupling, v, stable, ends), "power" (force, power, spread, leaning,

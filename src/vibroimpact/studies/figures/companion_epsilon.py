@@ -63,18 +63,26 @@ SLOPES = {"slow": (1, 20.0), TWO_TERMS: (2, 0.1)}
 
 
 def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict | None = None) -> dict:
-    """Errors of the theory at every fixed point of the cases, over epsilon, and the orders fitted to them.
+    """Return the errors of the theory at every fixed point of the cases, over epsilon, and the orders fitted to them.
 
-    Args:
-        systems: case -> system. epsilon: first and last, with so many values between them, evenly on a log scale.
-        fit_below: the orders are fitted where epsilon is below this.
-        mixed: `case` and `label` of a point that is left out, where fast and slow multipliers cannot be told apart.
+    Parameters
+    ----------
+    systems : dict
+        Case -> system.
+    epsilon
+        First and last, with so many values between them, evenly on a log scale.
+    fit_below : float
+        The orders are fitted where epsilon is below this.
+    mixed : dict, optional
+        `case` and `label` of a point that is left out, where fast and slow multipliers cannot be told apart.
 
     Returns "csv": columns panel (one of PANELS, or "two terms": as "distance", the term of first order added to the
     fixed point), series ("case, label"), epsilon, error; and "orders": case, label, panel, order, uncertainty.
 
-    Raises:
-        ValueError: the case of `mixed` has no fixed point of its label.
+    Raises
+    ------
+    ValueError
+        If the case of `mixed` has no fixed point of its label.
     """
     epsilon = np.geomspace(*epsilon, values)
     curves, orders = [], []
@@ -103,13 +111,13 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
 
 
 def _by_label(system):
-    """The fixed points by their labels, in ascending order."""
+    """Return the fixed points by their labels, in ascending order."""
     points = fixed_points(system)
     return dict(sorted(zip(labels(system, points), points, strict=True), key=lambda pair: pair[0]))
 
 
 def _compared(system, point, epsilon):
-    """Comparisons at every epsilon at which there is an orbit."""
+    """Yield the comparisons at every epsilon at which there is an orbit."""
     for value in epsilon:
         with suppress(NoOrbit):
             yield compare(system.with_(epsilon=value), point)
@@ -123,7 +131,7 @@ def _errors(found):
 
 
 def _two_terms(system, point, found):
-    """Distances with the term of first order added; nan where there is no orbit to take it from."""
+    """Return the distances with the term of first order added; nan where there is no orbit to take it from."""
     added = np.nan
     with suppress(NoOrbit):
         added = first_order(system, point)[:, np.isfinite(point.C)].ravel()
@@ -151,7 +159,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _slope(axes, epsilon, error, slope, times):
-    """A triangle of a slope, beside a curve that ends here, as plots of convergence have it."""
+    """Draw a triangle that shows a slope beside the end of a curve."""
     x = epsilon * np.array([0.05, 0.5])
     y = error * times * (x / epsilon) ** slope
     axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))

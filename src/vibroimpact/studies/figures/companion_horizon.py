@@ -29,7 +29,7 @@ SPEC = {
 
 
 def compute(system: System, initial_state, strobe: pd.DataFrame) -> pd.DataFrame:
-    """Difference between float64 and truth at the start of every forcing cycle, and the error expected by the run.
+    """Return the error of the float64 run at the start of every forcing cycle, and its estimate by the run.
 
     strobe: the true states there (columns tau and `NAMES`). Returns columns panel ("error"), series ("measured",
     "expected": curves; "horizon": the cycle at which the expected error passes 1e-3), cycle, error.

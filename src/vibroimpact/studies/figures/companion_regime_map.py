@@ -80,12 +80,16 @@ TICKS = 4
 
 
 def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
-    """The map from the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
+    """Return the map from the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
 
-    Args:
-        system: of the sweep. systems: case -> system; those that differ from it in the forcing amplitudes alone are
-            marked.
-        starts: of each point, the first of them rest.
+    Parameters
+    ----------
+    system
+        Of the sweep.
+    systems : dict
+        Case -> system; those that differ from it in the forcing amplitudes alone are marked.
+    starts : int
+        Of each point, the first of them rest.
 
     Returns "csv", a row per cell: columns label (regime from rest), f10_hat, f20_hat, the regime that most starts other
     than rest end in, and how many regimes they do, the share of each regime, fixed_points, stable_points; "cases":
@@ -104,7 +108,7 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
 
 def _dominant(cells, starts):
-    """Return, for each cell, the regime of most starts other than rest, and the number of regimes they settle in."""
+    """Return, for each cell, the regime of most starts other than rest, and the number of their regimes."""
     counts = cells[[*REGIMES]].to_numpy(float) * starts
     if starts > 1:
         counts -= cells["label"].to_numpy()[:, None] == np.array(REGIMES)
@@ -151,7 +155,10 @@ def _squares(cells, square):
 
 
 def _pieces(corners, crossing):
-    """The border within a square: from side to side, or from each side to the middle where three or four parts meet."""
+    """Return the border within a square.
+
+    It runs from side to side, or from each side to the middle where three or four parts meet.
+    """
     sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
     ends = [crossing(first, second) for first, second in sides]
     if len(ends) == 2:
@@ -210,11 +217,11 @@ def _name(axes, regimes, name, lined):
 
 
 def _ends(centres):
-    """Outer edges of a row of cells, free of the rounding that decides whether a tick at the end is seen."""
+    """Return the outer edges of a row of cells, free of the rounding that decides whether a tick at the end is seen."""
     half = 0.5 * (centres[1] - centres[0])
     return np.round([centres[0] - half, centres[-1] + half], 12)
 
 
 def _square(cells, column):
-    """Values on the grid, f20_hat along the first axis."""
+    """Return the values on the grid, f20_hat along the first axis."""
     return cells.pivot(index="f20_hat", columns="f10_hat", values=column).to_numpy(dtype=float)

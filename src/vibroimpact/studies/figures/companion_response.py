@@ -118,11 +118,16 @@ LINE_POINTS = 451
 def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) -> dict:
     """Return results of the sweeps with balls, per force, beside theory, exact orbits, and linear systems.
 
-    Args:
-        system: whose other parameters the sweeps keep.
-        frequency: table of a sweep over sigma_e_hat, then both forces; force: over both forces, which are equal. Of
-            regimes, amplitudes, envelopes and energy.
-        band: arguments of `sweeps.grid.axis`, along sigma_e_hat, over which the best absorbers are tuned.
+    Parameters
+    ----------
+    system
+        Whose other parameters the sweeps keep.
+    frequency : DataFrame
+        Table of a sweep over sigma_e_hat, then both forces.
+    force : DataFrame
+        Over both forces, which are equal. Of regimes, amplitudes, envelopes and energy.
+    band : dict
+        Arguments of `sweeps.grid.axis`, along sigma_e_hat, over which the best absorbers are tuned.
 
     Returns "csv", the balls: columns panel ("frequency" or "force"), label (the regime of most starts), f10_hat,
     f20_hat, sigma_e_hat, ratio (X / f), low and high (its envelope), impact_share. "linear", the linear systems: panel,
@@ -150,7 +155,7 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
 
 
 def _linear(system, panel, pair, detunings, band):
-    """Rows of all linear systems at a pair of forces."""
+    """Return the rows of all linear systems at a pair of forces."""
     place = {"panel": panel, **dict(zip(FORCES, pair, strict=True)), "sigma_e_hat": detunings}
     rows = [
         pd.DataFrame({**place, "series": name, "ratio": ratios(system, one, detunings)})
@@ -160,7 +165,7 @@ def _linear(system, panel, pair, detunings, band):
 
 
 def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
-    """The table of a sweep of amplitudes, envelopes and regimes with ratio, low and high, over f, and label."""
+    """Return the table of a sweep of amplitudes, envelopes and regimes with ratio, low and high, over f, and label."""
     force = system.epsilon * table[FORCES].max(axis=1)
     boxes = table[["high_X1", "high_X2"]].to_numpy().argmax(axis=1)
     low, high = (table[[f"{name}_X1", f"{name}_X2"]].to_numpy()[range(len(table)), boxes] for name in ("low", "high"))
@@ -180,18 +185,18 @@ _compared = lru_cache(compared)  # tuned once for all forces in a proportion
 
 
 def frequencies(system, band: dict) -> tuple[float, float]:
-    """The ends of a band of detunings, as frequencies."""
+    """Return the ends of a band of detunings, as frequencies."""
     values = axis(**band).values
     return tuple(1.0 + system.epsilon * float(np.ravel(end)[0]) for end in (values[0], values[-1]))
 
 
 def ratios(system, linear, detunings):
-    """The larger |X_i| / f of a linear system whose larger force is 1."""
+    """Return the larger |X_i| / f of a linear system whose larger force is 1."""
     return linear.amplitudes(1.0 + system.epsilon * np.asarray(detunings)).max(axis=-1) / system.epsilon
 
 
 def _one_to_one(system, panel, series, table):
-    """All 1:1 responses where the sweep has been."""
+    """Return all 1:1 responses where the sweep has been."""
     rows = []
     for place in table[PLACE].to_dict("records"):
         force = system.epsilon * max(place[name] for name in FORCES)
@@ -202,7 +207,7 @@ def _one_to_one(system, panel, series, table):
 
 
 def _shares(balls, one_to_one):
-    """Shares of the impacts over the frequency: least, median and greatest by source and forces."""
+    """Return the shares of the impacts over the frequency: least, median and greatest by source and forces."""
     known = pd.concat([balls.assign(series="balls"), one_to_one]).query("panel == 'frequency' and impact_share.notna()")
     shares = known.groupby(["series", *FORCES], sort=False)["impact_share"]
     found = shares.agg(points="size", least="min", middle="median", greatest="max").reset_index()
@@ -248,7 +253,7 @@ def _draw_panel(axes, balls, linear, x):
 
 
 def logarithmic(axes, side: str, *ends: float) -> None:
-    """A logarithmic axis whose ends, if given, do not depend on what was simulated."""
+    """Set a logarithmic axis whose ends, if given, do not depend on the simulated values."""
     axes.set(**{f"{side}scale": "log"})
     axis = getattr(axes, f"{side}axis")
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))

@@ -35,7 +35,9 @@ ROW, HEAD = 6.0, 22.0
 
 
 def compute(points: pd.DataFrame) -> pd.DataFrame:
-    """The verdicts on all fixed points: columns panel (the case), label, C1, C2, one per criterion, former names last.
+    """Return the verdicts on all fixed points.
+
+    Columns: panel (the case), label, C1, C2, one per criterion, and the former names last.
 
     points: columns case, label, C1, C2 and one per criterion, as in `fixed_points.csv`.
     """

@@ -58,11 +58,14 @@ VERDICTS = (*CRITERIA, EXACT)
 
 
 def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
-    """All fixed points at each value of a parameter, followed from value to value, and the manifold.
+    """Return all fixed points at each value of a parameter, followed from value to value, and the manifold.
 
-    Args:
-        systems: value of the parameter (ascending) -> system; kappa is the same in all of them.
-        C_max: the manifold is shown for 0 <= C <= C_max, and further where a fixed point lies beyond.
+    Parameters
+    ----------
+    systems : dict
+        Value of the parameter (ascending) -> system; kappa is the same in all of them.
+    C_max : float
+        The manifold is shown for 0 <= C <= C_max, and further where a fixed point lies beyond.
 
     Returns "points": columns value, track (from 1 on; nearest neighbours in the plane (C1, C2) share a track), C1, B1,
     C2, B2, label (as in the chapter: `theory.fixed_points.labels`), and VERDICTS: those of the theory's criteria, of
@@ -99,7 +102,7 @@ def _multipliers(value, track, orbit):
 
 
 def _continued(names, last, now, tracks):
-    """The track of each point: that of the nearest point before, or a new one; and how many tracks there are."""
+    """Return the track of each point: that of the nearest point before, or a new one; and how many tracks there are."""
     gaps = np.linalg.norm(np.nan_to_num(last[:, None] - now[None]), axis=2)
     found = {new: names[old] for old, new in zip(*linear_sum_assignment(gaps), strict=True)}
     fresh = [new for new in range(len(now)) if new not in found]

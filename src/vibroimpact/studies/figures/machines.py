@@ -83,13 +83,22 @@ FINE, PER_CYCLE = 301, 30
 
 
 def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int, shown: dict) -> dict:
-    """Largest displacements of the boxes from rest, at clearances and of linear systems, and a motion in time.
+    """Return the largest displacements of the boxes, and a motion in time.
 
-    Args:
-        plant: arguments of PhysicalSystem but for L, omega1 and omega2, in SI units.
-        clearances: L [m]. frequencies: range [Hz] and number of values.
-        cycles, settle: forcing periods that are simulated, and of these left out.
-        shown: clearance L [m], frequency [Hz] and cycles of the motion.
+    The boxes start from rest, with balls of several clearances or with linear absorbers.
+
+    Parameters
+    ----------
+    plant : dict
+        Arguments of PhysicalSystem but for L, omega1 and omega2, in SI units.
+    clearances
+        L [m].
+    frequencies : dict
+        Range [Hz] and number of values.
+    cycles, settle : int
+        Forcing periods that are simulated, and of these left out.
+    shown : dict
+        Clearance L [m], frequency [Hz] and cycles of the motion.
 
     Returns "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz],
     swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (the ball meets one); "summary": at
@@ -119,7 +128,10 @@ def _machines(plant, L, hertz):
 
 
 def _linear(machine, band):
-    """Curves of the linear systems over the band [Hz]; what is dimensionless does not depend on L but for the unit."""
+    """Yield the curves of the linear systems over the band [Hz].
+
+    Dimensionless results depend on L by their unit only.
+    """
     unit, fine = machine.omega10 / (2 * np.pi), np.linspace(*band, FINE)
     linear = compared(machine.dimensionless(), tuple(band / unit))
     for name in LINES:
@@ -128,14 +140,14 @@ def _linear(machine, band):
 
 
 def _at_worst(machine, energy, cycles):
-    """Frequency [Hz], the power of the forces [W] and the share of it that impacts take."""
+    """Return the frequency [Hz], the power of the forces [W] and the share of it that impacts take."""
     joule, hertz = machine.k1 * machine.L**2, machine.omega1 / (2 * np.pi)
     work, impacts = energy["work"].sum(), energy["impacts"].sum()
     return {"frequency": hertz, "power": joule * work * hertz / cycles, "share": impacts / work}
 
 
 def _motion(machine, cycles):
-    """Columns of the motion of box 1 and its ball from rest."""
+    """Return the columns of the motion of box 1 and its ball from rest."""
     system = machine.dimensionless()
     tau = np.arange(cycles * PER_CYCLE) / PER_CYCLE * system.period
     run = simulate(system, np.zeros(8), cycles, sample_times=tau)
@@ -199,5 +211,5 @@ def _name_peaks(axes, with_balls):
 
 
 def _clearance(name):
-    """The name of a series, "L = 5 mm", as it is printed."""
+    """Return the name of a series, "L = 5 mm", as it is printed."""
     return f"${name.removesuffix(' mm')}$ mm"

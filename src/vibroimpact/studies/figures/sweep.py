@@ -49,8 +49,10 @@ HEIGHT = 48.0
 def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
     """Return the drawn columns of a sweep's table.
 
-    Args:
-        axes: `along`, names of the parameters that move together, and maybe `scale`, of each axis.
+    Parameters
+    ----------
+    axes : list of dict
+        `along`, names of the parameters that move together, and maybe `scale`, of each axis.
 
     Returns columns panel, series, the first parameter of each axis, value, along and scale (of the axes, "; " between);
     regimes in which no start ends are left out.
@@ -111,7 +113,7 @@ def _map(place, names, part, axes):
 
 
 def edges(values, axis):
-    """Borders of cells around ascending values, half-way between them on the scale of their axis."""
+    """Return the borders of cells around ascending values, half-way between them on the scale of their axis."""
     there, back = (np.log, np.exp) if axis.get("scale") == LOGARITHMIC else (np.asarray, np.asarray)
     at = there(np.asarray(values, dtype=float))
     middles = 0.5 * (at[1:] + at[:-1])

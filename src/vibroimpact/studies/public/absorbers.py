@@ -7,19 +7,24 @@ from vibroimpact.system.arguments import instance
 
 
 def best_tuning(system: System, band) -> Tuning:
-    """The linear absorbers of the masses of the balls with the lowest peak over a band of frequencies Omega.
+    """Return the linear absorbers of the masses of the balls with the lowest peak over a band of frequencies Omega.
 
-    Raises:
-        ValueError: an argument is malformed, or no force acts.
-        ArithmeticError: no best tuning was found.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, or no force acts.
+    ArithmeticError
+        If no best tuning was found.
     """
     return best(instance("system", system, System), band)
 
 
 def textbook_tuning(system: System) -> Tuning:
-    """The linear absorbers of the masses of the balls as Den Hartog's rule tunes them.
+    """Return the linear absorbers of the masses of the balls as Den Hartog's rule tunes them.
 
-    Raises:
-        ValueError: system is not a System.
+    Raises
+    ------
+    ValueError
+        If system is not a System.
     """
     return den_hartog(instance("system", system, System))

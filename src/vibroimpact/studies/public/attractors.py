@@ -34,7 +34,7 @@ class Basins:
     axes: dict[str, np.ndarray]
 
     def rows(self, number: int = 0) -> list[dict]:
-        """A row per start: its moved coordinates, or its number, its label and the regime."""
+        """Return a row per start: its moved coordinates, or its number, its label and the regime."""
         grid = np.meshgrid(*self.axes.values(), indexing="ij") if self.axes else [np.arange(len(self.labels))]
         columns = dict(zip(self.axes or ["start"], (values.ravel().tolist() for values in grid), strict=True))
         labels = self.labels.ravel().tolist()
@@ -44,24 +44,31 @@ class Basins:
 
 
 def attractors(system: System, states, observation: Observation | None = None, progress: bool = True) -> Basins:
-    """The attractors that starts end in, with a label and the share of each.
+    """Return the attractors that starts end in, with a label and the share of each.
 
     >>> from vibroimpact import starts
     >>> found = attractors(system, starts(6, seed=1))
     >>> [found.attractors[label].regime for label in found.shares]
     ['asymmetric', 'asymmetric']
 
-    Args:
-        states: (n, 8) starts at tau = 0. What they have for a module that takes no part (`PhysicalSystem.single`) does
-            not count: it is put at rest.
-        observation: how long each start is looked at, see `Observation`: up to `rounds` times `cycles` forcing periods,
-            until it repeats. At equal forces 400 cycles leave most starts changing, 2000 none; a ball at rest may
-            never meet a wall (docs/howto.md).
-        progress: count the starts on standard error, if that is a terminal.
+    Parameters
+    ----------
+    states
+        (n, 8) starts at tau = 0. What they have for a module that takes no part (`PhysicalSystem.single`) does not
+        count: it is put at rest.
+    observation : Observation, optional
+        How long each start is looked at, see `Observation`: up to `rounds` times `cycles` forcing periods, until it
+        repeats. At equal forces 400 cycles leave most starts changing, 2000 none; a ball at rest may never meet a wall
+        (docs/howto.md).
+    progress : bool, default True
+        Count the starts on standard error, if that is a terminal.
 
-    Raises:
-        ValueError: an argument is malformed.
-        ArithmeticError: a run could not be finished.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed.
+    ArithmeticError
+        If a run could not be finished.
     """
     states = states_array("states", states)
     if states.ndim != 2 or states.shape[1] != 8 or not len(states):
@@ -76,25 +83,35 @@ def basins(
     observation: Observation | None = None,
     progress: bool = True,
 ) -> Basins:
-    """Basins of attraction on a plane (or line) of starts: labels, attractors and shares as Attractors.jl has them.
+    """Return the basins of attraction on a plane (or line) of starts: labels, attractors and shares as Attractors.jl
+    has them.
 
     >>> W = np.linspace(-0.8, 0.8, 3)
     >>> found = basins(system, {"W1": W, "W2": W})
     >>> found.labels.shape, sum(found.shares.values())
     ((3, 3), 1.0)
 
-    Args:
-        axes: values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2,
-            where W_i = X_i - Y_i places ball i between its walls, -1 < W_i < 1.
-        state: (8,) start at tau = 0, which gives the other coordinates; by default at rest.
-        observation, progress: as for `attractors`.
+    Parameters
+    ----------
+    axes : mapping
+        Values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2, where
+        W_i = X_i - Y_i places ball i between its walls, -1 < W_i < 1.
+    state : optional
+        (8,) start at tau = 0, which gives the other coordinates; by default at rest.
+    observation, progress
+        As for `attractors`.
 
-    Returns:
+    Returns
+    -------
+    Basins
         `Basins`, with labels in the shape of the axes. `to_frame([found])` is a table, a row per start.
 
-    Raises:
-        ValueError: an argument is malformed, or a ball would start beyond a wall.
-        ArithmeticError: a run could not be finished.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, or a ball would start beyond a wall.
+    ArithmeticError
+        If a run could not be finished.
     """
     if not isinstance(axes, Mapping) or not 1 <= len(axes) <= 2:
         raise ValueError("axes: needs values of one or two coordinates, such as {'W1': [-0.5, 0.5], 'W2': [-0.5, 0.5]}")

@@ -30,7 +30,8 @@ _STEPS, _CURVE_STEPS = 10, 20
 def branches(
     system: System, along: str | Sequence[str], between, of: str = "both", seeds: int = 5, progress: bool = True
 ) -> list[Branch]:
-    """All branches of 1:1 motions over a parameter, with stability and special points; `to_frame` makes them a table.
+    """Return all branches of 1:1 motions over a parameter, with stability and special points; `to_frame` makes them a
+    table.
 
     Pseudo-arclength continuation (Keller 1977), through folds and branch points; the branches that leave these, and the
     asymmetric orbits that leave symmetric ones, are followed too. Each branch is cut at its special points: folds,
@@ -41,22 +42,31 @@ def branches(
     >>> len(found), found[0].family.name
     (3, 'fixed point')
 
-    Args:
-        system: gives the other parameters.
-        along: the parameter of System, or several that move together.
-        between: first and last value. A branch that passes none of the `seeds` values there and leaves no other one is
-            missed.
-        of: "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
-        progress: tell family and parameter on standard error, if that is a terminal; "exact" takes some ten seconds.
+    Parameters
+    ----------
+    system : System
+        Gives the other parameters.
+    along : str or sequence of str
+        The parameter of System, or several that move together.
+    between
+        First and last value. A branch that passes none of the `seeds` values there and leaves no other one is missed.
+    of : str, default 'both'
+        "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
+    progress : bool, default True
+        Tell family and parameter on standard error, if that is a terminal; "exact" takes some ten seconds.
 
-    Returns:
+    Returns
+    -------
+    list of Branch
         Each branch has .family, .nodes in their order, of which the first and last may lie one step beyond `between`,
-        .special, the special ones, and .closed, True if it returns to its first node, which is then its last one too.
-        A node has .p, the parameter, .amplitudes C_1, C_2, .kind (what is special, or ""), .stable and .admissible. The
+        .special, the special ones, and .closed, True if it returns to its first node, which is then its last one too. A
+        node has .p, the parameter, .amplitudes C_1, C_2, .kind (what is special, or ""), .stable and .admissible. The
         table has a row per node of each piece between special points; these belong to both pieces.
 
-    Raises:
-        ValueError: an argument is malformed, or there is no system at an end.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, or there is no system at an end.
 
     Warns:
         UserWarning: motions cannot be sought at a seed, where undamped boxes are in resonance, say.
@@ -81,7 +91,8 @@ def branches(
 def bifurcation_curves(
     system: System, along: tuple[str, str], between, of: str = "theory", seeds: int = 3, progress: bool = True
 ) -> list[BifurcationCurve]:
-    """Curves of folds and of symmetry breaking in the plane of two parameters; `to_frame` makes them a table.
+    """Return the curves of folds and of symmetry breaking in the plane of two parameters; `to_frame` makes them a
+    table.
 
     They bound where a motion exists and where it is symmetric. Special points are found on branches along the first
     parameter at some values of the second, then followed through the plane.
@@ -90,19 +101,30 @@ def bifurcation_curves(
     >>> sorted({curve.kind for curve in found})[0]
     'fold'
 
-    Args:
-        system: gives the other parameters.
-        along: two parameters of System.
-        between: first and last value of each, ((low, high), (low, high)).
-        of: "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
-        seeds: values of the second parameter, evenly spaced inside its range; a curve that passes none is missed.
-        progress: tell what is followed on standard error, if that is a terminal; "exact" takes minutes.
+    Parameters
+    ----------
+    system : System
+        Gives the other parameters.
+    along : tuple[str, str]
+        Two parameters of System.
+    between
+        First and last value of each, ((low, high), (low, high)).
+    of : str, default 'theory'
+        "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
+    seeds : int, default 3
+        Values of the second parameter, evenly spaced inside its range; a curve that passes none is missed.
+    progress : bool, default True
+        Tell what is followed on standard error, if that is a terminal; "exact" takes minutes.
 
-    Returns:
+    Returns
+    -------
+    list of BifurcationCurve
         Each curve has .family, .kind, .points (n, 2), the values of both parameters, and .amplitudes (n, 2), C_1, C_2.
 
-    Raises:
-        ValueError: an argument is malformed, or there is no system at a corner.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, or there is no system at a corner.
     """
     names = (along,) if isinstance(along, str) else tuple(along)
     if len(names) != 2 or len(set(names)) != 2:
@@ -143,10 +165,12 @@ def bifurcation_curves(
 
 
 def with_parameters(known, names) -> tuple[str, ...]:
-    """The names, if these are among the known parameters of System.
+    """Return the names, if these are among the known parameters of System.
 
-    Raises:
-        ValueError: one of them is not.
+    Raises
+    ------
+    ValueError
+        If one of them is not.
     """
     for name in names:
         if name not in known:
@@ -155,7 +179,7 @@ def with_parameters(known, names) -> tuple[str, ...]:
 
 
 def _with(system, names) -> System:
-    """The system, if it has parameters of these names."""
+    """Return the system, if it has parameters of these names."""
     with_parameters(asdict(instance("system", system, System)), names)
     return system
 
@@ -174,7 +198,7 @@ def _families(of):
 
 
 def _report(words, progress) -> Callable:
-    """A function that reports parameters after some words."""
+    """Return a function that reports parameters after some words."""
     return lambda *values: shown(progress) and tell(f"{words} {', '.join(f'{value:.4g}' for value in values)}")
 
 

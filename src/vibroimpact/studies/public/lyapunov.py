@@ -11,7 +11,7 @@ _MOST = 10_000_000
 
 
 def largest_lyapunov(system: System, state, cycles: int = 2000, settle: int = 1000, blocks: int = 20) -> Exponent:
-    """Largest Lyapunov exponent of the motion that a start ends in: its mean and error, in nats per period.
+    """Return the largest Lyapunov exponent of the motion that a start ends in: its mean and error, in nats per period.
 
     Above 0 by more than some three errors: chaos. On a periodic motion it is the log of the modulus of the largest
     Floquet multiplier, over the period. From the exact Jacobian through impacts, chatter and sticking (Benettin et al.
@@ -22,15 +22,24 @@ def largest_lyapunov(system: System, state, cycles: int = 2000, settle: int = 10
     >>> bool(exponent.mean > 3 * exponent.error)
     True
 
-    Args:
-        state: (8,) start at tau = 0; from rest a ball may stay idle for good.
-        cycles: forcing periods that are averaged over, a multiple of `blocks`; settle: those before them. Raise
-            `settle` where a motion settles slowly; the start decides where several motions attract (`basins`).
-        blocks: parts of `cycles`, at least 2, whose scatter gives the error.
+    Parameters
+    ----------
+    state
+        (8,) start at tau = 0; from rest a ball may stay idle for good.
+    cycles : int, default 2000
+        Forcing periods that are averaged over, a multiple of `blocks`.
+    settle : int, default 1000
+        Those before them. Raise `settle` where a motion settles slowly; the start decides where several motions attract
+        (`basins`).
+    blocks : int, default 20
+        Parts of `cycles`, at least 2, whose scatter gives the error.
 
-    Raises:
-        ValueError: an argument is malformed.
-        ArithmeticError: the run could not be finished, or the motion forgets every perturbation.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed.
+    ArithmeticError
+        If the run could not be finished, or the motion forgets every perturbation.
     """
     blocks = whole("blocks", blocks, 2, _MOST)
     cycles = whole("cycles", cycles, blocks, _MOST)
@@ -40,7 +49,7 @@ def largest_lyapunov(system: System, state, cycles: int = 2000, settle: int = 10
 
 
 def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000) -> Spectrum:
-    """All Lyapunov exponents of the motion that a start ends in, largest first, in nats per forcing period.
+    """Return all Lyapunov exponents of the motion that a start ends in, largest first, in nats per forcing period.
 
     `.exponents` (8,), or (4,) if one module takes part (`PhysicalSystem.single`), `.errors(block)`, `.dimension`
     (Kaplan-Yorke), `.without_double_sticks()`: a ball that sticks loses two directions for good, whose exponents are
@@ -51,18 +60,23 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     >>> bool(spectrum.exponents[0] < 0)  # a periodic motion attracts
     True
 
-    Args:
-        state, cycles, settle: as for `largest_lyapunov`.
+    Parameters
+    ----------
+    state, cycles, settle
+        As for `largest_lyapunov`.
 
-    Raises:
-        ValueError: an argument is malformed.
-        ArithmeticError: the run could not be finished.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed.
+    ArithmeticError
+        If the run could not be finished.
     """
     cycles = whole("cycles", cycles, 1, _MOST)
     return lyapunov.spectrum(system, _settled(system, state, settle), cycles)
 
 
 def _settled(system, state, settle):
-    """The state (8,) after a transient."""
+    """Return the state (8,) after a transient."""
     instance("system", system, System)
     return finals(system, checked_state(state)[None], whole("settle", settle, 0, _MOST))[0]

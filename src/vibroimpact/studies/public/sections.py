@@ -12,7 +12,8 @@ _STEP = 100  # cycles of the transient between two lines of progress
 
 
 def sections(systems, states, cycles: int, settle: int = 0, progress: bool = True) -> np.ndarray:
-    """Stroboscopic Poincare sections of many runs: their states at the end of every forcing cycle once settled.
+    """Return the stroboscopic Poincare sections of many runs: their states at the end of every forcing cycle once
+    settled.
 
     Over a list of systems in which one parameter moves this is a bifurcation diagram:
 
@@ -22,18 +23,28 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     >>> X2.shape
     (4, 20)
 
-    Args:
-        systems, states: combined as by `ensemble`: one System or an array of them, and starts (..., 8) at tau = 0. A
-            module that takes no part (`PhysicalSystem.single`) is put at rest.
-        cycles: forcing periods of each run; settle: those of them that are left out.
-        progress: count the steps, of 100 cycles and then of 1, on standard error, if that is a terminal.
+    Parameters
+    ----------
+    systems, states
+        Combined as by `ensemble`: one System or an array of them, and starts (..., 8) at tau = 0. A module that takes
+        no part (`PhysicalSystem.single`) is put at rest.
+    cycles : int
+        Forcing periods of each run.
+    settle : int, default 0
+        Those of them that are left out.
+    progress : bool, default True
+        Count the steps, of 100 cycles and then of 1, on standard error, if that is a terminal.
 
-    Returns:
+    Returns
+    -------
+    ndarray
         States (..., cycles - settle, 8), dimensionless, in the shape of the combination; nan once a run has failed
         (`ensemble` says why).
 
-    Raises:
-        ValueError: an argument is malformed, or systems and states cannot be combined.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, or systems and states cannot be combined.
     """
     cycles = whole("cycles", cycles, 1, MOST_CYCLES)
     settle = whole("settle", settle, 0, cycles - 1)

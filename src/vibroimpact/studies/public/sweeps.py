@@ -31,7 +31,8 @@ def sweep(
     observation: Observation | None = None,
     progress: bool = True,
 ) -> list[dict]:
-    """A row per point of a grid: the parameters that move and the observations; `to_frame` makes a table of them.
+    """Return a row per point of a grid: the parameters that move and the observations; `to_frame` makes a table of
+    them.
 
     A point where something cannot be computed has the reason under "failed", and does not cost the others.
 
@@ -39,24 +40,35 @@ def sweep(
     >>> [row["fixed_points"] for row in rows]
     [1, 3]
 
-    Args:
-        system: gives the other parameters.
-        axes: the values of one or two parameters, by name.
-        observe: any of "amplitudes" (largest |X_i|, root mean square, mean ball speeds), "envelopes" (amplitude per
-            cycle, 5 % and 95 %), "energy" (share of the work that impacts take), "peaks" (what one cycle in a hundred
-            exceeds along a band), "regimes" (share of the starts that end in each; where rest ends), all of which
-            simulate from every start; "fixed_points" (their number, and that of those called stable by the theory) and
-            "orbits" (number of exact 1:1 orbits, and of stable ones).
-        starts, seed: number of starts, spread evenly, the first at rest; what scrambles them. From rest a ball may stay
-            idle that moves from any other start.
-        cycles, settle: forcing periods of each run, and those of them that are left out; not of "regimes", which have
-            those of `observation`. At equal forces 400 leave most starts changing, 2000 none (docs/howto.md).
-        band: of "peaks": the values of the parameter along which the highest peak is sought, by name.
-        observation: of "regimes": how long a start is looked at.
-        progress: count the points on standard error, if that is a terminal.
+    Parameters
+    ----------
+    system : System
+        Gives the other parameters.
+    axes : mapping
+        The values of one or two parameters, by name.
+    observe : sequence of str
+        Any of "amplitudes" (largest |X_i|, root mean square, mean ball speeds), "envelopes" (amplitude per cycle, 5 %
+        and 95 %), "energy" (share of the work that impacts take), "peaks" (what one cycle in a hundred exceeds along a
+        band), "regimes" (share of the starts that end in each; where rest ends), all of which simulate from every
+        start; "fixed_points" (their number, and that of those called stable by the theory) and "orbits" (number of
+        exact 1:1 orbits, and of stable ones).
+    starts, seed
+        Number of starts, spread evenly, the first at rest; what scrambles them. From rest a ball may stay idle that
+        moves from any other start.
+    cycles, settle
+        Forcing periods of each run, and those of them that are left out; not of "regimes", which have those of
+        `observation`. At equal forces 400 leave most starts changing, 2000 none (docs/howto.md).
+    band : mapping, optional
+        Of "peaks": the values of the parameter along which the highest peak is sought, by name.
+    observation : Observation, optional
+        Of "regimes": how long a start is looked at.
+    progress : bool, default True
+        Count the points on standard error, if that is a terminal.
 
-    Raises:
-        ValueError: an argument is malformed or missing, or there is no system at a point.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed or missing, or there is no system at a point.
     """
     known = asdict(instance("system", system, System))
     grid = Grid(system, _axes("axes", axes, known))
@@ -84,7 +96,7 @@ def sweep(
 
 
 def _axes(name, given, known) -> list[Axis]:
-    """Axes of single parameters from their values by name."""
+    """Return the axes of single parameters from their values by name."""
     if not isinstance(given, Mapping):
         raise ValueError(f"{name}: needs values by parameter, such as {{'f20_hat': [0.8, 1.0]}}")
     with_parameters(known, given)
@@ -96,7 +108,7 @@ def _axes(name, given, known) -> list[Axis]:
 
 
 def _band(given, known, axes) -> dict:
-    """Arguments of `grid.axis` for the band of peaks."""
+    """Return the arguments of `grid.axis` for the band of peaks."""
     if given is None:
         raise ValueError("band: missing; 'peaks' are sought along it, such as band={'sigma_e_hat': [-1.0, 0.0, 1.0]}")
     found = _axes("band", given, known)

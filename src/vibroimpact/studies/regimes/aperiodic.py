@@ -37,8 +37,10 @@ NAMES = {
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
     """Name of a motion that does not repeat, from a run over whole cycles and the motion after it.
 
-    Args:
-        blocks, block: of the exponent, so many blocks of so many cycles.
+    Parameters
+    ----------
+    blocks, block : int
+        Of the exponent, so many blocks of so many cycles.
     """
     found = sign(largest_exponent(run.system, run.final, blocks, block, DISCARDED))
     if found != POSITIVE:
@@ -49,14 +51,17 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
 
 
 def sign(exponent: Measured) -> str:
-    """POSITIVE or ZERO where the error allows it; OPEN otherwise, as for a periodic motion that is not reached yet."""
+    """Return POSITIVE or ZERO where the error allows it, else OPEN.
+
+    OPEN also stands for a periodic motion that is not reached yet.
+    """
     if exponent.mean > CERTAIN * exponent.error:
         return POSITIVE
     return ZERO if abs(exponent.mean) <= CERTAIN * exponent.scatter <= RESOLVED else OPEN
 
 
 def resonance(shares) -> str:
-    """NEVER, AT_TIMES or ALWAYS, from the part of the time that each module is in resonance, shape (2,).
+    """Return NEVER, AT_TIMES or ALWAYS, from the part of the time that each module is in resonance, shape (2,).
 
     A module that comes and goes decides.
     """
@@ -68,7 +73,7 @@ def resonance(shares) -> str:
 
 
 def resonant_shares(run: Run) -> np.ndarray:
-    """Part of the time that each module is in bursts of resonance, shape (2,)."""
+    """Return the part of the time that each module is in bursts of resonance, shape (2,)."""
     resonant = np.array([np.diff(bursts_in(run, module)).sum() for module in (1, 2)])
     return resonant / (run.cycles * run.system.period)
 

@@ -45,7 +45,9 @@ class Station:
 
 
 def follow(system, root, values) -> list[Station]:
-    """The orbit of a root (6,) of the asymmetric equations at each epsilon of `values`, which fall from the system's.
+    """Return the orbit of a root (6,) of the asymmetric equations at each epsilon of `values`.
+
+    The values descend from the epsilon of the system.
 
     The way ends early where the orbit merges with a symmetric one or Newton's method loses it.
     """
@@ -61,14 +63,16 @@ def follow(system, root, values) -> list[Station]:
 
 
 def offset(station, point) -> np.ndarray:
-    """Orbit minus fixed point, shape (6,), of a single machine (3,)."""
+    """Return the orbit minus fixed point, shape (6,), of a single machine (3,)."""
     difference = station.place - np.concatenate([point.C, point.squared, point.middle + point.psi])
     difference[4:] = np.angle(np.exp(1j * difference[4:]))
     return difference[np.isfinite(difference)]
 
 
 def leads_to(stations, points):
-    """The fixed point where an orbit's way ends at epsilon = 0, by a line through its last two stations, or None.
+    """Return the fixed point that an orbit approaches at epsilon = 0, or None.
+
+    The last two roots are extrapolated linearly.
 
     It leads nowhere if the orbit turns round at a fold, or if there are no two stations.
     """
@@ -81,7 +85,7 @@ def leads_to(stations, points):
 
 
 def onset(stations) -> float:
-    """The epsilon at which an orbit whose v^2 falls to 0 is born, else 0.
+    """Return the epsilon at which an orbit whose v^2 falls to 0 is born, else 0.
 
     Epsilon at v^2 = 0 of the polynomial in v^2 through the last stations, `_THROUGH` of them at most. A line through
     two has three right digits where stations are a fifth apart.
@@ -95,7 +99,7 @@ def onset(stations) -> float:
 
 
 def compare(station, point) -> Comparison:
-    """Places and multipliers of an orbit against those of a fixed point."""
+    """Return the places and multipliers of an orbit against those of a fixed point."""
     system = station.system
     exact = asymmetric_orbit(system, station.root).multipliers
     return paired(system, offset(station, point), exact, point.slow_eigenvalues, point.fast(system.kappa))

@@ -27,7 +27,9 @@ class Attractor:
 
 
 def attractors(regimes: list[Regime]) -> tuple[np.ndarray, list[Attractor]]:
-    """Labels of the attractor of each start, counted from 1 in the order in which they are met; OPEN if unsettled.
+    """Return the attractor label of each start, or OPEN if it has not settled.
+
+    Labels count from 1 in the order in which the attractors are met.
 
     Periodic motions are one attractor if their displacements agree, at some shift by whole periods; mirror images are
     two. Motions that do not repeat are told apart by their regime only. A ball at rest may rest anywhere: its place
@@ -44,7 +46,7 @@ def attractors(regimes: list[Regime]) -> tuple[np.ndarray, list[Attractor]]:
 
 
 def _same(one, other):
-    """True if two regimes are one attractor."""
+    """Return True if two regimes are one attractor."""
     moving = _moving(one)
     if (one.name, one.repeats) != (other.name, other.repeats) or not np.array_equal(moving, _moving(other)):
         return False
@@ -57,6 +59,6 @@ def _same(one, other):
 
 
 def _moving(regime):
-    """Columns of the displacements of modules that take part, without those of balls at rest."""
+    """Return the columns of the displacements of modules that take part, without those of balls at rest."""
     samples, moves = regime.run.samples, takes_part(regime.run.system)
     return np.array([k for k in range(4) if moves[k] and (k in (0, 2) or samples[:, 4 + k].any())])

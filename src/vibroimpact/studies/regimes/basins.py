@@ -11,8 +11,9 @@ MIRRORED = "asymmetric, mirrored"
 
 
 def stable_response(system):
-    """The stable asymmetric orbit with the largest flight time from wall +1 of the first ball that takes part; None if
-    there is none.
+    """Return the stable asymmetric orbit with the longest flight from wall +1, or None.
+
+    The flight is that of the first ball that takes part.
     """
     stable = [o for o in orbits(system) if o.admissible and not o.symmetric and abs(o.multipliers[0]) < 1]
     first = system.modules[0] - 1 if stable else None
@@ -20,7 +21,9 @@ def stable_response(system):
 
 
 def plane(state, points: int) -> np.ndarray:
-    """Starts (points^2, 8): boxes and all velocities as in `state` (8,), the balls anywhere in their cavities.
+    """Return initial states (points^2, 8) on a plane of ball positions.
+
+    Boxes and all velocities are those of `state` (8,); the balls are anywhere between their walls.
 
     W_1 = X_1 - Y_1 and W_2 take the middles of so many equal parts of (-1, 1), W_2 fastest.
     """
@@ -31,6 +34,6 @@ def plane(state, points: int) -> np.ndarray:
 
 
 def ends(system, states, observation: Observation) -> list[str]:
-    """Regime that each start ends in; MIRRORED is an asymmetric response with negative flight asymmetry."""
+    """Return the regime that each start ends in; MIRRORED is an asymmetric response with negative flight asymmetry."""
     regimes = settle(system, states, observation)
     return [MIRRORED if one.name == ASYMMETRIC and one.flight_asymmetry < 0 else one.name for one in regimes]

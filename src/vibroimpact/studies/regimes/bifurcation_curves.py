@@ -37,10 +37,12 @@ class Plane:
     limits: np.ndarray
 
     def __call__(self, p: float, q: float):
-        """The system at a point.
+        """Return the system at a point.
 
-        Raises:
-            Lost: there is none.
+        Raises
+        ------
+        Lost
+            If there is none.
         """
         try:
             return self.system.with_(**dict(zip(self.names, (float(p), float(q)), strict=True)))
@@ -48,7 +50,7 @@ class Plane:
             raise Lost(str(error)) from None
 
     def margin(self, z) -> float:
-        """Distance of z = (..., p, q) from the edge over the width of the rectangle, below 0 outside."""
+        """Return the distance of z = (..., p, q) from the edge over the width of the rectangle, below 0 outside."""
         low, high = self.limits.T
         return float(np.minimum((z[-2:] - low) / (high - low), (high - z[-2:]) / (high - low)).min())
 
@@ -75,7 +77,7 @@ class BifurcationCurve(Representation):
         return named | {"points": f"{len(self.points)}, {ends}"}
 
     def rows(self, number: int = 0) -> list[dict]:
-        """A row per point: family, curve, special, both parameters, C1, C2."""
+        """Return a row per point: family, curve, special, both parameters, C1, C2."""
         of = {"family": self.family.name, "curve": number, "special": self.kind}
         return [
             {**of, **dict(zip(self.names, point, strict=True)), "C1": C1, "C2": C2}
@@ -86,11 +88,16 @@ class BifurcationCurve(Representation):
 def bifurcation_curves(
     plane: Plane, branches: list[tuple[float, Branch]], longest: float, tell: Callable = lambda p, q: None
 ) -> list[BifurcationCurve]:
-    """The curves through the folds and symmetry breakings of some branches, within the rectangle.
+    """Return the curves through the folds and symmetry breakings of some branches, within the rectangle.
 
-    Args:
-        branches: pairs of a value of the second parameter, and a Branch along the first one there.
-        longest: longest step along a curve. tell: called at each point, for a report of progress.
+    Parameters
+    ----------
+    branches : list[tuple[float, Branch]]
+        Pairs of a value of the second parameter, and a Branch along the first one there.
+    longest : float
+        Longest step along a curve.
+    tell : callable, optional
+        Called at each point, for a report of progress.
     """
     found, passed = [], []
     for q, branch in branches:
@@ -111,7 +118,9 @@ def bifurcation_curves(
 
 
 def symmetry_breaking(system, x) -> float:
-    """Determinant that vanishes where the symmetry of a symmetric orbit breaks, from its root (tau_1, tau_2, C_1, C_2).
+    """Return the determinant that vanishes where the symmetry of an orbit breaks.
+
+    The orbit is given by its root (tau_1, tau_2, C_1, C_2).
 
     Antisymmetric changes move the impacts at both walls oppositely; the sums of the conditions of restitution at both
     walls are what they change.
@@ -139,7 +148,7 @@ TESTS = {
 
 
 def _curve(plane, family, kind):
-    """The roots (x, p, q) of the equations of a family at which a function of a kind vanishes."""
+    """Return the roots (x, p, q) of the equations of a family at which a function of a kind vanishes."""
     test, of_family = TESTS[family.name][kind], equations(family, plane)
 
     def extended(y, q):
@@ -163,7 +172,7 @@ def _curve(plane, family, kind):
 
 
 def _half(plane, family, curve, longest, tell, start):
-    """Points and places on one side of the start, to where a ball speed vanishes or the rectangle ends."""
+    """Return the points and places on one side of the start, to where a ball speed vanishes or the rectangle ends."""
 
     def margin(z):
         return min(plane.margin(z), family.speed(z[:-2]))

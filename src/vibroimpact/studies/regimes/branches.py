@@ -37,7 +37,7 @@ class Path:
     names: tuple[str, ...]
 
     def __call__(self, p: float):
-        """The system at p."""
+        """Return the system at p."""
         return self.system.with_(**dict.fromkeys(self.names, p))
 
 
@@ -81,7 +81,10 @@ class Branch(Representation):
         return [node for node in self.nodes if node.kind]
 
     def pieces(self) -> list[tuple[Node, list[Node]]]:
-        """Pieces between special points, both included, each with an inner node, whose stability is that of all."""
+        """Return the pieces between special points, both ends included.
+
+        Each piece has an inner node, whose stability is that of the piece.
+        """
         cuts = [k for k, node in enumerate(self.nodes) if node.kind]
         found, inner = [], None
         for a, b in pairwise([0, *cuts, len(self.nodes) - 1]):
@@ -92,7 +95,7 @@ class Branch(Representation):
         return found
 
     def rows(self, number: int = 0) -> list[dict]:
-        """A row per node, along the pieces between special points, which belong to the pieces they join."""
+        """Return a row per node, along the pieces between special points, which belong to the pieces they join."""
         return [
             {
                 "family": self.family.name,
@@ -120,17 +123,24 @@ def branches(
     tell: Callable = lambda p: None,
     symmetric: Iterable[Branch] = (),
 ) -> list[Branch]:
-    """All branches of a family within an interval of p that pass one of the seeds (values of p), or leave these.
+    """Return all branches of a family within an interval of p that pass one of the seeds (values of p), or leave these.
 
     A branch ends at the ends of the interval, where a ball speed vanishes, where it is lost, and, for asymmetric
     orbits, where it meets its mirror image on a symmetric one; of two mirror images one is followed. A branch that
     neither passes a seed nor leaves another branch is missed. A seed without roots is skipped with a warning.
 
-    Args:
-        family: one of `families.FAMILIES`. path: gives the system at p.
-        longest: longest step along the curve.
-        tell: called with p at each seed and node, for a report of progress.
-        symmetric: branches of symmetric orbits, which asymmetric ones leave.
+    Parameters
+    ----------
+    family
+        One of `families.FAMILIES`.
+    path : Path
+        Gives the system at p.
+    longest : float
+        Longest step along the curve.
+    tell : callable, optional
+        Called with p at each seed and node, for a report of progress.
+    symmetric : iterable of Branch, default ()
+        Branches of symmetric orbits, which asymmetric ones leave.
     """
 
     def same(z, near):
@@ -165,7 +175,7 @@ def branches(
 
 
 def equations(family, path: Callable) -> Callable:
-    """Residual and Jacobian of a family at x and parameters p; Lost where there is no system or no steady response."""
+    """Return the residual and Jacobian of a family at x and parameters p."""
 
     def at(x, *p):
         try:
@@ -177,7 +187,10 @@ def equations(family, path: Callable) -> Callable:
 
 
 def images(family, system, x, near) -> list[np.ndarray]:
-    """Roots that are the same motion or its mirror image, angles within half a turn of those of another root."""
+    """Return the roots of the same motion and of its mirror image.
+
+    Angles are within half a turn of those of another root.
+    """
     found, turn = family.images(system, x.copy()), family.turn(system)
     for image in found:
         image[family.angles] += turn * np.rint((near - image)[family.angles] / turn)
@@ -185,7 +198,7 @@ def images(family, system, x, near) -> list[np.ndarray]:
 
 
 def _seeds(family, path, seeds, tell):
-    """Roots z = (x, p) at the seeds."""
+    """Yield the roots z = (x, p) at the seeds."""
     for p in seeds:
         tell(p)
         try:
@@ -197,7 +210,7 @@ def _seeds(family, path, seeds, tell):
 
 
 def _half(family, path, interval, curve, longest, tell, start):
-    """Nodes and places on one side of the start."""
+    """Return the nodes and places on one side of the start."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
@@ -243,12 +256,15 @@ def _node(family, path, z, kind="", member=None):
 
 
 def _symmetric(family, system, x):
-    """True for a root of the asymmetric equations with equal flights, where their branches meet mirror images."""
+    """Return True for a root of the asymmetric equations with equal flights.
+
+    There a branch meets its mirror image.
+    """
     return family is AsymmetricOrbits and bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
 
 def _special(family, path, curve, before, tests, after, values):
-    """Special points between two neighbouring places of the curve, in their order."""
+    """Return the special points between two neighbouring places of the curve, in their order."""
 
     def test(z, kind):
         if kind == FOLD:

@@ -75,7 +75,7 @@ class Regime:
 
 
 def classify_after(system, state, window: int, nearness: float) -> Regime:
-    """The regime of a motion with `state` (8,) at the start of a forcing cycle, from a window of cycles.
+    """Return the regime of a motion with `state` (8,) at the start of a forcing cycle, from a window of cycles.
 
     Where no displacement changes by more than `nearness` after some number of cycles, Newton's method goes from there
     to the periodic motion itself, if an attracting one is that near and the run approaches it (`_approaches`); the
@@ -101,7 +101,7 @@ class Cycle(NamedTuple):
 
 
 def attracting_cycle(system, state, cycles: int, reach: float) -> Cycle | None:
-    """The attracting periodic motion of a number of cycles that Newton's method finds near a state.
+    """Return the attracting periodic motion of a number of cycles that Newton's method finds near a state.
 
     None if there is none within `reach`, or one with a multiplier on or outside the unit circle. A module that takes no
     part keeps its state.
@@ -127,7 +127,7 @@ def attracting_cycle(system, state, cycles: int, reach: float) -> Cycle | None:
 
 
 def _approaches(run, motion, repeats, multiplier):
-    """True if a run has reached an attracting periodic motion, or approaches it from its end on.
+    """Return True if a run has reached an attracting periodic motion, or approaches it from its end on.
 
     Chaos may repeat within `nearness` next to a motion whose basin is narrower yet. So the run is followed until the
     largest multiplier has shrunk the distance to _SHRUNK of itself: it has to shrink at half of this rate at least.
@@ -146,7 +146,7 @@ def _approaches(run, motion, repeats, multiplier):
 
 
 def _distance(run, samples):
-    """Largest difference of the displacements of a run from others (n, 8) at its samples."""
+    """Return the largest difference of the displacements of a run from others (n, 8) at its samples."""
     return np.abs(run.samples - samples)[:, :4].max()
 
 
@@ -180,26 +180,33 @@ def _window(system, state, cycles):
 
 
 def _at_rest(run):
-    """True for each ball that is at rest at all samples, of the n modules that take part, shape (n,)."""
+    """Return True for each ball that is at rest at all samples, of the n modules that take part, shape (n,)."""
     return ~run.samples[:, _of_modules(run.system, (5, 7))].any(axis=0)
 
 
 def _of_modules(system, places):
-    """Those of some places in the state that are of modules that take part."""
+    """Return the those of some places in the state that are of modules that take part."""
     moves = takes_part(system)
     return [place for place in places if moves[place]]
 
 
 def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
-    """Starts spread evenly over displacements, relative displacements and velocities, and the start from rest.
+    """Return the starts spread evenly over displacements, relative displacements and velocities, and the start from
+    rest.
 
     Shape (count, 8): rest first, then scrambled Halton points with |X_i|, |X_i'|, |Y_i'| <= reach, |W_i| < 1.
 
-    Args:
-        count: from 1 on. seed: what scrambles them.
+    Parameters
+    ----------
+    count : int
+        From 1 on.
+    seed : int, default 1
+        What scrambles them.
 
-    Raises:
-        ValueError: an argument is malformed.
+    Raises
+    ------
+    ValueError
+        If an argument is malformed.
     """
     from scipy.stats import qmc  # takes a second to load, and few who classify draw starts
 
@@ -211,7 +218,7 @@ def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
 
 
 def _two_impacts(run):
-    """True if each ball meets each wall once a cycle, but for an impact on the edge of the window."""
+    """Return True if each ball meets each wall once a cycle, but for an impact on the edge of the window."""
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
     return len(impacts) == len(run.events) and bool(np.all(np.abs(np.array(counts) - run.cycles) <= 1))

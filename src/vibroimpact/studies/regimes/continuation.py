@@ -49,7 +49,7 @@ class Place(NamedTuple):
     closing: bool = False
 
     def reversed(self) -> "Place":
-        """The same point, passed the other way."""
+        """Return the same point, passed the other way."""
         return Place(self.z, -self.tangent, -self.determinant)
 
 
@@ -65,22 +65,24 @@ class Curve:
     images: Callable = lambda z, near: [z]
 
     def place(self, z: np.ndarray, ahead: np.ndarray) -> Place:
-        """A point of the curve with its tangent, on the side of `ahead`, (d + 1,)."""
+        """Return a point of the curve with its tangent, on the side of `ahead`, (d + 1,)."""
         by_z = self._by_z(z)
         tangent = np.linalg.svd(by_z)[2][-1]
         tangent = np.copysign(1.0, tangent @ ahead) * tangent
         return Place(z, tangent, float(np.linalg.det(np.vstack([by_z, tangent]))))
 
     def singular(self, z: np.ndarray) -> bool:
-        """True if dF/dz has not full rank at a point, to rounding, so that there is no one tangent."""
+        """Return True if dF/dz has not full rank at a point, to rounding, so that there is no one tangent."""
         sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
         return bool(sizes[-1] <= _SINGULAR * (1 + sizes[0]))
 
     def step(self, place: Place, length: float) -> np.ndarray:
-        """The point z of the curve next to a step of this length along the tangent.
+        """Return the point z of the curve next to a step of this length along the tangent.
 
-        Raises:
-            Lost: Newton's method does not settle.
+        Raises
+        ------
+        Lost
+            If Newton's method does not settle.
         """
         guess = place.z + length * place.tangent
         steep = abs(place.tangent[-1]) > _STEEP
@@ -97,13 +99,15 @@ class Curve:
         raise Lost(f"no root of the equations near {guess}")
 
     def trace(self, start: Place, longest: float, inside: Callable, points: int = 2000) -> Iterator[Place]:
-        """Places along the curve from a start, branch points among them.
+        """Yield the places along the curve from a start, branch points among them.
 
         Ends with the first point z for which inside(z) is False, where the curve closes, after so many points, or where
         the curve is lost.
 
-        Args:
-            longest: longest step.
+        Parameters
+        ----------
+        longest : float
+            Longest step.
         """
         place, length = start, longest / 4
         yield place
@@ -127,7 +131,7 @@ class Curve:
                 return
 
     def zero(self, function: Callable, place: Place, end: np.ndarray) -> np.ndarray:
-        """The point between a place and z = end, a later point of the curve, at which function(z) vanishes."""
+        """Return the point between a place and z = end, a later point of the curve, at which function(z) vanishes."""
         steep = abs(place.tangent[-1]) > _STEEP
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
         try:
@@ -137,7 +141,7 @@ class Curve:
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
-        """Points and places of the curve through a root z, in their order; of a closed curve once round.
+        """Return the points and places of the curve through a root z, in their order; of a closed curve once round.
 
         half(start) returns those on one side of a place. A multiple root, known to half the digits, is first refined.
         """
@@ -154,11 +158,11 @@ class Curve:
         return back[:0:-1] + points, [place.reversed() for place in behind[:0:-1]] + places
 
     def passes(self, places: list[Place], z: np.ndarray) -> bool:
-        """True if a root z lies on the curve through some places."""
+        """Return True if a root z lies on the curve through some places."""
         return any(self.held(*pair, z) is not None for pair in pairwise(places))
 
     def held(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
-        """The image of a root z that lies on the curve between two neighbouring places, if one does."""
+        """Return the image of a root z that lies on the curve between two neighbouring places, if one does."""
         chord = after.z - place.z
         length = np.linalg.norm(chord)
         for image in self.images(z, place.z):
@@ -174,12 +178,12 @@ class Curve:
         return None
 
     def arms(self, z: np.ndarray) -> list[np.ndarray]:
-        """Points near a branch point z, one on each of the branches that leave it."""
+        """Return the points near a branch point z, one on each of the branches that leave it."""
         left, _, right = np.linalg.svd(self._by_z(z))
         unbalanced, plane = left[:, -1:], right[-2:]
 
         def at(angle):
-            """The point on the circle where all of F vanishes but a multiple of `unbalanced`, and that multiple."""
+            """Return the point on the circle where F is a multiple of `unbalanced`, and that multiple."""
             guess = z + _CIRCLE * np.array([np.cos(angle), np.sin(angle)]) @ plane
             y, part = guess, 0.0
             for _ in range(_STEPS // 4):
@@ -197,7 +201,7 @@ class Curve:
             return []
 
     def _by_p(self, z):
-        """dF/dp, shape (d,), at z; one-sided where F ends."""
+        """Return dF/dp, shape (d,), at z; one-sided where F ends."""
         x, p = z[:-1], z[-1]
         h = _DIFFERENCE * (1 + abs(p))
         for stencil in _STENCILS:
@@ -208,11 +212,11 @@ class Curve:
         raise lost
 
     def _by_z(self, z):
-        """dF/dz, shape (d, d + 1)."""
+        """Return dF/dz, shape (d, d + 1)."""
         return np.column_stack([self.equations(z[:-1], z[-1])[1], self._by_p(z)])
 
     def _ahead(self, place, length):
-        """The place a step ahead, last; [] if the curve turns too much or is lost.
+        """Return the place a step ahead, last; [] if the curve turns too much or is lost.
 
         Before it a branch point, if there is one, between two places beside it. A change of sign without a branch point
         is a step to another curve.
@@ -233,7 +237,7 @@ class Curve:
         ]
 
     def _next(self, place, length):
-        """The place a step ahead; None if it is not found or the curve turns too much."""
+        """Return the place a step ahead; None if it is not found or the curve turns too much."""
         try:
             after = self.place(self.step(place, length), place.tangent)
         except Lost:
@@ -241,7 +245,10 @@ class Curve:
         return after if place.tangent @ after.tangent > np.cos(_TURN) else None
 
     def _foot(self, place, z):
-        """The place where z is across the tangent, next to another, as a list; [] unless z is on the curve there."""
+        """Return, as a list, the point of the curve that lies across the tangent next to a given point.
+
+        The list is empty if the curve has no such point.
+        """
         for _ in range(_FEET):
             place = self._next(place, place.tangent @ (z - place.z))
             if place is None:
@@ -251,7 +258,7 @@ class Curve:
         return []
 
     def _round(self, place):
-        """A place beyond a corner just ahead, where F has a kink, as a list; [] if there is no corner.
+        """Return a place beyond a corner just ahead, where F has a kink, as a list; [] if there is no corner.
 
         There dF/dz jumps, as for orbits where impacts of both modules change places.
         """
@@ -263,7 +270,9 @@ class Curve:
         return [one for one in after if one and abs(place.tangent @ one.tangent) < np.cos(_TURN)][:1]
 
     def _bisected(self, place, after, before: Callable):
-        """Two places between two others, so near to each other that they are one; None if the curve does not join them.
+        """Return two points between two others that are one to rounding.
+
+        The result is None if the curve does not join them.
 
         before(place): True on the side of the first.
         """
@@ -279,7 +288,7 @@ class Curve:
 
 
 def _solve(blocks, right):
-    """Solution of a bordered system."""
+    """Return the solution of a bordered system."""
     try:
         return np.linalg.solve(np.vstack([np.hstack(row) for row in blocks]), right)
     except np.linalg.LinAlgError:

@@ -41,13 +41,13 @@ def coupled(system, alpha12_hat: float, held: bool = False):
 
 
 def lean(orbit) -> np.ndarray:
-    """v_1, v_2 of an orbit, shape (2,): time from wall -1 to +1 less that from +1 to -1, over the period."""
+    """Return v_1, v_2 of an orbit, shape (2,): time from wall -1 to +1 less that from +1 to -1, over the period."""
     plus, minus = orbit.ball_speeds.T
     return (plus - minus) / (plus + minus)
 
 
 def pattern(orbit) -> str | None:
-    """SAME or OPPOSITE, or None if a ball does not lean."""
+    """Return SAME or OPPOSITE, or None if a ball does not lean."""
     v = lean(orbit)
     return None if not _both_lean(v) else SAME if v.prod() > 0 else OPPOSITE
 
@@ -67,8 +67,10 @@ def patterns(system) -> dict[str, np.ndarray]:
 def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
     """Yield each pattern found at SOUGHT with the couplings over which it is stable, its damper in proportion.
 
-    Args:
-        limits: least and largest alpha12_hat.
+    Parameters
+    ----------
+    limits
+        Least and largest alpha12_hat.
 
     Yields (pattern, where it was found, [(alpha12_hat, Orbit), ...] ascending, how it ends below and above): a fold,
     Neimark-Sacker, a period doubling, grazing, STRAIGHT; "" at a limit.
@@ -87,7 +89,7 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
 
 
 def _followed(system, root, value, name, limit):
-    """Couplings towards a limit, each with its Orbit, while the pattern stays and is stable."""
+    """Yield the couplings towards a limit, each with its Orbit, while the pattern stays and is stable."""
     way, step = np.sign(limit - value), STEP
     while step > SHARP and value != limit:
         reached = value * np.exp(way * step)
@@ -103,7 +105,7 @@ def _followed(system, root, value, name, limit):
 
 
 def _end(orbit):
-    """How a pattern ends, from its last stable orbit."""
+    """Return the how a pattern ends, from its last stable orbit."""
     mu = orbit.multipliers[0]
     if np.abs(lean(orbit)).min() < LEANING + _AT_THE_END:
         return STRAIGHT

@@ -40,8 +40,10 @@ class Comparison:
 def compare(system, point) -> Comparison:
     """Compare a fixed point with the nearest symmetric orbit.
 
-    Raises:
-        NoOrbit: the system has no symmetric orbit.
+    Raises
+    ------
+    NoOrbit
+        If the system has no symmetric orbit.
     """
     root, offset = _nearest(system, point)
     fast = np.concatenate([impact_multipliers(C, system.kappa) ** 2 for C in point.C[np.isfinite(point.C)]])
@@ -49,7 +51,7 @@ def compare(system, point) -> Comparison:
 
 
 def paired(system, offset, exact, slow, fast) -> Comparison:
-    """The Comparison of exact multipliers with slow eigenvalues and fast multipliers, each half as many."""
+    """Return the Comparison of exact multipliers with slow eigenvalues and fast multipliers, each half as many."""
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
     # Slow multipliers are predicted to second order in epsilon, fast ones to first: weighed so that both count alike.
@@ -66,10 +68,14 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
 
 
 def order(epsilon, errors) -> tuple[float, float]:
-    """Exponent p of errors ~ epsilon^p by least squares on the logarithms, and its standard error (nan for 2 points).
+    """Return the exponent p of errors ~ epsilon^p and its standard error (nan for 2 points).
 
-    Raises:
-        ValueError: fewer than 2 points.
+    The logarithms are fitted by least squares.
+
+    Raises
+    ------
+    ValueError
+        If fewer than 2 points.
     """
     if len(epsilon) < 2:
         raise ValueError(f"epsilon: an order needs at least 2 points, got {len(epsilon)}")
@@ -81,7 +87,7 @@ def order(epsilon, errors) -> tuple[float, float]:
 
 
 def _nearest(system, point):
-    """The root of the symmetric orbit nearest to a fixed point, and its offset from it."""
+    """Return the root of the symmetric orbit nearest to a fixed point, and its offset from it."""
     roots = symmetric_solutions(system)
     if not len(roots):
         raise NoOrbit("system: it has no symmetric 1:1 orbit")

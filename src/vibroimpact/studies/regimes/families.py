@@ -43,25 +43,27 @@ class SymmetricOrbits:
 
     @staticmethod
     def turn(system) -> float:
-        """A full turn of the angles among the unknowns."""
+        """Return a full turn of the angles among the unknowns."""
         return system.period
 
     @classmethod
     def roots(cls, system) -> np.ndarray:
-        """All roots, shape (n, 4)."""
+        """Return all roots, shape (n, 4)."""
         return np.where(_idle(cls, system), cls.rest, symmetric_solutions(system))
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
-        """Roots that are the same motion or its mirror image."""
+        """Return the roots that are the same motion or its mirror image."""
         return [x]
 
     @classmethod
     def equations(cls, system, x):
-        """Residual (d,) and Jacobian (d, d) of the conditions on x, (d,).
+        """Return the residual (d,) and Jacobian (d, d) of the conditions on x, (d,).
 
-        Raises:
-            Lost: both modules take part in the system, and x is a response of one.
+        Raises
+        ------
+        Lost
+            If both modules take part in the system, and x is a response of one.
         """
         _refuse_one_of_two(cls, system, x)
         residual, jacobian = cls._conditions(system)(x[None])
@@ -69,33 +71,33 @@ class SymmetricOrbits:
 
     @classmethod
     def speed(cls, x) -> float:
-        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
+        """Return the smallest C_i, or I_i, which vanishes with the least ball speed."""
         return x[cls.angles.stop :].min()
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
-        """C_i, shape (2,)."""
+        """Return C_i, shape (2,)."""
         return _of_modules(system, x[2:])
 
     @classmethod
     def member(cls, system, x):
-        """The Orbit of a root, its impact times brought into the first period."""
+        """Return the Orbit of a root, its impact times brought into the first period."""
         times = cls.angles.stop
         return cls._orbit(system, np.concatenate([wrapped(x[:times], system.period), x[times:]]))
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Functions that vanish at special points, by name."""
+        """Return the functions that vanish at special points, by name."""
         return _tests(half_period_multipliers(orbit), SYMMETRY_BREAKING, orbit)
 
     @staticmethod
     def stable(system, orbit) -> bool:
-        """True if all multipliers are inside the unit circle."""
+        """Return True if all multipliers are inside the unit circle."""
         return bool(abs(orbit.multipliers[0]) < 1)
 
     @staticmethod
     def admissible(orbit) -> bool:
-        """True if the orbit is a motion of the system."""
+        """Return True if the orbit is a motion of the system."""
         return orbit.admissible
 
     @staticmethod
@@ -114,24 +116,24 @@ class AsymmetricOrbits(SymmetricOrbits):
 
     @classmethod
     def roots(cls, system) -> np.ndarray:
-        """Roots found, shape (n, 6)."""
+        """Return the roots found, shape (n, 6)."""
         return np.where(_idle(cls, system), cls.rest, asymmetric_solutions(system)[0])
 
     @classmethod
     def images(cls, system, x) -> list[np.ndarray]:
-        """Roots that are the same motion or its mirror image."""
+        """Return the roots that are the same motion or its mirror image."""
         image = np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])
         return [x, np.where(_idle(cls, system), x, image)]
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
-        """C_i, shape (2,)."""
+        """Return C_i, shape (2,)."""
         u = flight_fractions(system, x)
         return _of_modules(system, sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period))
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Functions that vanish at special points, by name."""
+        """Return the functions that vanish at special points, by name."""
         return _tests(orbit.multipliers, PERIOD_DOUBLING, orbit)
 
 
@@ -143,26 +145,28 @@ class FixedPoints:
 
     @staticmethod
     def turn(system) -> float:
-        """A full turn of the angles among the unknowns."""
+        """Return a full turn of the angles among the unknowns."""
         return 2 * np.pi
 
     @classmethod
     def roots(cls, system) -> np.ndarray:
-        """All fixed points with C_1, C_2 >= 0, shape (n, 4)."""
+        """Return all fixed points with C_1, C_2 >= 0, shape (n, 4)."""
         found = [np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]
         return np.where(_idle(cls, system), cls.rest, np.reshape(found, (-1, 4)))
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
-        """Roots that are the same motion or its mirror image."""
+        """Return the roots that are the same motion or its mirror image."""
         return [x]
 
     @classmethod
     def equations(cls, system, x):
-        """Residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4).
+        """Return the residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4).
 
-        Raises:
-            Lost: both modules take part in the system, and x is a response of one.
+        Raises
+        ------
+        Lost
+            If both modules take part in the system, and x is a response of one.
         """
         _refuse_one_of_two(cls, system, x)
         residual, jacobian, part = x - cls.rest, np.eye(4), ~_idle(cls, system)
@@ -171,24 +175,24 @@ class FixedPoints:
 
     @staticmethod
     def speed(x) -> float:
-        """Smallest C_i, or I_i, which vanishes with the least ball speed."""
+        """Return the smallest C_i, or I_i, which vanishes with the least ball speed."""
         return x[0::2].min()
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
-        """C_i, shape (2,)."""
+        """Return C_i, shape (2,)."""
         return _of_modules(system, x[0::2])
 
     @staticmethod
     def member(system, x):
-        """The FixedPoint of a root."""
+        """Return the FixedPoint of a root."""
         C, psi = _of_modules(system, x[0::2]), _of_modules(system, x[1::2])
         values = slow_eigenvalues(system, psi, C)
         return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, values, multiple=False)
 
     @staticmethod
     def tests(system, point) -> dict[str, float]:
-        """Functions that vanish at special points, by name.
+        """Return the functions that vanish at special points, by name.
 
         Where the manifold folds, one eigenvalue of the slow flow is infinite; its pole is multiplied away.
         """
@@ -204,13 +208,13 @@ class FixedPoints:
 
     @staticmethod
     def stable(system, point) -> bool:
-        """True if slow flow and impact map are both stable."""
+        """Return True if slow flow and impact map are both stable."""
         beyond = (C_min(rho(system.kappa)) >= point.C) | (point.C >= SYMMETRY_BREAKING_C)
         return bool(not beyond.any() and (point.slow_eigenvalues.real < 0).all())
 
     @staticmethod
     def admissible(point) -> bool:
-        """True: all fixed points are shown."""
+        """Return True: all fixed points are shown."""
         return True
 
     @staticmethod
@@ -224,7 +228,9 @@ FAMILIES = {family.name: family for family in (SymmetricOrbits, AsymmetricOrbits
 
 
 def flight_fractions(system, x) -> np.ndarray:
-    """Time from wall +1 to wall -1 over the period for a root of the asymmetric orbits, of each module, shape (2,).
+    """Return the time from wall +1 to wall -1 over the period, for each module, shape (2,).
+
+    The argument is a root of the asymmetric equations.
 
     It is 1/2 of a module that takes no part.
     """
@@ -233,21 +239,23 @@ def flight_fractions(system, x) -> np.ndarray:
 
 
 def _idle(family, system):
-    """True (d,) for the unknowns of a module that takes no part."""
+    """Return True (d,) for the unknowns of a module that takes no part."""
     part = system.modules
     return np.array([module not in part for module in family.modules])
 
 
 def _of_modules(system, values):
-    """Numbers of both modules, (2,), NaN of one that takes no part."""
+    """Return the numbers of both modules, (2,), NaN of one that takes no part."""
     return np.where(np.isin([1, 2], system.modules), values, np.nan)
 
 
 def _refuse_one_of_two(family, system, x):
     """Refuse a response of one module where both take part.
 
-    Raises:
-        Lost: x is one.
+    Raises
+    ------
+    Lost
+        If x is one.
     """
     held = np.abs(x - family.rest) < _HELD
     if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
@@ -255,13 +263,16 @@ def _refuse_one_of_two(family, system, x):
 
 
 def asymmetric_root(system, x) -> np.ndarray:
-    """A symmetric orbit's root (tau_1, tau_2, C_1, C_2) as one of the asymmetric equations, (6,)."""
+    """Return a symmetric orbit's root (tau_1, tau_2, C_1, C_2) as one of the asymmetric equations, (6,)."""
     times = np.stack([x[:2], x[:2] + system.period / 2], axis=1).ravel()
     root = np.append(times, 4 * path_of(system.epsilon, x[2:]) / system.period)
     return np.where(_idle(AsymmetricOrbits, system), AsymmetricOrbits.rest, root)
 
 
 def _tests(mu, at_minus_one, orbit):
-    """Functions of an orbit's multipliers mu and of its excursion; `at_minus_one`: the name of the point at mu = -1."""
+    """Return functions of an orbit's multipliers mu and of its excursion.
+
+    `at_minus_one` names the special point at mu = -1.
+    """
     found = {at_minus_one: 1 + mu, NEIMARK_SACKER: np.array([1 - a * b for a, b in combinations(mu, 2)])}
     return {name: float(np.prod(factors).real) for name, factors in found.items()} | {GRAZING: 1 - orbit.excursion}

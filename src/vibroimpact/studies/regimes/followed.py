@@ -18,14 +18,18 @@ SAME = 1e-6
 
 
 def followed(systems: dict) -> Iterator[tuple[float, object]]:
-    """Value and Orbit of every motion on the branches of the stable asymmetric orbits, one of two mirror images.
+    """Yield the value and Orbit of each motion on the branches of the stable asymmetric orbits.
+
+    Only one of two mirror images is followed.
 
     What is sought at a few values is followed to both sides by Newton's method, to where a branch folds, the orbit
     leaves the walls or becomes symmetric. Branches without a stable orbit at one of those values are missed; a value at
     a resonance of undamped boxes is skipped, with a warning if it is one of those.
 
-    Args:
-        systems: value of the parameter (ascending) -> system.
+    Parameters
+    ----------
+    systems : dict
+        Value of the parameter (ascending) -> system.
     """
     values, found = list(systems), {value: [] for value in systems}
     for part in SEARCHED:
@@ -41,7 +45,7 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
 
 
 def _stable(system):
-    """Roots of motions that are stable, one of two mirror images."""
+    """Return the roots of motions that are stable, one of two mirror images."""
     stable = []
     try:
         roots = AsymmetricOrbits.roots(system)
@@ -56,13 +60,13 @@ def _stable(system):
 
 
 def _known(x, roots, system):
-    """True if a root or its mirror image is among others."""
+    """Return True if a root or its mirror image is among others."""
     near = (image - root for root in roots for image in images(AsymmetricOrbits, system, x, root))
     return any(np.abs(gap).max() < SAME for gap in near)
 
 
 def _along(values, systems, x):
-    """Value, root and Orbit at each of some values in turn, next to the one before, while it is a motion."""
+    """Yield the value, root and Orbit at each of some values in turn, next to the one before, while it is a motion."""
     for value in values:
         try:
             found = newton(AsymmetricConditions(systems[value]), x[None])

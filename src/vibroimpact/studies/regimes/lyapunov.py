@@ -48,20 +48,28 @@ class Measured(Exponent):
 
 
 def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 10) -> Measured:
-    """Largest Lyapunov exponent, with its error.
+    """Return the largest Lyapunov exponent, with its error.
 
     On a periodic motion this is the log of its largest multiplier's modulus, over the period. The error takes the
     growth in different blocks as independent. The perturbation is of the modules that take part.
 
-    Args:
-        state: (8,) on the attractor, at the start of a forcing cycle.
-        blocks: how many blocks are averaged over, at least 2.
-        cycles: forcing cycles in a block.
-        discarded: blocks before those, for the perturbation to turn to the direction of largest growth.
+    Parameters
+    ----------
+    state
+        (8,) on the attractor, at the start of a forcing cycle.
+    blocks : int
+        How many blocks are averaged over, at least 2.
+    cycles : int
+        Forcing cycles in a block.
+    discarded : int, default 10
+        Blocks before those, for the perturbation to turn to the direction of largest growth.
 
-    Raises:
-        ValueError: fewer than 2 blocks.
-        ArithmeticError: the perturbation vanished: the motion forgets it altogether.
+    Raises
+    ------
+    ValueError
+        If fewer than 2 blocks.
+    ArithmeticError
+        If the perturbation vanished: the motion forgets it altogether.
     """
     if blocks < 2:
         raise ValueError(f"blocks: {blocks} is below 2, which a standard error needs")
@@ -97,7 +105,7 @@ class Spectrum:
         return int(np.count_nonzero(self.stuck == BOTH))
 
     def without_double_sticks(self) -> "Spectrum":
-        """The spectrum over the cycles in which the balls do not both stick at once.
+        """Return the spectrum over the cycles in which the balls do not both stick at once.
 
         It hardly depends on how many such cycles a run meets. Of four of its directions each sets in anew behind one,
         and turns to where it grows as it should within some ten cycles, which count.
@@ -116,16 +124,24 @@ class Spectrum:
         return kaplan_yorke(self.exponents)
 
     def errors(self, block: int, resamples: int = 200, seed: int = 1) -> tuple[np.ndarray, float]:
-        """Standard errors of the exponents, in their shape, nan where they are -inf, and of the dimension.
+        """Return the standard errors of the exponents, in their shape, nan where they are -inf, and of the dimension.
 
         By the circular block bootstrap (Politis and Romano 1992): the n cycles are drawn anew in n / block stretches of
         `block` cycles, which keep what one cycle has to do with the next.
 
-        Args:
-            block: from 1 to n / 2. resamples: number of draws, at least 2. seed: of the draws.
+        Parameters
+        ----------
+        block : int
+            From 1 to n / 2.
+        resamples : int, default 200
+            Number of draws, at least 2.
+        seed : int, default 1
+            Of the draws.
 
-        Raises:
-            ValueError: an argument is malformed; there are fewer than 2 cycles.
+        Raises
+        ------
+        ValueError
+            If an argument is malformed; there are fewer than 2 cycles.
         """
         n, forgotten = len(self.growth), np.isneginf(self.exponents)
         if n < 2:
@@ -141,7 +157,10 @@ class Spectrum:
 
 
 def spectrum(system, state, cycles: int, discarded: int = 100) -> Spectrum:
-    """All Lyapunov exponents over `cycles` forcing cycles after others, from a state as for `largest_exponent`."""
+    """Return all Lyapunov exponents over `cycles` forcing cycles after a transient.
+
+    The initial state is as for `largest_exponent`.
+    """
     full, rest = divmod(discarded + cycles, AT_ONCE)
     size = np.count_nonzero(takes_part(system))
     parts = zip(*_frame_growth(system, state, [AT_ONCE] * full + [rest] * (rest > 0), size), strict=True)
@@ -157,7 +176,9 @@ def _largest_first(rates):
 
 
 def contraction(system, impacts, stuck) -> np.ndarray:
-    """Logarithm of the factor by which each cycle shrinks volumes of states, of its impacts and balls that stick, (n,).
+    """Return the logarithm of the contraction of volumes in each cycle, shape (n,).
+
+    Only impacts and sticking balls are counted, not the damping.
 
     Flights shrink them by the damping, exp(-tr D t), D of the modules that take part. In the gap of its module, its
     rate and the motion of their centre of mass an impact is triangular, with -kappa for the gap (the saltation) and
@@ -170,7 +191,9 @@ def contraction(system, impacts, stuck) -> np.ndarray:
 
 
 def kaplan_yorke(exponents) -> float:
-    """Dimension at which volumes neither grow nor shrink (Kaplan and Yorke 1979), of exponents (n,), largest first.
+    """Return the Kaplan-Yorke dimension (1979) of exponents (n,), largest first.
+
+    It is the dimension at which volumes neither grow nor shrink.
 
     The sum of the largest exponents, interpolated linearly in their number, is 0 there; 0 if all are negative.
     """
@@ -183,7 +206,7 @@ def kaplan_yorke(exponents) -> float:
 
 
 def _frame_growth(system, state, runs, directions):
-    """Growth of a frame along each of some runs, of so many cycles, one after another."""
+    """Yield the growth of a frame along each of some runs, of so many cycles, one after another."""
     places = np.flatnonzero(takes_part(system))
     frame, state = np.zeros((8, directions)), idle_at_rest(system, state)
     frame[places] = np.linalg.qr(_VECTORS[: len(places), : len(places)])[0][:, :directions]

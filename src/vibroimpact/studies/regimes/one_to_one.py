@@ -27,7 +27,7 @@ class Amounts:
 
 
 def by_theory(system) -> list[Amounts]:
-    """To leading order, (10.9), (10.10) and the power balance, at every fixed point of (10.23)."""
+    """Return the to leading order, (10.9), (10.10) and the power balance, at every fixed point of (10.23)."""
     tau = np.linspace(0.0, system.period / 2, SAMPLES)
     return [
         Amounts(
@@ -40,10 +40,12 @@ def by_theory(system) -> list[Amounts]:
 
 
 def by_exact_orbits(system) -> list[Amounts]:
-    """On every symmetric orbit that is a motion of the system, from the closed form of one period.
+    """Return the on every symmetric orbit that is a motion of the system, from the closed form of one period.
 
-    Raises:
-        ArithmeticError: an orbit cannot be found or followed.
+    Raises
+    ------
+    ArithmeticError
+        If an orbit cannot be found or followed.
     """
     found = [SymmetricOrbits.member(system, root) for root in SymmetricOrbits.roots(system)]
     orbits = [orbit for orbit in found if orbit.admissible]

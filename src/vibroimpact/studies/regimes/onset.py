@@ -15,10 +15,16 @@ _FOLLOWED = 300, 300
 
 
 def predicted(path, values) -> np.ndarray:
-    """True where the slow flow takes a ball in and out of resonance for good, see `theory.relaxation`, shape (n,).
+    """Return True, shape (n,), where the slow flow predicts relaxation oscillations.
 
-    Args:
-        path: value -> system, along forces alone. values: (n,).
+    There a ball enters and leaves resonance forever, see `theory.relaxation`.
+
+    Parameters
+    ----------
+    path
+        Value -> system, along forces alone.
+    values
+        (n,).
     """
     forces = [(system.f10_hat, system.f20_hat) for system in map(path, values)]
     share = relax(path.system, *_FOLLOWED, forces=forces).share
@@ -26,17 +32,21 @@ def predicted(path, values) -> np.ndarray:
 
 
 def observed(values, p, names) -> np.ndarray:
-    """True where a start ends in a modulated or chaotic response, shape (n,).
+    """Return True where a start ends in a modulated or chaotic response, shape (n,).
 
-    Args:
-        values: (n,). p, names: parameter and regime of each start.
+    Parameters
+    ----------
+    values
+        (n,).
+    p, names
+        Parameter and regime of each start.
     """
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
 
 
 def longest_range(values, flags) -> tuple[float, float]:
-    """First and last of the longest unbroken sequence of values (n,) with a flag; nan if none has one."""
+    """Return the first and last of the longest unbroken sequence of values (n,) with a flag; nan if none has one."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
     if not len(edges):
         return np.nan, np.nan
@@ -47,8 +57,12 @@ def longest_range(values, flags) -> tuple[float, float]:
 def onsets(path, values, p, names) -> list[tuple]:
     """Return the range of modulated responses along a path, by slow flow and simulation, and the share of agreement.
 
-    Args:
-        path, values: as for `predicted`, values evenly spaced. p, names: where starts are, and what they end in.
+    Parameters
+    ----------
+    path, values
+        As for `predicted`, values evenly spaced.
+    p, names
+        Where starts are, and what they end in.
 
     Returns two rows of COLUMNS: names of the path, source, ends of the longest range, spacing, agreement; none if
     something else than forces changes along the path.

@@ -34,8 +34,10 @@ class Observation:
     `classify_after`. blocks, block: of the Lyapunov exponent of what does not repeat, so many blocks of so many cycles.
     retest: cycles over which such a name is tried.
 
-    Raises:
-        ValueError: one of them is not a number, or below the least with a meaning.
+    Raises
+    ------
+    ValueError
+        If one of them is not a number, or below the least with a meaning.
     """
 
     cycles: int = 250
@@ -54,16 +56,21 @@ class Observation:
 
 
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
-    """The regime that each start ends in, one per start, in their order.
+    """Return the regime that each start ends in, one per start, in their order.
 
     A name for a motion that does not repeat has to last: of the starts with this name one, the witness, runs on for
     `retest` cycles; up to MOST_WITNESSES do where another start has become periodic, so that chaos may be a transient.
     If all witnesses stay with a name of this kind, all starts bear the name of a longer run. If one ends elsewhere, so
     may the others: each runs on as long, and is unsettled if it has ended nowhere by then. Unsettled ones run on, too.
 
-    Args:
-        states: (n, 8) starts at tau = 0; a module that takes no part is put at rest.
-        observation: how long they are looked at. progress: count them on standard error, if that is a terminal.
+    Parameters
+    ----------
+    states
+        (n, 8) starts at tau = 0; a module that takes no part is put at rest.
+    observation : Observation
+        How long they are looked at.
+    progress : bool, default False
+        Count them on standard error, if that is a terminal.
     """
     first = _rounds(system, idle_at_rest(system, states), observation, progress)
     regimes = list(first)
@@ -76,7 +83,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
 
 
 def _rounds(system, states, observation, progress):
-    """The regimes after the rounds; those that do not repeat are named, and run on if that fails."""
+    """Return the regimes after the rounds; those that do not repeat are named, and run on if that fails."""
     found: list[Regime | None] = [None] * len(states)
     waiting, now = np.arange(len(states)), states
     for number in range(1, observation.rounds):
@@ -94,7 +101,7 @@ def _rounds(system, states, observation, progress):
 
 
 def named(run, observation: Observation) -> Regime:
-    """The regime at the end of a run, with a name for one that does not repeat."""
+    """Return the regime at the end of a run, with a name for one that does not repeat."""
     regime = classify_after(run.system, run.final, observation.window, observation.nearness)
     if regime.name == UNSETTLED:
         return replace(regime, name=name_aperiodic(run, observation.blocks, observation.block))
@@ -102,7 +109,7 @@ def named(run, observation: Observation) -> Regime:
 
 
 def _passing(regime):
-    """True if a longer run may end in another regime."""
+    """Return True if a longer run may end in another regime."""
     return regime.name == UNSETTLED or (regime.name == IDLE and regime.repeats is None)
 
 
@@ -111,7 +118,7 @@ def _later(system, regime, observation):
 
 
 def _try(system, regimes, members, observation, progress):
-    """Rename, in place, the members of one name by the ends of the witnesses."""
+    """Rename, in place, the members of one name by the ends of their witnesses."""
     before = regimes[members[-1]].name
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
@@ -132,5 +139,5 @@ def _run_on(system, regimes, places, observation, progress):
 
 
 def _same_kind(before, after):
-    """True if a motion has kept its kind: chaos may turn out to be in resonance more or less often."""
+    """Return True if a motion has kept its kind: chaos may turn out to be in resonance more or less often."""
     return before == after or (before in CHAOS and after in CHAOS)

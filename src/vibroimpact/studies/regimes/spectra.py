@@ -34,7 +34,9 @@ def watch(system, states, cycles: int, block: int) -> list[Watched]:
 
 
 def rows(key: dict, found) -> list[dict]:
-    """Rows of the table for motions of one regime: mean, standard error over them, mean bootstrap error of one.
+    """Return the rows of the table for motions of one regime.
+
+    Each row has the mean, the standard error over motions, and the mean bootstrap error of one motion.
 
     Sum and contraction are of the cycles in which no ball sticks. Double sticks are counted over all motions.
     """
@@ -49,13 +51,16 @@ def rows(key: dict, found) -> list[dict]:
 
 
 def _rate(count, others):
-    """Rate of rare events with the standard error of their number, which is that of one event where none was met."""
+    """Return the rate of rare events and its standard error.
+
+    The error assumes Poisson counts, and that of one event where none was met.
+    """
     scale = OF_CYCLES / (count + others)
     return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}
 
 
 def _free(one, values):
-    """Mean over the cycles in which no ball sticks."""
+    """Return the mean over the cycles in which no ball sticks."""
     return values[one.stuck == 0].mean()
 
 

@@ -21,8 +21,10 @@ def points(axes: list[Mapping]) -> int:
 def core_seconds(request: Mapping) -> float:
     """Predict the core seconds of a sweep, within a factor of some two.
 
-    Args:
-        request: "axes" and "spec", as for `vibroimpact.studies.sweeps.request.parsed`.
+    Parameters
+    ----------
+    request : Mapping
+        "axes" and "spec", as for `vibroimpact.studies.sweeps.request.parsed`.
     """
     spec, observation = request["spec"], request["spec"].get("observation")
     starts, cycles = spec.get("starts", 0), spec.get("cycles", 0)

@@ -24,7 +24,7 @@ class Axis:
     values: tuple[float | tuple[float, ...], ...]
 
     def place(self, value) -> dict[str, float]:
-        """The value of each parameter, by name, at one of the values."""
+        """Return the value of each parameter, by name, at one of the values."""
         return dict(zip(self.along, np.broadcast_to(value, len(self.along)).tolist(), strict=True))
 
 
@@ -37,11 +37,17 @@ def axis(
     cells: int | None = None,
     tuples=None,
 ) -> Axis:
-    """The axis of `values` values from one end of a range to the other, both included, or of the middles of so many
-    equal `cells` of it, or of those listed; or through `tuples`, a value for each parameter.
+    """Return the axis of one parameter, or of several that vary together.
 
-    Args:
-        along: names of parameters of System. scale: one of SPACED, of values.
+    Values are `values` points of a range, ends included; the midpoints of `cells` equal cells of it; or a list. With
+    `tuples`, each point has a value for each parameter.
+
+    Parameters
+    ----------
+    along : sequence of str
+        Names of parameters of System.
+    scale : str, default LINEAR
+        One of SPACED, of values.
     """
     if tuples is not None:
         return Axis(tuple(along), tuple(tuple(map(float, values)) for values in tuples))
@@ -53,8 +59,10 @@ def axis(
 class Grid:
     """The points of a sweep, numbered from 0, those of the last axis fastest.
 
-    Args:
-        system: whose other parameters are kept. axes: one or two.
+    Parameters
+    ----------
+    system
+        Whose other parameters are kept. axes: one or two.
     """
 
     def __init__(self, system: System, axes: Sequence[Axis]):
@@ -65,16 +73,18 @@ class Grid:
         return math.prod(self.shape)
 
     def place(self, number: int) -> dict[str, float]:
-        """The value of every parameter that moves, by name, at a point."""
+        """Return the value of every parameter that moves, by name, at a point."""
         places = np.unravel_index(number, self.shape)
         at = zip(self.axes, places, strict=True)
         return {name: value for axis, k in at for name, value in axis.place(axis.values[k]).items()}
 
     def system(self, number: int) -> System:
-        """The system at a point.
+        """Return the system at a point.
 
-        Raises:
-            ValueError: there is none; it says where.
+        Raises
+        ------
+        ValueError
+            If there is none; it says where.
         """
         place = self.place(number)
         try:
@@ -84,7 +94,7 @@ class Grid:
             raise ValueError(f"at {where}: {error}") from None
 
     def tile(self, number: int, tiles: int) -> range:
-        """Points of a tile, counted from 1: every tiles-th, so that all take about the same time."""
+        """Return the points of a tile, counted from 1: every tiles-th, so that all take about the same time."""
         return range(number - 1, len(self), tiles)
 
     def spread(self, most: int) -> list[int]:

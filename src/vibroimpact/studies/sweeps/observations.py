@@ -35,10 +35,12 @@ LOW, HIGH = 0.05, 0.95
 
 
 def observed(system, spec: Spec) -> dict:
-    """The columns of all observations at one point, as Python numbers; a module that takes no part is at rest.
+    """Return the columns of all observations at one point, as Python numbers; a module that takes no part is at rest.
 
-    Raises:
-        ArithmeticError, RuntimeError, ValueError: one of them cannot be had there.
+    Raises
+    ------
+    ArithmeticError, RuntimeError, ValueError
+        If one of them cannot be had there.
     """
     states = idle_at_rest(system, spread_starts(spec.starts, spec.seed)) if spec.runs else None
     row = {}
@@ -48,7 +50,7 @@ def observed(system, spec: Spec) -> dict:
 
 
 def _regimes(system, states, spec):
-    """Shares of the starts, and where the first of them, rest, ends."""
+    """Return the shares of the starts, and where the first of them, rest, ends."""
     names = [regime.name for regime in settle(system, states, Observation(**spec.observation))]
     return *(names.count(name) / len(names) for name in REGIMES), names[0]
 
@@ -64,7 +66,7 @@ def _amplitudes(system, states, spec):
 
 
 def _envelopes(system, states, spec):
-    """Parts LOW and HIGH of the cycles of all starts have an amplitude of X_i, cycle by cycle, below these."""
+    """Return the quantiles LOW and HIGH of the amplitude of X_i per cycle, over the cycles of all starts."""
     cycles = spec.cycles - spec.settle
     runs = [sampled(system, state, cycles).samples for state in finals(system, states, spec.settle)]
     found = [[cycle_amplitudes(samples[:-1, box], PER_CYCLE) for samples in runs] for box in (0, 2)]
@@ -72,8 +74,10 @@ def _envelopes(system, states, spec):
 
 
 def _peaks(system, states, spec):
-    """Along the band: the highest peak of all starts (`absorbers.peaks`), the largest root mean square of both boxes,
-    where the peak is met, as the value of the first parameter, and the peak with one ball (`_one_ball`).
+    """Return the highest peak of all starts along the band (`absorbers.peaks`).
+
+    Also return the largest root mean square of both boxes, the value of the first parameter at the peak, and the peak
+    with one ball (`_one_ball`).
     """
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
@@ -87,7 +91,7 @@ def _peaks(system, states, spec):
 
 
 def _one_ball(runs):
-    """The peak of runs from rest, if the same one ball is still there in all of them; else nan.
+    """Return the peak of runs from rest, if the same one ball is still there in all of them; else nan.
 
     A ball that meets no wall stays where it is, to the bit, and the box is as if it had none.
     """
@@ -96,7 +100,7 @@ def _one_ball(runs):
 
 
 def _energy(system, states, spec):
-    """Share of the impacts in the work of the forces, over starts with impacts; number of starts without.
+    """Return the share of the impacts in the work of the forces, over starts with impacts; number of starts without.
 
     A start whose balls rest is another motion, without impacts: its work is in no share.
     """
@@ -109,13 +113,13 @@ def _energy(system, states, spec):
 
 
 def fixed_point_counts(system) -> tuple[int, int]:
-    """Number of fixed points of the theory, and of those that it calls stable."""
+    """Return the number of fixed points of the theory, and of those that it calls stable."""
     points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
     return len(points), sum(FixedPoints.stable(system, point) for point in points)
 
 
 def _orbits(system, states, spec):
-    """Number of 1:1 orbits that are motions of the system, and of those with all multipliers inside the circle."""
+    """Return the number of admissible 1:1 orbits and the number of stable ones among them."""
     found = [orbit for orbit in orbits(system) if orbit.admissible]
     return len(found), sum(bool(abs(orbit.multipliers[0]) < 1) for orbit in found)
 

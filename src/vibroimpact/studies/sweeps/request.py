@@ -8,14 +8,17 @@ from vibroimpact.system import System
 
 
 def parsed(request: Mapping) -> tuple[Grid, Spec]:
-    """The grid and the observations there.
+    """Return the grid and the observations there.
 
-    Args:
-        request: "system", parameters of System; "axes", a list of arguments of `grid.axis`; "spec", arguments of
-            `spec.Spec`.
+    Parameters
+    ----------
+    request : Mapping
+        "system", parameters of System; "axes", a list of arguments of `grid.axis`; "spec", arguments of `spec.Spec`.
 
-    Raises:
-        ValueError: the parameters are not those of a system.
+    Raises
+    ------
+    ValueError
+        If the parameters are not those of a system.
     """
     grid = Grid(System(**request["system"]), [axis(**one) for one in request["axes"]])
     return grid, Spec(**request["spec"])

@@ -8,18 +8,20 @@ from vibroimpact.studies.sweeps.spec import FAILED, POINT, Spec
 
 
 def columns(grid: Grid, spec: Spec) -> list[str]:
-    """Names of the columns, in their order."""
+    """Return the names of the columns, in their order."""
     moved = [name for axis in grid.axes for name in axis.along]
     return [POINT, *moved, *(column for name in spec.observe for column in COLUMNS[name]), FAILED]
 
 
 def rows(grid: Grid, spec: Spec, numbers: Iterable[int]) -> Iterator[dict]:
-    """A row for each of some points.
+    """Yield a row for each of some points.
 
     A point where something cannot be computed is left blank and says why: it does not cost the others.
 
-    Raises:
-        ValueError: a point has no system.
+    Raises
+    ------
+    ValueError
+        If a point has no system.
     """
     for number in numbers:
         row = {POINT: number, **grid.place(number)}

@@ -62,11 +62,17 @@ class AsymmetricPoint(Representation):
     slow_eigenvalues: np.ndarray
 
     def fast(self, kappa) -> np.ndarray:
-        """Multipliers, shape (4,), of the impact maps of both modules over a cycle, B and phi held; (2,) of one."""
+        """Return the multipliers of the impact maps of both modules over a cycle, shape (4,).
+
+        B and phi are held constant. A single machine has shape (2,).
+        """
         return np.concatenate([one[1] for one in self._modules(kappa)])
 
     def fast_verdict(self, kappa) -> str:
-        """ "stable", "unstable" or "undecided" by the impact maps of both modules; unstable with a v^2 below 0."""
+        """Return "stable", "unstable" or "undecided" by the impact maps of both modules.
+
+        A point with v^2 below 0 is unstable.
+        """
         return all_stable(one[0] for one in self._modules(kappa))
 
     def _modules(self, kappa):
@@ -80,12 +86,12 @@ class AsymmetricPoint(Representation):
         return zip(self.asymmetric[part], self.C[part], self.squared[part], strict=True)
 
     def slow_verdict(self) -> str:
-        """ "stable", "unstable" or "undecided" by the real parts of the eigenvalues of the slow flow."""
+        """Return "stable", "unstable" or "undecided" by the real parts of the eigenvalues of the slow flow."""
         values = self.slow_eigenvalues
         return all_stable(verdict(-value.real, _ROUNDING * np.abs(values).max()) for value in values)
 
     def admissible(self, kappa) -> bool:
-        """True if it is a motion at leading order and both balls stay between their walls."""
+        """Return True if it is a motion at leading order and both balls stay between their walls."""
         return self.real and all(
             branch.overshoot(np.sqrt(squared), kappa) == 0 if skewed else stays_within_walls(C, kappa)
             for skewed, C, squared in self._taking_part()
@@ -117,7 +123,7 @@ class Balance:
         self._functions = [(function, function.deriv(), side) for function, side in sides]
 
     def __call__(self, x):
-        """Residuals (n, 2) and Jacobians (n, 2, 2) at x, shape (n, 2)."""
+        """Return the residuals (n, 2) and Jacobians (n, 2, 2) at x, shape (n, 2)."""
         q1, q2, z1, z2, n1, n2, b1, b2 = (
             np.array([f(x[:, side]), (1 - side) * slope(x[:, side]), side * slope(x[:, side])])
             for f, slope, side in self._functions
@@ -127,7 +133,7 @@ class Balance:
         return np.where(self._idle, x, residual), np.where(self._idle[:, None], np.eye(2), np.stack(slopes, axis=-1))
 
     def phasors(self, x):
-        """b_i = B_i exp(-i psi_i), shape (2,)."""
+        """Return b_i = B_i exp(-i psi_i), shape (2,)."""
         q1, q2, z1, z2, n1, n2, _, _ = (f(x[side]) for f, _, side in self._functions)
         return np.array([z1 * n1, z2 * n2]) / (q1 * q2 + self.K * (z1 * q2 + q1 * z2))
 
@@ -138,24 +144,30 @@ def _product(one, other):
 
 
 def _size(function):
-    """Modulus squared of a function with its derivatives, (3, n)."""
+    """Return the modulus squared of a function with its derivatives, (3, n)."""
     return (function[0].conj() * function).real * np.array([[1], [2], [2]])
 
 
 def fixed_points(system: System) -> list[AsymmetricPoint]:
-    """All fixed points with an asymmetric module and C_1, C_2 >= 0, ascending in C_1; also those with v^2 in [-1, 0).
+    """Return all fixed points with an asymmetric module and C_1, C_2 >= 0, ascending in C_1.
 
-    Raises:
-        ValueError: system is not a System, or as `symmetric_points.search`.
+    Points with v^2 in [-1, 0) are included.
+
+    Raises
+    ------
+    ValueError
+        If system is not a System, or as `symmetric_points.search`.
     """
     return [point for point in search(system) if not (point.C < 0).any()]
 
 
 def search(system: System) -> list[AsymmetricPoint]:
-    """The same for any real C_i.
+    """Return the same for any real C_i.
 
-    Raises:
-        ValueError: as `fixed_points`.
+    Raises
+    ------
+    ValueError
+        As `fixed_points`.
     """
     refuse_free_motion(instance("system", system, System))
     found = [_point(system, pair, x) for pair in pairs_of(system, PAIRS) for x in _zeros(balance(system, pair))]
@@ -163,19 +175,22 @@ def search(system: System) -> list[AsymmetricPoint]:
 
 
 def pairs_of(system, pairs) -> list[tuple[str, str]]:
-    """The pairs of charts on which a system can have fixed points: a module that takes no part has x_i = 0, small C."""
+    """Return the pairs of charts on which a system can have fixed points.
+
+    A module that takes no part has x_i = 0 on the chart of small C.
+    """
     idle = {1, 2} - set(system.modules)
     return [pair for pair in pairs if system.modules and all(pair[module - 1] == SMALL for module in idle)]
 
 
 def balance(system, pair) -> Balance:
-    """The Balance of a pair of charts, by their names."""
+    """Return the Balance of a pair of charts, by their names."""
     known = charts(system.kappa)
     return Balance(system, known[pair[0]], known[pair[1]])
 
 
 def _zeros(conditions):
-    """Zeros in the square |x_i| <= 1, shape (n, 2)."""
+    """Return the zeros in the square |x_i| <= 1, shape (n, 2)."""
     ticks = (2 * np.arange(_STARTS) + 1) / _STARTS - 1
     x = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 2)
     settled = [np.empty((0, 2))]

@@ -41,12 +41,12 @@ class Chart:
     path: Polynomial
 
     def amplitudes(self, x):
-        """C and B at x."""
+        """Return C and B at x."""
         beta = self.beta(x)
         return self.path(x) / beta, np.abs(self.z(x) / beta)
 
     def ball(self, x):
-        """B, N B and their derivatives by x."""
+        """Return B, N B and their derivatives by x."""
         z, n, beta = self.z(x), self.n(x), self.beta(x)
         z_x, n_x, beta_x = (part.deriv()(x) for part in (self.z, self.n, self.beta))
         B, N = np.abs(z / beta), n / z
@@ -55,14 +55,14 @@ class Chart:
 
 
 def series(terms, pi=math.pi):
-    """Coefficients of cos(pi v / 2) and of sin(pi v / 2) / (pi v / 2) in powers of v^2."""
+    """Return the coefficients of cos(pi v / 2) and of sin(pi v / 2) / (pi v / 2) in powers of v^2."""
     power = [(-pi * pi / 4) ** k for k in range(terms)]
     return tuple([p / math.factorial(2 * k + odd) for k, p in enumerate(power)] for odd in (0, 1))
 
 
 @functools.lru_cache(maxsize=8)
 def charts(kappa: float) -> dict[str, Chart]:
-    """The charts for a restitution coefficient, by name."""
+    """Return the charts for a restitution coefficient, by name."""
     r, one, x = rho(kappa), Polynomial([1.0]), Polynomial([0.0, 1.0])
     c, s = map(Polynomial, series(_TERMS))
     gap = (1 - x) * s - 4 / np.pi**2 * c
@@ -74,7 +74,7 @@ def charts(kappa: float) -> dict[str, Chart]:
 
 
 def amplitudes(squared, kappa):
-    """C and B of the asymmetric branch at v^2 in [0, 1), shape of v^2; C does not depend on kappa.
+    """Return C and B of the asymmetric branch at v^2 in [0, 1), shape of v^2; C does not depend on kappa.
 
     Both grow from where symmetry breaks, C = pi^2 / (pi^2 - 4), C up to 2, B without bound.
     """
@@ -82,7 +82,7 @@ def amplitudes(squared, kappa):
 
 
 def impact_phases(v, kappa):
-    """Phases of U at the impacts with W = +1 and, later, W = -1 [rad]; -1 < v < 1."""
+    """Return the phases of U at the impacts with W = +1 and, later, W = -1 [rad]; -1 < v < 1."""
     chart, v = charts(kappa)[ASYMMETRIC], np.asarray(v, dtype=float)
     middle, half = np.angle(-chart.z(v**2) / chart.beta(v**2)), np.pi * (1 - v) / 2
     return middle - half, middle + half
@@ -94,7 +94,7 @@ def slope_change(v, kappa):
 
 
 def trace(squared, kappa):
-    """Trace of the map of small changes over one cycle (two impacts); its determinant is kappa^4."""
+    """Return the trace of the map of small changes over one cycle (two impacts); its determinant is kappa^4."""
     squared = np.asarray(squared, dtype=float)
     G = 1 - squared - (1 - squared) / amplitudes(squared, kappa)[0]  # (2 v / pi) cot(pi v / 2)
     tangent = (np.tan(np.pi / 2 * np.sqrt(squared.astype(complex))) ** 2).real
@@ -106,22 +106,28 @@ def trace(squared, kappa):
 
 
 def multipliers(squared: float, kappa: float) -> np.ndarray:
-    """Multipliers, shape (2,), of small changes of impact time and ball speed over one cycle, B and phi held."""
+    """Return the multipliers, shape (2,), of perturbations of impact time and ball speed over one cycle.
+
+    B and phi are held constant.
+    """
     return np.roots([1.0, -trace(squared, kappa), kappa**4]).astype(complex)
 
 
 def period_doubling(kappa: float) -> float:
-    """The v^2 at which a multiplier is -1, 0.17 to 0.22: the branch is stable between 0 and there."""
+    """Return the v^2 at which a multiplier is -1, 0.17 to 0.22: the branch is stable between 0 and there."""
     return brentq(lambda squared: trace(squared, kappa) + 1 + kappa**4, 0.0, 0.3, xtol=1e-15)
 
 
 def stable(squared: float, kappa: float) -> str:
-    """Verdict "stable", "unstable" or "undecided": stable with both multipliers inside the unit circle."""
+    """Return the verdict "stable", "unstable" or "undecided": stable with both multipliers inside the unit circle."""
     return verdict(1 + kappa**4 - abs(trace(squared, kappa)), _ROUNDING)
 
 
 def overshoot(v: float, kappa: float) -> float:
-    """Largest |W_0| - 1 over a cycle; 0 where the ball stays between the walls. Flights turn where W_0' = 0."""
+    """Return the largest |W_0| - 1 over a cycle; 0 where the ball stays between the walls.
+
+    Flights turn where W_0' = 0.
+    """
     _, B = amplitudes(v**2, kappa)
     a, b = impact_phases(v, kappa)
     excess = 0.0

@@ -40,7 +40,7 @@ class Relaxation:
 
 
 def describing_function(kappa: float):
-    """B -> N on the stable part of the manifold and on from it along the asymmetric branch."""
+    """Return B -> N on the stable part of the manifold and on from it along the asymmetric branch."""
     r, chart = rho(kappa), charts(kappa)[ASYMMETRIC]
     squared = np.linspace(0.0, _BEYOND, _NODES)
     skewed = np.abs(chart.z(squared) / chart.beta(squared))
@@ -54,9 +54,12 @@ def describing_function(kappa: float):
 def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Relaxation:
     """Follow the slow flow for `cycles` forcing periods after `settle` others.
 
-    Args:
-        start: amplitudes b_i = B_i exp(-i psi_i) of both modules; both balls are in resonance.
-        forces: (..., 2) in the place of those of the system; all are followed at once.
+    Parameters
+    ----------
+    start : default (1.0, 1.0)
+        Amplitudes b_i = B_i exp(-i psi_i) of both modules; both balls are in resonance.
+    forces : optional
+        (..., 2) in the place of those of the system; all are followed at once.
     """
     e, K = impedances(system)
     forces = np.array([system.f10_hat, system.f20_hat] if forces is None else forces)
@@ -79,7 +82,7 @@ def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Re
 
 
 def _mean_length(states):
-    """Mean number of steps of the stretches that have begun and ended."""
+    """Return the mean number of steps of the stretches that have begun and ended."""
     changes = np.diff(states)
     begins, ends = np.flatnonzero(changes > 0), np.flatnonzero(changes < 0)
     ends = ends[ends > begins[0]] if len(begins) else ends[:0]
@@ -87,13 +90,15 @@ def _mean_length(states):
 
 
 def lost_at(system, point) -> float:
-    """The factor below 1 of both forces at which a fixed point with a symmetric module loses that at the fold.
+    """Return the factor below 1 of both forces at which a fixed point with a symmetric module loses that at the fold.
 
     nan if it is not beyond the fold at first, or if both forces can fall to a half, or if it ends before at a fold of
     its own.
 
-    Args:
-        point: an asymmetric fixed point of the system; it is followed in small steps.
+    Parameters
+    ----------
+    point
+        An asymmetric fixed point of the system; it is followed in small steps.
     """
     symmetric = np.flatnonzero(~point.asymmetric & np.isfinite(point.C))
     if len(symmetric) != 1 or not point.asymmetric.any():
@@ -101,7 +106,7 @@ def lost_at(system, point) -> float:
     (symmetric,) = symmetric
 
     def excess(factor, x):
-        """C beyond the fold at a factor, and where the point is: Newton's method from x."""
+        """Return C beyond the fold at a factor, and where the point is: Newton's method from x."""
         scaled = system.with_(f10_hat=factor * system.f10_hat, f20_hat=factor * system.f20_hat)
         conditions, chart = balance(scaled, point.charts), charts(system.kappa)[point.charts[symmetric]]
         for _ in range(_TRACKED):

@@ -27,30 +27,32 @@ class Balance:
 
     @classmethod
     def of(cls, system) -> "Balance":
-        """The balance of a system."""
+        """Return the balance of a system."""
         e, K = impedances(system)
         z = np.array([1, -1 - 1j * rho(system.kappa)])
         q = np.outer(e, z) + np.array([0, FIRST_HARMONIC])
         return cls(z=z, q=q, K=K, forcing=np.array([system.f10_hat, system.f20_hat]))
 
     def at(self, C) -> tuple[np.ndarray, np.ndarray]:
-        """z_i and q_i, each shape (2,), at C."""
+        """Return z_i and q_i, each shape (2,), at C."""
         C = np.asarray(C, dtype=float)
         return self.z[0] + self.z[1] * C, self.q[:, 0] + self.q[:, 1] * C
 
     def solve(self, C) -> tuple[np.ndarray, complex]:
-        """Numerators, shape (2,), and denominator Delta of the phasors u_i at C (Cramer's rule)."""
+        """Return the numerators, shape (2,), and denominator Delta of the phasors u_i at C (Cramer's rule)."""
         z, q = self.at(C)
         numerators = self.forcing * q[::-1] + self.forcing.sum() * self.K * z[::-1]
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
 
     def phases(self, C) -> np.ndarray:
-        """psi (2,) at a common zero C of the polynomials."""
+        """Return psi (2,) at a common zero C of the polynomials."""
         numerators, denominator = self.solve(C)
         return -np.angle(self.at(C)[0] * numerators / denominator)
 
     def of_module(self, i) -> tuple[np.ndarray, np.ndarray, bool]:
-        """C (n,) and psi (n,) at which module i, 0 or 1, uncoupled, is balanced, and whether two are one to rounding.
+        """Return C (n,) and psi (n,) at which module i alone is balanced, and if two are one to rounding.
+
+        i is 0 or 1; the module is uncoupled.
 
         |q_i|^2 = f_i^2 is quadratic in C_i: the line q_i in the complex plane meets a circle.
         """
@@ -78,14 +80,17 @@ class Balance:
 
 
 def _solution(z, q, K, forcing):
-    """Coefficients of Delta, n_1 and n_2 in C_1 (first axis) and C_2 (second axis)."""
+    """Return the coefficients of Delta, n_1 and n_2 in C_1 (first axis) and C_2 (second axis)."""
     delta = np.outer(q[0], q[1]) + K * (np.outer(z, q[1]) + np.outer(q[0], z))
     total = forcing.sum() * K * z
     return delta, (forcing[0] * q[1] + total)[None, :], (forcing[1] * q[0] + total)[:, None]
 
 
 def _modulus_squared(polynomial):
-    """Coefficients (3, 3) of |polynomial|^2, from those of a polynomial of degree at most 1 in each variable."""
+    """Return the coefficients (3, 3) of |polynomial|^2.
+
+    The polynomial has at most degree 1 in each variable.
+    """
     square = np.zeros((3, 3))
     for (j, k), value in np.ndenumerate(polynomial):
         square[j : j + polynomial.shape[0], k : k + polynomial.shape[1]] += (value * polynomial.conj()).real
@@ -93,7 +98,7 @@ def _modulus_squared(polynomial):
 
 
 def determinant(system, C) -> float:
-    """Im(p_1 p_2 conj(z_1 z_2 K^2)): the common denominator of h_1 and h_2 in (10.24), up to a factor 4 f-free.
+    """Return Im(p_1 p_2 conj(z_1 z_2 K^2)): the common denominator of h_1 and h_2 in (10.24), up to a factor 4 f-free.
 
     sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two equations linear in cos and sin of psi_2 - psi_1; four times
     this is their determinant. Zero for all C when the modules are uncoupled, and else not: as a quadratic in C_1 it
@@ -105,18 +110,25 @@ def determinant(system, C) -> float:
 
 
 def singular_points(system, point, module) -> np.ndarray:
-    """Isolated points S of one module's manifold where h_1 and h_2 of (10.24) are singular.
+    """Return the isolated points S of one module's manifold where h_1 and h_2 of (10.24) are singular.
 
-    Args:
-        point: the fixed point at which the other module is held.
-        module: 1 or 2, the module whose plane is asked for.
+    Parameters
+    ----------
+    point
+        The fixed point at which the other module is held.
+    module
+        1 or 2, the module whose plane is asked for.
 
-    Returns:
+    Returns
+    -------
+    ndarray
         (C, B) of each point with C >= 0, shape (n, 2), ascending in C; n is 0, 1 or 2. Uncoupled modules have none
         isolated: the whole manifold is singular.
 
-    Raises:
-        ValueError: module is neither 1 nor 2.
+    Raises
+    ------
+    ValueError
+        If module is neither 1 nor 2.
     """
     if module not in (1, 2):
         raise ValueError(f"module: {module!r} is neither 1 nor 2")
@@ -132,7 +144,7 @@ def singular_points(system, point, module) -> np.ndarray:
 
 
 def _real_roots(coefficients):
-    """Real roots of c + b x + a x^2; a pair that rounding cannot tell from a double root counts as one."""
+    """Return the real roots of c + b x + a x^2; a pair that rounding cannot tell from a double root counts as one."""
     c, b, a = coefficients
     discriminant = b * b - 4 * a * c
     if abs(discriminant) <= 8 * np.finfo(float).eps * (b * b + abs(4 * a * c)):

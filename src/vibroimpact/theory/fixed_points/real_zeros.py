@@ -23,17 +23,24 @@ _SAME = 1e-5
 
 
 def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray]:
-    """Common zeros in [-radius, radius]^2.
+    """Return the common zeros in [-radius, radius]^2.
 
-    Args:
-        coefficients: shape (2, 3, 3), of x^j y^k.
-        magnitudes: shape (2, 3, 3), the coefficients formed with moduli throughout: the scale of their rounding.
+    Parameters
+    ----------
+    coefficients
+        Shape (2, 3, 3), of x^j y^k.
+    magnitudes
+        Shape (2, 3, 3), the coefficients formed with moduli throughout: the scale of their rounding.
 
-    Returns:
+    Returns
+    -------
+    tuple[ndarray, ndarray]
         Zeros, shape (n, 2), in ascending order of x, and for each whether it is multiple (shape (n,), bool).
 
-    Raises:
-        ArithmeticError: the zeros are not isolated.
+    Raises
+    ------
+    ArithmeticError
+        If the zeros are not isolated.
     """
     scale = np.multiply.outer(radius ** np.arange(3.0), radius ** np.arange(3.0))  # the square becomes [-1, 1]^2
     scaled, size = coefficients * scale, magnitudes * scale
@@ -51,10 +58,14 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 
 
 def _starts(pair, size):
-    """Points (n, 2) near all real zeros: real parts of the roots of the resultant, and y to each from both polynomials.
+    """Return points (n, 2) near all real zeros.
 
-    Raises:
-        ArithmeticError: the resultant vanishes.
+    x is the real part of a root of the resultant; y follows from both polynomials.
+
+    Raises
+    ------
+    ArithmeticError
+        If the resultant vanishes.
     """
     resultant, bound = _resultant(*pair.transpose(0, 2, 1)), _resultant(*np.abs(pair).transpose(0, 2, 1), sign=1)
     if (np.abs(resultant) <= _ROUNDING * bound).all():
@@ -68,7 +79,7 @@ def _starts(pair, size):
 
 
 def _resultant(one, other, sign=-1):
-    """Coefficients (9,) in x of the resultant in y of two polynomials, rows (3,) in x by the power of y.
+    """Return the coefficients (9,) in x of the resultant in y of two polynomials, rows (3,) in x by the power of y.
 
     sign: 1 for the sum of the moduli of all terms, from the moduli of the coefficients.
     """
@@ -80,7 +91,7 @@ def _resultant(one, other, sign=-1):
 
 
 def _roots(coefficients):
-    """Real parts of the nearly real roots; of a pair that is nearly real, both sides of its middle."""
+    """Return the real parts of the nearly real roots; of a pair that is nearly real, both sides of its middle."""
     nonzero = np.flatnonzero(np.abs(coefficients) > np.finfo(float).tiny)
     roots = poly.polyroots(coefficients[: nonzero[-1] + 1])
     roots = roots[np.abs(roots.imag) <= _NEARLY_REAL * np.abs(roots) + _RESOLUTION]
@@ -88,7 +99,7 @@ def _roots(coefficients):
 
 
 def _quadratic(polynomial, x):
-    """Real parts of both roots y of a polynomial at each x, (2 n,)."""
+    """Return the real parts of both roots y of a polynomial at each x, (2 n,)."""
     c, b, a = (poly.polyval(x, column) for column in polynomial.T)
     root = np.sqrt(np.maximum(b * b - 4 * a * c, 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -115,18 +126,18 @@ def _newton(pair, size, points):
 
 
 def _expanded(pair, size, points):
-    """Values (n, 2), Jacobians (n, 2, 2) of the pair at points (n, 2), and the rounding of the values."""
+    """Return the values (n, 2), Jacobians (n, 2, 2) of the pair at points (n, 2), and the rounding of the values."""
     value, by_x, by_y = (_at(points, one) for one in (pair, *_derivatives(pair)))
     return value, np.stack([by_x, by_y], -1), _ROUNDING * _at(np.abs(points), size)
 
 
 def _at(points, polynomials):
-    """Values (n, 2) of two polynomials, (2, 3, 3) or less, at points (n, 2)."""
+    """Return the values (n, 2) of two polynomials, (2, 3, 3) or less, at points (n, 2)."""
     return poly.polyval2d(*points.T, polynomials.transpose(1, 2, 0)).T
 
 
 def _derivatives(pair):
-    """Coefficients of the derivatives of the pair by x and by y."""
+    """Return the coefficients of the derivatives of the pair by x and by y."""
     return poly.polyder(pair, axis=1), poly.polyder(pair, axis=2)
 
 
@@ -153,7 +164,7 @@ def _contract(pair, size, points):
 
 
 def _distinct(points, apart):
-    """The first of each group of points that lie near each other."""
+    """Return the first of each group of points that lie near each other."""
     found = []
     for point in points:
         if not any(_near(point, known, apart) for known in found):

@@ -66,7 +66,7 @@ class FixedPoint(Representation):
         return Stability(verdicts[FAST], verdicts[SLOW])
 
     def row(self) -> dict:
-        """Numbers and verdicts by name, the columns of `to_frame`."""
+        """Return the numbers and verdicts by name, the columns of `to_frame`."""
         numbers = np.ravel([self.C, self.B, self.psi]).tolist()
         fast, slow = stability = self.stability
         growth = float(self.slow_eigenvalues.real.max())
@@ -87,24 +87,30 @@ class FixedPointSearch(NamedTuple):
 
 
 def fixed_points(system: System) -> list[FixedPoint]:
-    """All fixed points of the slow flow with C_1, C_2 >= 0, (10.23).
+    """Return all fixed points of the slow flow with C_1, C_2 >= 0, (10.23).
 
-    Returns:
+    Returns
+    -------
+    list of FixedPoint
         A list of FixedPoint, ascending in C_1 (of a single machine in the C of its module), which is not the order of
         their labels. `theory.completeness_proof` proves that none is missing.
 
-    Raises:
-        ValueError: system is not a System; else as `search`.
+    Raises
+    ------
+    ValueError
+        If system is not a System; else as `search`.
     """
     return Found(search(system).points, COLUMNS)
 
 
 def search(system: System) -> FixedPointSearch:
-    """All fixed points, admissible or not.
+    """Return all fixed points, admissible or not.
 
-    Raises:
-        ValueError: system is not a System, or its undamped slow flow without balls is at a resonance that the forces do
-            not load: a free motion of any phase may then touch the walls, and fixed points need not be isolated.
+    Raises
+    ------
+    ValueError
+        If system is not a System, or its undamped slow flow without balls is at a resonance that the forces do not
+        load: a free motion of any phase may then touch the walls, and fixed points need not be isolated.
     """
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
@@ -122,7 +128,9 @@ def search(system: System) -> FixedPointSearch:
 
 
 def search_radius(system) -> float:
-    """Bound on sqrt(C_1^2 + C_2^2) at every fixed point, from f and rho alone (docs/derivation.md, section 6).
+    """Return a bound on sqrt(C_1^2 + C_2^2) at every fixed point.
+
+    It depends on f and rho alone (docs/derivation.md, section 6).
 
     What the balls dissipate, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed what the forces supply,
     |f_1| B_1 + |f_2| B_2, and B_i <= 1 + sqrt(1 + rho^2) |C_i|.
@@ -135,7 +143,9 @@ def search_radius(system) -> float:
 
 
 def labels(system, points) -> list[str]:
-    """A label (a), (b), (c), ... per fixed point, which the chapter gives in pictures only: from the least stable on.
+    """Return a label (a), (b), (c), ... per fixed point, ordered from the least stable on.
+
+    The chapter gives the labels in its figures only.
 
     First the points that (10.26) calls unstable, then by falling growth rate of the slow flow (largest real part of its
     eigenvalues). Of the orders one could think of, it is the one under which most sentences of section 10.4 hold,
@@ -150,8 +160,10 @@ def labels(system, points) -> list[str]:
 def refuse_free_motion(system) -> None:
     """Refuse a system whose fixed points need not be isolated.
 
-    Raises:
-        ValueError: as `search`.
+    Raises
+    ------
+    ValueError
+        As `search`.
     """
     if len(system.modules) == 1:  # its force loads the only resonance that matters
         return
@@ -171,14 +183,14 @@ def _fixed_point(system, C, psi, multiple):
 
 
 def _of_one_module(balance, i):
-    """(C, psi, multiple) of every fixed point of module i, 0 or 1, alone; NaN for the other."""
+    """Return (C, psi, multiple) of every fixed point of module i, 0 or 1, alone; NaN for the other."""
     C, psi, multiple = balance.of_module(i)
     alone = np.where(np.arange(2) == i, 1.0, np.nan)
     return [(alone * one, alone * phase, multiple) for one, phase in zip(C, psi, strict=True)]
 
 
 def _solutions(system, balance, zeros, multiple):
-    """(C, psi, multiple) of every fixed point."""
+    """Return (C, psi, multiple) of every fixed point."""
     simple = [(C, balance.phases(C)) for C in zeros[~multiple]]
     simple = [_refined(system, *solution) or solution for solution in simple]
     unresolved = []
@@ -191,7 +203,7 @@ def _solutions(system, balance, zeros, multiple):
 
 
 def _mirrored_pair(system, balance, C):
-    """(C, psi) of the two regular fixed points with amplitudes close to C; empty where there is no such pair.
+    """Return (C, psi) of the two regular fixed points with amplitudes close to C; empty where there is no such pair.
 
     C: a zero of the polynomials, known to the square root of rounding at best. The starts are both pairs of unit
     phasors with p_1 u_1 - K z_2 u_2 = f_1, for sides that allow a triangle.
@@ -220,7 +232,7 @@ def _may_close(balance, C):
 
 
 def _refined(system, C, psi):
-    """(C, psi) after Newton's method in both at once; None unless it ends at a regular fixed point near C."""
+    """Return (C, psi) after Newton's method in both at once; None unless it ends at a regular fixed point near C."""
     state = np.column_stack([C, psi])
     for _ in range(_STEPS):
         residual, J = equations(system, state[:, 1], state[:, 0])

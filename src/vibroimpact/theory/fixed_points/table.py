@@ -29,7 +29,7 @@ class LabelledPoint:
 
 
 def fixed_point_table(case: str, system) -> pd.DataFrame:
-    """All fixed points of a system, a row each, by label; columns COLUMNS, the case under the name given."""
+    """Return all fixed points of a system, a row each, by label; columns COLUMNS, the case under the name given."""
     points = fixed_points(system)
     rows = [
         [case, label, *point.C, *point.B, *point.psi, point.multiple]
@@ -39,7 +39,7 @@ def fixed_point_table(case: str, system) -> pd.DataFrame:
 
 
 def labelled_points(table: pd.DataFrame) -> list[LabelledPoint]:
-    """The points of a table, in its order."""
+    """Return the points of a table, in its order."""
     return [
         LabelledPoint(
             row["label"],
@@ -51,10 +51,12 @@ def labelled_points(table: pd.DataFrame) -> list[LabelledPoint]:
 
 
 def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
-    """The point of a table that bears a label.
+    """Return the point of a table that bears a label.
 
-    Raises:
-        ValueError: the table has no such point.
+    Raises
+    ------
+    ValueError
+        If the table has no such point.
     """
     points = {point.label: point for point in labelled_points(table)}
     if label not in points:
@@ -89,5 +91,8 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def verdicts(places: pd.DataFrame) -> pd.Series:
-    """The chapter's verdict on each fixed point, by label: stable where both projections are on the stable branch."""
+    """Return the chapter's verdict on each fixed point, by label.
+
+    A point is stable where both projections are on the stable branch.
+    """
     return places.groupby("label")["branch"].agg(all_stable).rename("verdict")

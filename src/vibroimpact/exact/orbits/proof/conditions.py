@@ -25,8 +25,10 @@ class SteadyBoxes:
     for a train on box j (sign +1: equal impulses, one a period; -1: alternating ones, one every half period);
     amplitude (4, 1) complex: without impulses the state is Im(amplitude exp(i omega tau)).
 
-    Raises:
-        ValueError: undamped boxes in resonance with the train or the forcing.
+    Raises
+    ------
+    ValueError
+        If undamped boxes in resonance with the train or the forcing.
     """
 
     def __init__(self, system, sign: int):
@@ -43,24 +45,26 @@ class SteadyBoxes:
             raise ValueError("system: its undamped boxes are in resonance with the impacts; add damping") from None
 
     def free(self, duration) -> arb_mat:
-        """exp(rate duration) (4, 4) for a time or an interval of times."""
+        """Return exp(rate duration) (4, 4) for a time or an interval of times."""
         return (self.rate * duration).exp()
 
     def forced(self, tau) -> acb_mat:
-        """State (4, 1) as a complex number without impulses, whose imaginary part it is."""
+        """Return the state (4, 1) as a complex number without impulses, whose imaginary part it is."""
         return self.amplitude * (acb(0, 1) * self.omega * tau).exp()
 
 
 def identity(size: int) -> arb_mat:
-    """Unit matrix."""
+    """Return the unit matrix."""
     return arb_mat(np.eye(size).tolist())
 
 
 class EnclosedConditions:
     """The equations for one system whose matrices and forcing are the float64 numbers that the code holds.
 
-    Raises:
-        ValueError: undamped boxes in resonance with the impacts.
+    Raises
+    ------
+    ValueError
+        If undamped boxes in resonance with the impacts.
     """
 
     def __init__(self, system):
@@ -71,7 +75,10 @@ class EnclosedConditions:
         self.epsilon, self.kappa = arb(system.epsilon), arb(system.kappa)
 
     def __call__(self, unknowns):
-        """Residual (6, 1) and Jacobian (6, 6) over a list of six intervals; None where impacts may coincide."""
+        """Return the residual (6, 1) and Jacobian (6, 6) over six intervals.
+
+        The result is None where impacts may coincide.
+        """
         lags = self.lags(unknowns)
         if lags is None:
             return None
@@ -91,7 +98,10 @@ class EnclosedConditions:
         return arb_mat([row[:1].tolist() for row in rows]), arb_mat([row[1:].tolist() for row in rows])
 
     def lags(self, unknowns):
-        """Time since impact k at impact m, by (m, k), above 0 and below a period; None where impacts may coincide."""
+        """Return the time since impact k at impact m, by (m, k), or None where impacts may coincide.
+
+        Times are above 0 and below one period.
+        """
         lags = {}
         for m, k in itertools.permutations(self.impacts, 2):
             lag = unknowns[m] - unknowns[k]
@@ -102,11 +112,11 @@ class EnclosedConditions:
         return lags
 
     def fraction(self, i, lags):
-        """Flight of ball i from wall +1, of the period."""
+        """Return the flight of ball i from wall +1, of the period."""
         return lags[2 * i + 1, 2 * i] / self.period
 
     def before(self, m, unknowns, lags):
-        """State (4,) of the boxes just before impact m with its derivatives by the unknowns, (4, 7)."""
+        """Return the state (4,) of the boxes just before impact m with its derivatives by the unknowns, (4, 7)."""
         forced = self.boxes.forced(unknowns[m])
         state = np.full((4, 1 + _UNKNOWNS), arb(0))
         state[:, 0] = [entry.imag for entry in forced.entries()]
@@ -125,10 +135,10 @@ class EnclosedConditions:
 
 
 def _jet(value, unknown=None):
-    """A number with its derivatives by the unknowns, (7,): a constant, or an unknown itself."""
+    """Return a number with its derivatives by the unknowns, (7,): a constant, or an unknown itself."""
     return np.array([value, *(arb(int(k == unknown)) for k in range(_UNKNOWNS))])
 
 
 def _product(one, other):
-    """The product of two numbers with their derivatives."""
+    """Return the product of two numbers with their derivatives."""
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])

@@ -58,8 +58,10 @@ _NOTHING = OrbitProof(0.0, math.inf, NOT_PROVED, (), math.inf)
 def prove(orbit) -> OrbitProof:
     """Prove what can be proved of an Orbit from its listed numbers.
 
-    Raises:
-        ValueError: undamped boxes in resonance with the impacts.
+    Raises
+    ------
+    ValueError
+        If undamped boxes in resonance with the impacts.
     """
     with ctx.workprec(_BITS):
         conditions = EnclosedConditions(orbit.system)
@@ -83,7 +85,7 @@ def prove(orbit) -> OrbitProof:
 
 
 def _multipliers(monodromy) -> tuple[acb, ...]:
-    """Enclosures of the eigenvalues of an interval matrix, by descending modulus; none where that fails."""
+    """Return the enclosures of the eigenvalues of an interval matrix, by descending modulus; none where that fails."""
     try:
         values = acb_mat(monodromy).eig(multiple=True)
     except ValueError:
@@ -119,13 +121,15 @@ def _near(listed, proved, spoilt):
 
 
 def _distance(enclosures, listed):
-    """Upper bound, rounded up, of the distance of numbers from those enclosed."""
+    """Return the upper bound, rounded up, of the distance of numbers from those enclosed."""
     gaps = [abs(value - number).upper() for value, number in zip(enclosures, listed, strict=True)]
     return max(math.nextafter(float(gap), math.inf) for gap in gaps)
 
 
 def krawczyk(equations, approximate: np.ndarray):
-    """Enclosure of the only root near a float64 one, and a half-width within which there is no other; or None, 0.0.
+    """Return an enclosure of the only root near a float64 root, and a half-width of uniqueness.
+
+    No other root lies within the half-width. The result is (None, 0.0) if the test fails.
 
     By Krawczyk's interval form of Newton's method. equations(x) returns residual (n, 1) and Jacobian (n, n) over
     intervals x, a list of n numbers, or None where it is
@@ -142,7 +146,7 @@ def krawczyk(equations, approximate: np.ndarray):
 
 
 def _image(equations, box):
-    """Krawczyk's operator: every root in the box is in its image."""
+    """Return Krawczyk's operator: every root in the box is in its image."""
     found, at = equations(box), equations([value.mid() for value in box])
     if found is None or at is None:
         return None

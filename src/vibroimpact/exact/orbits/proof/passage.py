@@ -40,20 +40,25 @@ class EnclosedPassage:
         self.rate = _rate(system)
 
     def flights(self):
-        """Impact that it starts with, impact that it ends with, state after the first one and duration of each."""
+        """Yield, for each flight, its first and last impact, the state after the first one, and the duration."""
         order = sorted(self.phases, key=lambda m: float(self._unknowns[m].mid()))
         for m, following in zip(order, [*order[1:], order[0]], strict=True):
             yield m, following, self._impacts[m // 2] * self._before(m), self._lags[following, m]
 
     def states(self):
-        """States (10, 1) at tau = 0: two, before and after an impact, where one is nearer than floats can tell."""
+        """Return the states (10, 1) at tau = 0.
+
+        There are two, before and after an impact, where an impact is nearer than floats can resolve.
+        """
         *_, (last, first, state, _) = self.flights()
         yield (self.rate * (self._conditions.period - self._unknowns[last])).exp() * state
         if abs(self._unknowns[first]) < _NEAR:
             yield self._impacts[first // 2] * self._before(first)
 
     def monodromy(self) -> arb_mat:
-        """Derivative (8, 8) of the state before the first impact of a period by that before the same one earlier.
+        """Return the monodromy matrix (8, 8).
+
+        It maps perturbations just before the first impact to those one period later.
 
         Of a single machine it is that of the state (4,) of the module that takes part. Entries are not finite where an
         impact may be without relative velocity.
@@ -64,7 +69,7 @@ class EnclosedPassage:
         return arb_mat([[whole[row, column] for column in part] for row in part])
 
     def _before(self, m):
-        """State (10, 1) just before impact m."""
+        """Return the state (10, 1) just before impact m."""
         state = [arb(0)] * _SIZE
         for place, row in zip(BOXES, self._boxes[m], strict=True):
             state[place] = row[0]
@@ -77,7 +82,7 @@ class EnclosedPassage:
         return arb_mat([[entry] for entry in [*state[:8], phase.sin(), phase.cos()]])
 
     def _speed(self, k):
-        """Speed of the flight that starts with impact k."""
+        """Return the speed of the flight that starts with impact k."""
         u = self._conditions.fraction(k // 2, self._lags)
         return self._unknowns[4 + k // 2] * (1 - u if WALLS[k] == 1 else u)
 
@@ -108,7 +113,7 @@ def _impact(i, conditions):
 
 
 def between_walls(passage) -> str:
-    """LEGAL or ILLEGAL where an EnclosedPassage proves it, else NOT_PROVED.
+    """Return LEGAL or ILLEGAL where an EnclosedPassage proves it, else NOT_PROVED.
 
     A motion keeps each ball between its walls but for the impacts, which it meets at speed. Flights are halved until on
     each piece |W_i| < 1, or, next to an impact, W_i leaves the wall or nears it throughout. W_i is expanded to first
@@ -119,7 +124,7 @@ def between_walls(passage) -> str:
 
 
 def _of_flight(rate, start, end, state, duration):
-    """Verdict on a free flight of this duration from a state (10, 1), from impact `start` to impact `end`."""
+    """Return the verdict on a free flight from a state (10, 1), from impact `start` to impact `end`."""
     pending = [(0.0, 1.0)]
     for _ in range(_MOST):
         if not pending:
@@ -137,7 +142,7 @@ def _of_flight(rate, start, end, state, duration):
 
 
 def _ranges(rate, state, duration, low, high):
-    """W_1, W_2 and their derivatives over a piece, and W_1, W_2 at its centre."""
+    """Return W_1, W_2 and their derivatives over a piece, and W_1, W_2 at its centre."""
     centre = (rate * (duration * ((low + high) / 2))).exp() * state
     offset = arb(0, (high - low) / 2) * duration
     around = (rate * offset).exp() * centre

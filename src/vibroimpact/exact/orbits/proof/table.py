@@ -7,7 +7,7 @@ from vibroimpact.exact.orbits.proof.passage import NOT_PROVED
 
 
 def proof_rows(orbits) -> pd.DataFrame:
-    """A row per exact orbit, in order: an `OrbitProof`.
+    """Return a row per exact orbit, in order: an `OrbitProof`.
 
     Columns box_radius, orbit_error, moduli_error (as there), motion_proved ("legal", "not legal", "not proved"),
     floquet_proved ("stable", "unstable", "not proved").
