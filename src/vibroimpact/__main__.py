@@ -1,4 +1,4 @@
-"""`python -m vibroimpact`, or `vibroimpact`: a first look at a system from the command line."""
+"""Entry point of the command line: `vibroimpact` or `python -m vibroimpact`."""
 
 import sys
 
@@ -8,7 +8,7 @@ from vibroimpact.interrupt import without_traceback
 def main() -> int:
     """Run one command; return the exit status."""
     with without_traceback():
-        from vibroimpact.cli.parser import main  # takes a second, which may be interrupted, too
+        from vibroimpact.cli.parser import main  # this import takes a second and may be interrupted too
 
         return main()
 

@@ -1,6 +1,6 @@
-"""Compile simulations, all that is computed from runs, and ensembles beforehand: `python -m vibroimpact.compile`.
+"""Compile simulations, results of runs, and ensembles in advance: `python -m vibroimpact.compile`.
 
-Numba keeps the code beside the library, else in the user's cache, else in a temporary folder; or in NUMBA_CACHE_DIR.
+Numba caches the code next to the library, else in the user's cache, else in a temporary folder; or in NUMBA_CACHE_DIR.
 """
 
 import gc
@@ -10,14 +10,14 @@ from vibroimpact.interrupt import without_traceback
 
 
 def main() -> None:
-    """Compile all that is not compiled yet."""
+    """Compile all code that is not compiled yet."""
     beforehand()
     for work in (event_loop, certificates, results_of_runs, ensembles):
         work()
 
 
 def beforehand() -> None:
-    """Prepare a process that only compiles: no hint in its notices, no garbage collection, which would take long."""
+    """Prepare a process that only compiles: omit the hint in its notices and disable garbage collection."""
     from vibroimpact.exact.engine.compiled import NOTICE
 
     NOTICE.beforehand()
@@ -25,7 +25,7 @@ def beforehand() -> None:
 
 
 def event_loop() -> None:
-    """Compile the event loop, without a run."""
+    """Compile the event loop without running it."""
     import numpy as np
     from numba import typeof
 
@@ -37,23 +37,29 @@ def event_loop() -> None:
 
 
 def certificates() -> None:
-    """Compile certificates and Jacobians of runs with a made-up one, so that they need not wait for the event loop."""
-    run = _made_up_run()
+    """Compile certificates and Jacobians of runs.
+
+    They use an artificial run, so that they need not wait for the event loop.
+    """
+    run = _artificial_run()
     _ = run.certificate, run.jacobian
 
 
 def results_of_runs() -> None:
-    """Compile what else is computed from runs."""
+    """Compile the other results computed from runs."""
     import numpy as np
 
     from vibroimpact.exact.engine.variation import growth
 
-    run = _made_up_run()
+    run = _artificial_run()
     _ = run.energy, run.errors([]), growth(run, np.eye(8))
 
 
 def ensembles() -> None:
-    """Compile ensembles, in lanes and, as undamped systems need them, run by run; after all else, which they use."""
+    """Compile ensembles, in lanes and, for undamped systems, run by run.
+
+    This comes last because ensembles use all other code.
+    """
     from vibroimpact.exact.engine.ensemble import ensemble
 
     system = _system()
@@ -61,7 +67,7 @@ def ensembles() -> None:
     ensemble(system.with_(gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0), [0.0] * 8, cycles=1, energy=True)
 
 
-def _made_up_run():
+def _artificial_run():
     import numpy as np
 
     from vibroimpact.exact.engine.motion import ENTRIES, ROW

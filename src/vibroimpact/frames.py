@@ -1,6 +1,6 @@
-"""Results as pandas data frames, sweeps as xarray datasets; a run as a picture.
+"""Convert results to pandas data frames and xarray datasets, and plot a run.
 
-None of pandas, xarray and Matplotlib is imported before it is needed.
+pandas, xarray and Matplotlib are imported on first use.
 """
 
 from collections.abc import Mapping, Sequence
@@ -15,19 +15,33 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-_PER_CYCLE, _MOST = 64, 20_000  # points of a picture
+_PER_CYCLE, _MOST = 64, 20_000  # points of a plot: per cycle, and at most
 
 
 def to_frame(result: Any) -> "pandas.DataFrame":
-    """Return a pandas DataFrame of a run (its events), an ensemble, basins, or a list of fixed points, orbits,
-    branches, bifurcation curves or rows. A list in which a function found nothing has the columns of its results.
+    """Return a result as a pandas DataFrame.
+
+    Parameters
+    ----------
+    result : object
+        A run (its events become the rows), an ensemble, basins, or a list of fixed points, orbits, branches,
+        bifurcation curves or rows.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per event, run, start, point or orbit. An empty list of results keeps the columns of its type.
 
     Raises
     ------
     ValueError
-        If the result is none of these.
+        If the result has another type.
     ModuleNotFoundError
-        If pandas is missing; the extra `figures` brings it.
+        If pandas is missing; the extra `figures` installs it.
+
+    Examples
+    --------
+    >>> vi.to_frame(vi.fixed_points(system))[["label", "C1", "C2"]]  # doctest: +SKIP
     """
     if hasattr(result, "events"):
         return of_run(result)
@@ -40,50 +54,64 @@ def to_frame(result: Any) -> "pandas.DataFrame":
         return _pandas().DataFrame(rows, columns=None if rows else getattr(result, "columns", None))
     kind = type(result).__name__
     raise ValueError(
-        f"result: a {kind} is no run, no ensemble, no basins and no list of fixed points, orbits, branches or rows"
+        f"result: unsupported type {kind}; expected a run, an ensemble, basins, "
+        "or a list of fixed points, orbits, branches or rows"
     )
 
 
 def with_former_names(table: "pandas.DataFrame", former: Mapping[str, str]) -> "pandas.DataFrame":
-    """Return the table with some columns under their former names as well, last: they stay for one release.
+    """Return the table with some columns repeated under their former names, as the last columns.
+
+    Former names stay for one release.
 
     Parameters
     ----------
     former : mapping
-        Name of a column by its former name.
+        Present column name by former name.
     """
     return table.assign(**{old: table[name] for old, name in former.items()})
 
 
 def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dataset":
-    """Return an xarray Dataset of a sweep: the parameters that move are its dimensions, each other column a variable.
+    """Return a sweep as an xarray Dataset.
 
-    `.to_netcdf(path, engine="scipy")` saves it. All numbers are dimensionless, which their attribute `units` says.
+    The parameters that vary are the dimensions; each other column is a variable. All numbers are dimensionless, and
+    their attribute `units` is "1".
 
     Parameters
     ----------
-    rows : object
-        Of `vibroimpact.sweep`, a list of dictionaries, or a data frame of them (`results/sweeps/NAME.csv`).
-    along : Sequence[str | tuple[str, ...]]
-        The parameters that move, in their order; those that move together as a tuple, a dimension named after the first
-        of them.
+    rows : list of dict or pandas.DataFrame
+        Rows of `vibroimpact.sweep`, or a data frame of them (`results/sweeps/NAME.csv`).
+    along : sequence of str or tuple of str
+        Parameters that vary, in the order of the dimensions. Parameters that vary together form a tuple; their
+        dimension has the name of the first one.
+
+    Returns
+    -------
+    xarray.Dataset
+        The dataset; `.to_netcdf(path, engine="scipy")` saves it.
 
     Raises
     ------
     ValueError
-        If a parameter is no column, or the rows are not one for each point of the grid.
+        If a parameter is not a column, or if there is not exactly one row per point of the grid.
     ModuleNotFoundError
-        If pandas or xarray is missing; the extra `figures` brings both.
+        If pandas or xarray is missing; the extra `figures` installs both.
+
+    Examples
+    --------
+    >>> rows = vi.sweep(system, {"kappa": [0.4, 0.6]}, ["fixed_points"])  # doctest: +SKIP
+    >>> vi.to_dataset(rows, along=["kappa"])  # doctest: +SKIP
     """
     need("figures", "xarray")
     table = _pandas().DataFrame(rows)
     moved = [(one,) if isinstance(one, str) else tuple(one) for one in along]
     for name in (name for together in moved for name in together):
         if name not in table:
-            raise ValueError(f"along: {name!r} is none of the columns {', '.join(table)}")
+            raise ValueError(f"along: {name!r} is not one of the columns {', '.join(table)}")
     first = [together[0] for together in moved]
     if table.duplicated(first).any() or len(table) != table[first].nunique().prod():
-        raise ValueError(f"rows: {len(table)} rows are not one for each point of a grid over {', '.join(first)}")
+        raise ValueError(f"rows: expected one row per point of a grid over {', '.join(first)}; got {len(table)} rows")
     data = table.drop(columns="point", errors="ignore").set_index(first).to_xarray()
     for name, *others in moved:
         at = dict.fromkeys(set(first) - {name}, 0)
@@ -94,7 +122,7 @@ def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dat
 
 
 def of_run(run):
-    """Return the events of a Run, a row each: tau, module, wall, kind in words, and the state just after it."""
+    """Return the events of a Run as a data frame: tau, module, wall, kind as text, and the state after each event."""
     table = _pandas().DataFrame({name: run.events[name] for name in ("tau", "module", "wall")})
     table["kind"] = [KINDS[kind] for kind in run.events["kind"].tolist()]
     table[list(NAMES)] = run.events["state"]
@@ -102,7 +130,7 @@ def of_run(run):
 
 
 def plot_times(run) -> np.ndarray:
-    """Return the times since the start for a picture of a Run: 64 in a cycle, or fewer in a long run."""
+    """Return times since the start at which to plot a Run: 64 per cycle, or fewer in a long run."""
     count = min(_PER_CYCLE * run.cycles, _MOST)
     return np.linspace(0.0, run.cycles * run.system.period, count + 1)
 

@@ -1,4 +1,4 @@
-"""End of a command by Ctrl-C."""
+"""Handle Ctrl-C in commands."""
 
 import os
 import signal
@@ -9,7 +9,10 @@ from contextlib import contextmanager
 
 @contextmanager
 def without_traceback() -> Iterator[None]:
-    """End the process on an interrupt with one line, and by the signal, so that a shell stops its loop or script."""
+    """End the process on an interrupt with one line instead of a traceback.
+
+    The process ends by the signal itself, so that a shell stops its loop or script.
+    """
     try:
         yield
     except KeyboardInterrupt:

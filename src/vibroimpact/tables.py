@@ -1,7 +1,7 @@
-"""Tidy tables of plotted numbers, to a CSV file and back without loss.
+"""Build tidy tables of plotted numbers, and write and read them as CSV without loss.
 
-Every table has the columns `panel` and `series`, then one column per plotted quantity, named as on the axis;
-`label` names single points. A quantity that a row does not have is left blank.
+Every table has the columns `panel` and `series`, then one column per plotted quantity, named as on the axis.
+The column `label` names single points. A field is blank where a row does not have the quantity.
 """
 
 import numpy as np
@@ -10,11 +10,11 @@ from vibroimpact.system.extras import need
 
 need("figures", "pandas")
 
-import pandas as pd  # noqa: E402 (after the word on what is missing)
+import pandas as pd  # noqa: E402 (after the dependency check)
 
 TEXT = ("panel", "series", "label")
-SAID = (*TEXT, "failed")
-"""Columns of words, blank where there is none; in all others a blank is a missing value."""
+BLANK_TEXT = (*TEXT, "failed")
+"""Text columns, in which a blank field is an empty text; in other columns it is a missing value."""
 
 
 def curve(panel: str, series: str, **quantities) -> pd.DataFrame:
@@ -38,13 +38,13 @@ def select(table: pd.DataFrame, panel: str, series: str) -> pd.DataFrame:
 
 
 def write(table: pd.DataFrame, path) -> None:
-    """Write a table with as many digits as tell its numbers apart."""
+    """Write a table with as many digits as identify its numbers."""
     table.to_csv(path, index=False, lineterminator="\n")
 
 
 def read(path) -> pd.DataFrame:
-    """Read a table that `write` wrote, equal to the last digit."""
-    table = pd.read_csv(path, dtype=dict.fromkeys(SAID, str))
-    text = [name for name in SAID if name in table]
+    """Read a table written by `write`, equal to the last digit."""
+    table = pd.read_csv(path, dtype=dict.fromkeys(BLANK_TEXT, str))
+    text = [name for name in BLANK_TEXT if name in table]
     table[text] = table[text].fillna("")
     return table

@@ -254,16 +254,16 @@ def test_exact_curves_pass_the_special_points_of_other_branches(kind, interval, 
 
 
 def test_progress_is_told_on_a_terminal_only(monkeypatch, capsys):
-    assert list(progress.counted([3, 4], "things")) == [3, 4]
+    assert list(progress.track([3, 4], "things")) == [3, 4]
     vi.branches(SYSTEM, "f20_hat", (0.99, 1.01), of="theory", seeds=1)
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert list(progress.counted([3, 4], "things")) == [3, 4]
+    assert list(progress.track([3, 4], "things")) == [3, 4]
     assert capsys.readouterr().err.endswith("things 2/2\n")
     vi.branches(SYSTEM, "f20_hat", (0.99, 1.01), of="theory", seeds=1)
     told = capsys.readouterr().err
     assert "fixed point: f20_hat = " in told
-    list(progress.counted([3], "things", progress=False))
+    list(progress.track([3], "things", progress=False))
     assert capsys.readouterr().err == ""
 
 

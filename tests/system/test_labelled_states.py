@@ -80,5 +80,5 @@ def test_pandas_is_not_imported_for_it():
 def test_an_array_of_xarray_with_labels_is_refused():
     xarray = pytest.importorskip("xarray")
     labelled = xarray.DataArray(VALUES, dims="component", coords={"component": SHUFFLED})
-    with pytest.raises(ValueError, match="state: an array labelled by 'component'; give a table"):
+    with pytest.raises(ValueError, match="state: arrays labelled by 'component' are not supported; pass a table"):
         vi.simulate(SYSTEM, labelled, 1)

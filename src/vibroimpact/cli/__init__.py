@@ -1,1 +1,1 @@
-"""The command line: the commands and their tables, the pictures beside them, the parser."""
+"""Command-line interface: the parser, the commands, and their tables and plots."""

@@ -1,4 +1,4 @@
-"""The commands: each with its options and the table it computes from a system."""
+"""Commands of the command line: their options, and the tables that they compute."""
 
 import csv
 from argparse import ArgumentTypeError
@@ -21,10 +21,10 @@ from vibroimpact.theory.criteria import CRITERIA, of_fixed_point
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 NAMES = {**PARAMETERS, "f10_hat": None, "f20_hat": None}
-"""Every parameter with its default, or None if the case has it."""
+"""Every parameter with its default, or None where the case sets it."""
 MACHINE = {
     "M": "mass of the machine with its box, without the ball [kg]",
-    "m": "mass of the ball [kg]; A..B designs for masses from A to B and says what they buy",
+    "m": "mass of the ball [kg]; A..B compares designs for masses from A to B",
     "k": "stiffness of the spring [N/m]",
     "c": "damping [N s/m]",
     "F": "amplitude of the force [N]",
@@ -32,42 +32,45 @@ MACHINE = {
 """Options of a machine: the arguments of PhysicalSystem.single that have no default."""
 PICTURES = (".png", ".pdf", ".svg")
 MASSES = 4
-"""Steps from the least to the greatest mass of the ball."""
+"""Number of steps from the smallest to the largest mass of the ball."""
 _MOST_SAMPLES = 10_000_000
 _SIDES = ("1_plus", "1_minus", "2_plus", "2_minus")
 
 
 class Table(NamedTuple):
-    """Names of the columns, and rows of numbers, words and truth values."""
+    """Hold the result of a command: column names, and rows of numbers, texts and booleans."""
 
     columns: tuple[str, ...]
     rows: list[tuple]
     answer: str = ""
-    """Result in words; printed in place of the rows if these go to a file or nowhere."""
+    """Summary text, printed instead of the rows."""
     plot: Callable | None = None
-    """Draws the result as a Matplotlib Figure."""
+    """Function that draws the result as a Matplotlib Figure."""
 
     def write(self, file) -> None:
-        """Write CSV to an open text file, every number with as many digits as identify it, NaN as an empty field."""
+        """Write CSV to an open text file.
+
+        Numbers have as many digits as identify them; NaN is an empty field.
+        """
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(self.columns)
         writer.writerows([["" if value != value else value for value in row] for row in self.rows])
 
 
 class Command(NamedTuple):
-    """A command: its help text, its own options, and the function that computes its table."""
+    """Describe a command: its help text, its options and the function that computes its table."""
 
     help: str
     add_options: Callable
     compute: Callable[..., Table]
     of_system: bool = True
-    """Takes the dimensionless parameters; else its options say all."""
+    """True if the command takes the dimensionless parameters besides its own options."""
 
 
 def add_system_options(parser) -> None:
-    """Give a parser an option for every parameter, and one for the forces of a case."""
+    """Add an option for every parameter to a parser, and one for the forces of a case."""
     group = parser.add_argument_group(
-        "system", "dimensionless parameters of (10.4)-(10.6); those not given are the chapter's, of section 10.4"
+        "system", "dimensionless parameters of (10.4)-(10.6); the defaults are those of section 10.4"
     )
     group.add_argument("--case", choices=CASES, default="equal", help="forces of the chapter's case (default: equal)")
     for name, value in NAMES.items():
@@ -77,12 +80,12 @@ def add_system_options(parser) -> None:
 
 
 def system_of(options) -> System:
-    """Return the system that the options ask for.
+    """Return the system that the options describe.
 
     Raises
     ------
     ValueError
-        If there is none, see System.
+        If a parameter is not admissible (see System).
     """
     given = {name: value for name in NAMES if (value := getattr(options, name)) is not None}
     return System(**{**PARAMETERS, **CASES[options.case], **given})
@@ -93,7 +96,7 @@ def _no_options(parser):
 
 
 def _fixed_points(system, options):
-    """Return a row per fixed point; fast and slow, and theory: both together."""
+    """Return a row per fixed point with the verdicts of the criteria: fast, slow and theory (both)."""
     columns = ("label", "C1", "C2", "B1", "B2", "psi1", "psi2", *CRITERIA)
     rows = [point.row() | of_fixed_point(system, point) for point in fixed_points(system)]
     return Table(columns, [tuple(row[name] for name in columns) for row in rows])
@@ -113,18 +116,18 @@ def _orbits(system, options):
 def _simulate_options(parser):
     """Add the options of the initial state, the length and the output."""
     parser.add_argument(
-        "--state", type=float, nargs=8, metavar=STATE, default=[0.0] * 8, help="the start (default: at rest)"
+        "--state", type=float, nargs=8, metavar=STATE, default=[0.0] * 8, help="initial state (default: at rest)"
     )
     parser.add_argument("--cycles", type=int, default=100, metavar="N", help="forcing cycles to run (default: 100)")
-    parser.add_argument("--tau0", type=float, default=0.0, metavar="TAU", help="time of the start (default: 0)")
+    parser.add_argument("--tau0", type=float, default=0.0, metavar="TAU", help="initial time (default: 0)")
     parser.add_argument(
         "--samples-per-cycle", type=int, default=32, metavar="N", help="rows per forcing cycle (default: 32)"
     )
-    parser.add_argument("--events", action="store_true", help="write the impacts, sticks and releases instead")
+    parser.add_argument("--events", action="store_true", help="write a row per impact, stick and release instead")
 
 
 def _simulate(system, options):
-    """Return a row per sample, tau and the state; or per event, with the state just after it."""
+    """Return a row per sample (tau and the state), or per event (with the state just after it)."""
     cycles = whole("cycles", options.cycles, 0, _MOST_SAMPLES)
     if options.events:
         events = simulate(system, options.state, cycles, options.tau0).events.tolist()
@@ -139,7 +142,7 @@ def _simulate(system, options):
 
 def _design_options(parser):
     """Add the options of the machine (SI units), the band, the candidate balls and the plot."""
-    group = parser.add_argument_group("machine", "all needed, in SI units")
+    group = parser.add_argument_group("machine", "all required, in SI units")
     for name, words in MACHINE.items():
         kind = _range if name == "m" else float
         group.add_argument(f"--{name}", type=kind, required=True, metavar="X", help=words)
@@ -147,25 +150,25 @@ def _design_options(parser):
     parser.add_argument("--to", dest="high", type=float, required=True, metavar="HZ", help="last frequency [Hz]")
     parser.add_argument(
         "--clearance", type=float, nargs="+", metavar="L",
-        help="clearances to choose from, half of the play [m] (default: 8 about F / k M / m and some beside the best)",
+        help="candidate clearances, half of the play [m] (default: 8 around F / k M / m, then more near the best)",
     )  # fmt: skip
     parser.add_argument(
         "--restitution", type=float, nargs="+", metavar="E",
-        help="restitution coefficients to choose from (default: five from 0.05 to 0.8)",
+        help="candidate restitution coefficients (default: five from 0.05 to 0.8)",
     )  # fmt: skip
-    parser.add_argument("--plot", type=Path, metavar="FILE", help=f"draw it too ({', '.join(PICTURES)})")
+    parser.add_argument("--plot", type=Path, metavar="FILE", help=f"also save a plot ({', '.join(PICTURES)})")
 
 
 def _range(text) -> tuple[float, ...]:
-    """Return a number, or the two of A..B."""
+    """Return one number, or both numbers of A..B."""
     try:
         return tuple(float(word) for word in text.split("..", maxsplit=1))
     except ValueError:
-        raise ArgumentTypeError(f"{text!r} should be a number [kg], or two as in 0..40") from None
+        raise ArgumentTypeError(f"{text!r} is neither a number [kg] nor a range such as 0..40") from None
 
 
 def _design(options):
-    """Return a row per frequency; the answer is the text of a Design."""
+    """Return a row per frequency; the summary is the text of a Design."""
     if options.plot is not None and options.plot.suffix not in PICTURES:
         raise ValueError(f"plot: {options.plot} does not end in {', '.join(PICTURES)}")
     if options.plot is not None:
@@ -185,16 +188,20 @@ def _design(options):
 
 COMMANDS = {
     "fixed-points": Command(
-        "all fixed points of the slow flow, with what the criteria of stability say", _no_options, _fixed_points
+        "list all fixed points of the slow flow with the verdict of each stability criterion",
+        _no_options,
+        _fixed_points,
     ),
     "orbits": Command(
-        "all periodic responses of the exact system with two impacts per cycle and module", _no_options, _orbits
+        "list all periodic responses of the exact system with two impacts per cycle and module", _no_options, _orbits
     ),
     "simulate": Command(
-        "integrate the exact system from a start, impacts, chatter and sticking included", _simulate_options, _simulate
+        "integrate the exact system from an initial state, with impacts, chatter and sticking",
+        _simulate_options,
+        _simulate,
     ),
     "design": Command(
-        "the ball for one machine in kilograms, newtons and hertz: clearance, restitution, what they achieve",
+        "choose clearance and restitution of the ball for one machine, in SI units, and report their effect",
         _design_options,
         _design,
         of_system=False,

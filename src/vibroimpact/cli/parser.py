@@ -1,4 +1,4 @@
-"""Words of the command line -> a table on standard output or in a file, maybe a plot; errors on one line."""
+"""Parse the command line, write the table of a command and its plot, and report errors on one line."""
 
 import argparse
 import os
@@ -13,7 +13,7 @@ from vibroimpact.cli.commands import COMMANDS, Table, add_system_options, system
 
 
 class _Parser(argparse.ArgumentParser):
-    """Argument parser with errors of one line that takes -1e-3 for a number, as -0.001."""
+    """Argument parser that reports errors on one line and accepts -1e-3 as a number."""
 
     def __init__(self, **settings):
         super().__init__(**settings)
@@ -24,18 +24,21 @@ class _Parser(argparse.ArgumentParser):
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run one command; returns the exit status: 2 where the words were wrong, 1 where the computation failed."""
+    """Run one command; return the exit status.
+
+    The status is 2 for invalid arguments and 1 for a failed computation.
+    """
     options = parser().parse_args(arguments)
     return options.run(options)
 
 
 def parser() -> argparse.ArgumentParser:
-    """Return the parser of all commands."""
+    """Return the parser with all commands."""
     top = _Parser(prog="vibroimpact", description=vibroimpact.__doc__.splitlines()[0])
     top.add_argument("--version", action="version", version=f"vibroimpact {vibroimpact.__version__}")
     if find_spec("shtab"):
         import_module("shtab").add_argument_to(
-            top, "--print-completion", help="completion for a shell: bash, zsh, tcsh"
+            top, "--print-completion", help="print the completion script for bash, zsh or tcsh"
         )
     commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, command in COMMANDS.items():
@@ -44,8 +47,8 @@ def parser() -> argparse.ArgumentParser:
         own.add_argument("--output", type=Path, metavar="FILE", help="write the CSV to this file")
         if command.of_system:
             add_system_options(own)
-        own.set_defaults(run=_tell, command=name, parser=own)
-    words = "compile the simulation beforehand, once for a machine"
+        own.set_defaults(run=_run, command=name, parser=own)
+    words = "compile the simulation code in advance, once per machine"
     commands.add_parser("compile", help=words, description=words).set_defaults(run=_compile)
     return top
 
@@ -55,8 +58,8 @@ def _compile(options) -> int:
     return 0
 
 
-def _tell(options) -> int:
-    """Compute the table of a command and put it where it belongs."""
+def _run(options) -> int:
+    """Compute the table of a command and write it to its destination."""
     try:
         _check_folders(options)
         command = COMMANDS[options.command]
@@ -72,19 +75,22 @@ def _tell(options) -> int:
 
 
 def _check_folders(options):
-    """Refuse an output file whose folder cannot be written to, before anything is computed."""
+    """Raise ValueError if an output file cannot be written, before anything is computed."""
     for name in ("output", "plot"):
         path = getattr(options, name, None)
         if path is not None and not path.parent.is_dir():
-            raise ValueError(f"{name}: there is no folder {path.parent}")
+            raise ValueError(f"{name}: folder {path.parent} does not exist")
         if path is not None and path.is_dir():
             raise ValueError(f"{name}: {path} is a folder")
         if path is not None and not os.access(path if path.exists() else path.parent, os.W_OK):
-            raise ValueError(f"{name}: {path} cannot be written to")
+            raise ValueError(f"{name}: {path} is not writable")
 
 
 def _put(table: Table, output: Path | None):
-    """Write the table to its file and print the answer, or print the table; a table that cannot be saved is printed."""
+    """Write the table to its file and print the summary, or print the table.
+
+    A table that cannot be saved is printed.
+    """
     failed = None
     try:
         if output is not None:
@@ -98,19 +104,19 @@ def _put(table: Table, output: Path | None):
         if failed or (output is None and not table.answer):
             table.write(sys.stdout)
             sys.stdout.flush()
-    except BrokenPipeError:  # the reader has seen enough
+    except BrokenPipeError:  # the reading end was closed, by `head` for example
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if failed:
         raise failed
 
 
 def _draw(table, options):
-    """Save the picture of an answer that is already printed, in the style of the project."""
-    os.environ["MPLBACKEND"] = "agg"  # Matplotlib itself does not load with the name of a backend that is not installed
+    """Save the plot of a result that is already printed, in the style of the project."""
+    os.environ["MPLBACKEND"] = "agg"  # Matplotlib fails to load if MPLBACKEND names a missing backend
     try:
         from vibroimpact.figures.plotting.style import save, styled
 
         save(styled(table.plot)(), {options.plot.suffix.removeprefix("."): options.plot})
-    except Exception as error:  # drawing runs other programs and reads fonts; the answer is out in any case
+    except Exception as error:  # drawing runs other programs and reads fonts; the result is already printed
         reason = f"{error}".strip().partition("\n")[0]
         options.parser.exit(1, f"{options.parser.prog}: plot: {options.plot} cannot be saved: {reason}\n")

@@ -207,7 +207,7 @@ def _ahead_of(z, i, boxes, ways):
 
 
 def variants() -> list[Ivanov]:
-    """Return the without and with location of the jumps."""
+    """Return the methods without and with location of the jumps."""
     return [
         Ivanov("Ivanov", False, (100, 300, 1_000, 3_000, 10_000, 30_000), careful=30_000, order=1),
         Ivanov("Ivanov, events", True, (10, 30, 100, 300, 1_000, 3_000), careful=3_000, order=4),

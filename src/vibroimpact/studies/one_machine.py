@@ -23,7 +23,7 @@ from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.system import PhysicalSystem
 from vibroimpact.system.arguments import instance, pair, reals
 from vibroimpact.system.extras import need
-from vibroimpact.system.progress import counted
+from vibroimpact.system.progress import track
 from vibroimpact.system.state import IMPACT, RELEASE, STICK, idle_at_rest
 
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.5, 0.8)
@@ -260,7 +260,7 @@ def _designed(study, clearances, restitutions, progress) -> Design:
     else:
         rows = study.tried([(L, kappa) for kappa in restitutions for L in clearances], progress)
     finalists = []
-    for row in counted(_best(rows), "design: measured again", progress):
+    for row in track(_best(rows), "design: measured again", progress):
         machine = replace(study.machine, L=row["clearance_m"], kappa=row["restitution"])
         measured, *beside = (study.measured(machine, factor) for factor in (1.0, 1 - NEAR, 1 + NEAR))
         peaks = [measured.peak, *(one.peak for one in beside)]
@@ -347,7 +347,7 @@ class _Study:
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
         """Return a row per pair of clearance and restitution, with the peak from few starts."""
         rows, states = [], self._starts(TRIED, 1)
-        for L, kappa in counted(pairs, "design: tried", progress):
+        for L, kappa in track(pairs, "design: tried", progress):
             systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]
             runs = finished(ensemble(np.array(systems)[:, None], states, self.settle + SHORT, settle=self.settle))
             height = L * float(runs["largest"][..., 0].max())

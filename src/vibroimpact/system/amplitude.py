@@ -1,15 +1,17 @@
-"""C of a motion: the amplitude of its saw-tooth Z = W - U = -(1 + epsilon) Y, (10.11)."""
+"""Amplitude C of the saw-tooth Z = W - U = -(1 + epsilon) Y of a motion, (10.11)."""
 
 
 def sawtooth_amplitude(epsilon: float, path):
-    """Return C of a ball that flies `path` from wall to wall: half the path of Z on a flight, the same on both.
+    """Return the amplitude C of a ball that moves by `path` from wall to wall.
 
-    On a flight of half a period it is (1 + epsilon) pi |Y'| / (2 Omega). Flights of unequal length have unequal speeds
-    but one amplitude.
+    C is half the path of Z on a flight, which is the same for both flights. For a flight of half a period, C = (1 +
+    epsilon) pi |Y'| / (2 Omega). Flights of unequal length have unequal speeds but one amplitude.
 
     Parameters
     ----------
-    path
+    epsilon : float
+        Mass ratio m / M.
+    path : array_like
         Displacement of Y from one wall to the other, any shape, dimensionless; C has its sign.
     """
     return (1 + epsilon) * path / 2

@@ -1,4 +1,4 @@
-"""The parameters of section 10.4: those of all cases, and the forces of each."""
+"""Parameters of section 10.4: those common to all cases, and the forces of each case."""
 
 PARAMETERS = {
     "epsilon": 0.1,

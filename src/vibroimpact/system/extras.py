@@ -1,4 +1,4 @@
-"""Optional dependencies: packages of an extra, needed by parts of the library only."""
+"""Check for optional dependencies."""
 
 from importlib.util import find_spec
 
@@ -9,7 +9,7 @@ def need(extra: str, *packages: str) -> None:
     Raises
     ------
     ModuleNotFoundError
-        If some are not; the message names them and the command that brings them.
+        If a package is missing.
     """
     missing = [package for package in packages if find_spec(package) is None]
     if missing:

@@ -1,4 +1,4 @@
-"""The smooth part of (10.2): mass, damping, stiffness of the boxes by contact state; impacts are in restitution.py."""
+"""Mass, damping and stiffness matrices of the boxes in (10.2), by contact state."""
 
 import numpy as np
 
@@ -21,7 +21,10 @@ def masses(system, stuck=(False, False)) -> np.ndarray:
 
 
 def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
-    """Return K - Omega^2 M + i Omega C, shape (2, 2) complex: forcing amplitude over harmonic response."""
+    """Return K - Omega^2 M + i Omega C, shape (2, 2) complex.
+
+    It maps the harmonic response to the forcing amplitude.
+    """
     omega = system.Omega
     dynamic = stiffness_matrix(system) + 1j * omega * damping_matrix(system)
     dynamic[[0, 1], [0, 1]] -= omega**2 * masses(system, stuck)
@@ -29,10 +32,10 @@ def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
 
 
 def rate_matrix(system, stuck=(False, False)) -> np.ndarray:
-    """Return the rate matrix A of (10.2), d/dtau [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)], shape (6, 6).
+    """Return the rate matrix A of (10.2), shape (6, 6).
 
-    Carrying the forcing phase as two states keeps the flow one matrix exponential for every parameter,
-    repeated, defective, undamped and resonant spectra included.
+    A is that of d/dtau [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]. With the forcing phase as two states, the
+    flow is one matrix exponential for all parameters, also for repeated, defective, undamped and resonant spectra.
     """
     mass = masses(system, stuck)[:, None]
     omega = system.Omega

@@ -9,21 +9,47 @@ from vibroimpact.system.arguments import real
 from vibroimpact.system.matrices import dynamic_stiffness
 
 LARGEST = 1e15
-"""Larger parameters of either sign are refused."""
+"""Largest magnitude of a parameter."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class System:
-    """Two coupled vibro-impact modules under forcing f_i sin(Omega tau).
+    """Parameters of two coupled vibro-impact modules under forcing f_i sin(Omega tau).
 
-    All parameters are dimensionless. The hatted ones are those of (10.4), (10.5) and (10.6): the physical effect
-    is epsilon times the hatted value. A negative forcing amplitude means forcing in anti-phase.
+    All parameters are dimensionless. The hatted ones are those of (10.4), (10.5) and (10.6): the physical effect is
+    epsilon times the hatted value.
+
+    Parameters
+    ----------
+    epsilon : float
+        Mass ratio m / M, above 0.
+    kappa : float
+        Restitution coefficient, between 0 and 1.
+    alpha12_hat : float
+        Stiffness of the coupling, at least 0.
+    gamma1_hat, gamma2_hat : float
+        Damping of box 1 and of box 2 to ground, at least 0.
+    gamma12_hat : float
+        Damping of the coupling, at least 0.
+    sigma20_hat : float
+        Detuning of box 2.
+    sigma_e_hat : float
+        Detuning of the forcing frequency.
+    f10_hat, f20_hat : float
+        Forcing amplitudes; a negative amplitude means forcing in antiphase.
 
     Raises
     ------
     ValueError
-        If a parameter is not a finite number, beyond 1e15 or out of its admissible range, or the boxes (balls in free
-        flight) are driven at an undamped resonance, where no bounded linear response exists.
+        If a parameter is not a finite number, exceeds 1e15 in magnitude or is out of its range, or if the boxes (with
+        the balls in free flight) are driven at an undamped resonance, where no bounded linear response exists.
+
+    Examples
+    --------
+    >>> system = vi.System(epsilon=0.1, kappa=0.65, alpha12_hat=1.0, gamma1_hat=0.2, gamma2_hat=0.2, gamma12_hat=0.2,
+    ...                    sigma20_hat=0.5, sigma_e_hat=0.2, f10_hat=1.0, f20_hat=1.0)
+    >>> system.Omega
+    1.02
     """
 
     epsilon: float
@@ -41,9 +67,7 @@ class System:
         for field in fields(self):
             number = real(field.name, getattr(self, field.name))
             if abs(number) > LARGEST:
-                raise ValueError(
-                    f"{field.name}: {number} is beyond {LARGEST:g}, where powers leave the range of floats"
-                )
+                raise ValueError(f"{field.name}: {number} exceeds {LARGEST:g} in magnitude")
             object.__setattr__(self, field.name, number)
         if self.epsilon <= 0:
             raise ValueError(f"epsilon: {self.epsilon} is not above 0")
@@ -104,19 +128,21 @@ class System:
 
     @property
     def modules(self) -> tuple[int, ...]:
-        """Numbers of the modules that take part: a force drives them, or the module to which they are coupled.
+        """Numbers of the modules that take part, (1, 2), (1,) or (2,).
 
-        Nothing drives a module without force and coupling, and analyses leave it out; `simulate` moves it from its
-        start. This is the only place that decides it. A single machine has (1,), see `PhysicalSystem.single`.
+        A module takes part if a force drives it, or drives the module to which it is coupled.
+
+        Analyses leave out a module without force and coupling; `simulate` still integrates it from its initial state.
+        A single machine has (1,), see `PhysicalSystem.single`.
         """
         forced = [module for module, force in ((1, self.f10_hat), (2, self.f20_hat)) if force != 0]
         coupled = self.alpha12_hat != 0 or self.gamma12_hat != 0
         return (1, 2) if coupled and forced else tuple(forced)
 
     def with_idle_damped(self) -> "System":
-        """Return the same system, with damping at the box of a module that takes no part, so that it has no resonance.
+        """Return the system with damping at the box of a module that takes no part.
 
-        That box stays at rest whatever its damping.
+        The damping removes the resonance of that box, which stays at rest.
 
         Returns
         -------
@@ -128,26 +154,36 @@ class System:
         return self.with_(**{f"gamma{3 - self.modules[0]}_hat": 1.0})
 
     def with_(self, **changes: float) -> "System":
-        """Return the same system with some parameters changed.
+        """Return a copy of the system with some parameters changed.
+
+        Parameters
+        ----------
+        **changes : float
+            New values by parameter name.
 
         Returns
         -------
         System
-            A new System.
+            The new system.
 
         Raises
         ------
         ValueError
-            As for a System.
+            As for System.
         TypeError
-            If there is no parameter of a name.
+            If a name is not a parameter.
+
+        Examples
+        --------
+        >>> system.with_(kappa=0.5).kappa
+        0.5
         """
         return replace(self, **changes)
 
     def _resonates(self) -> bool:
         """Return True if a force drives the undamped boxes at a resonance."""
         stiffness = dynamic_stiffness(self)
-        # Of the terms that cancel at a resonance: both boxes may be in one, and nothing is left.
+        # Scale of the terms that cancel at a resonance; where both boxes resonate, all terms cancel.
         springs = 1.0 + self.stiffness2 + 2.0 * self.alpha12
         dampers = self.gamma1 + self.gamma2 + 2.0 * self.gamma12
         rounding = 1e-12 * (springs + self.Omega * (dampers + 2.0 * self.Omega))

@@ -1,4 +1,4 @@
-"""Physical parameters of (10.1) and their scaling to (10.2) and back."""
+"""Physical parameters of (10.1), and their scaling to (10.2) and back."""
 
 import math
 from dataclasses import dataclass, fields
@@ -9,21 +9,41 @@ from vibroimpact.system.parameters import System
 
 @dataclass(frozen=True, kw_only=True)
 class PhysicalSystem:
-    """Parameters of (10.1) in any consistent units (SI say).
+    """Parameters of (10.1) in consistent units, such as SI units.
 
-    M, m: mass of a box and of a ball; k1, k2, k12: stiffness to ground and of the coupling; c1, c2, c12: damping
-    likewise; F10, F20: force amplitudes; omega1, omega2: circular frequencies of the forces; L: the ball meets a
-    wall at |x - y| = L; kappa: restitution coefficient.
-
-    What is dimensionless becomes physical by a factor, with omega10 = sqrt(k1 / M): time 1 / omega10, frequency
-    omega10, displacement L, velocity L omega10, force k1 L, energy k1 L^2. An absorber has the spring
-    epsilon k1 frequency^2 and the damper 2 epsilon M omega10 frequency damping.
+    Parameters
+    ----------
+    M, m : float
+        Mass of a box and of a ball.
+    k1, k2, k12 : float
+        Stiffness of box 1 and of box 2 to ground, and of the coupling.
+    c1, c2, c12 : float
+        Damping of box 1 and of box 2 to ground, and of the coupling.
+    F10, F20 : float
+        Force amplitudes.
+    omega1, omega2 : float
+        Circular frequencies of the forces.
+    L : float
+        Clearance: a ball meets a wall at |x - y| = L.
+    kappa : float
+        Restitution coefficient.
 
     Raises
     ------
     ValueError
-        If a parameter is not a finite number, a mass, stiffness to ground, frequency or L is not above 0, a damping or
-        k12 is below 0.
+        If a parameter is not a finite number; if a mass, a stiffness to ground, a frequency or L is not above 0; or if
+        a damping or k12 is below 0.
+
+    Notes
+    -----
+    With omega10 = sqrt(k1 / M), the units of the dimensionless quantities are: time 1 / omega10, frequency omega10,
+    displacement L, velocity L omega10, force k1 L, energy k1 L^2. A linear absorber (`Tuning`) has the spring epsilon
+    k1 frequency^2 and the damper 2 epsilon M omega10 frequency damping.
+
+    Examples
+    --------
+    >>> machine = vi.PhysicalSystem.single(M=100.0, m=5.0, k=4e4, c=40.0, F=20.0, L=0.01)
+    >>> system = machine.dimensionless()
     """
 
     M: float
@@ -64,24 +84,39 @@ class PhysicalSystem:
         kappa: float = 0.65,
         omega: float | None = None,
     ) -> "PhysicalSystem":
-        """Return one machine with a ball in its box: mass, ball, stiffness, damping to ground, amplitude of the force.
+        """Return the parameters of one machine with a ball in its box.
 
-        The equations have two modules. The second is a like machine that is neither coupled nor driven, so that it
-        takes no part (`System.modules`): fixed points, orbits, branches, proofs, attractors and exponents are those of
-        module 1. Arrays per module keep their shape, with NaN for module 2; there are 4 multipliers and exponents, and
-        2 slow eigenvalues; a state has zeros for module 2.
+        The equations have two modules. The second one is a copy of the machine that is neither coupled nor driven, so
+        that it takes no part (`System.modules`): fixed points, orbits, branches, proofs, attractors and exponents are
+        those of module 1. Arrays per module keep their shape, with NaN for module 2. There are 4 multipliers and
+        exponents and 2 slow eigenvalues; a state has zeros for module 2.
 
         Parameters
         ----------
+        M, m : float
+            Mass of the machine with its box [kg], and of the ball [kg].
+        k : float
+            Stiffness to ground [N/m].
+        c : float
+            Damping to ground [N s/m].
+        F : float
+            Amplitude of the force [N].
         L : float, default 1.0
-            Half of the play [m].
+            Half of the play of the ball [m].
+        kappa : float, default 0.65
+            Restitution coefficient.
         omega : float, optional
-            Circular frequency of the force [rad/s], by default the natural one.
+            Circular frequency of the force [rad/s]; the natural frequency by default.
+
+        Returns
+        -------
+        PhysicalSystem
+            Parameters with a second module that takes no part.
 
         Raises
         ------
         ValueError
-            As PhysicalSystem.
+            As for PhysicalSystem.
         """
         k, M = real("k", k), real("M", M)
         if min(k, M) <= 0:
@@ -110,18 +145,18 @@ class PhysicalSystem:
         return math.sqrt(self.k1 / self.M)
 
     def dimensionless(self) -> System:
-        """Return the dimensionless system, by the definitions below (10.2) and by (10.4)-(10.6).
+        """Return the dimensionless system by the definitions below (10.2) and by (10.4)-(10.6).
 
         Returns
         -------
         System
-            The System; its time is tau = omega10 t, its lengths are in units of L.
+            The System; its time is tau = omega10 t, and its lengths are in units of L.
 
         Raises
         ------
         ValueError
-            If the two forcing frequencies differ ((10.5) needs Omega_1 = Omega_2), or a dimensionless parameter is not
-            admissible (see System).
+            If the two forcing frequencies differ ((10.5) needs Omega_1 = Omega_2), or if a dimensionless parameter is
+            not admissible (see System).
         """
         if self.omega1 != self.omega2:
             raise ValueError(f"omega2: {self.omega2} differs from omega1 = {self.omega1}; (10.5) needs one frequency")
@@ -143,12 +178,19 @@ class PhysicalSystem:
 
     @classmethod
     def from_dimensionless(cls, system: System, *, M: float, k1: float, L: float) -> "PhysicalSystem":
-        """Return the physical system with box mass M, first stiffness k1 and characteristic dimension L.
+        """Return the physical system with box mass M, first stiffness k1 and clearance L.
+
+        Parameters
+        ----------
+        system : System
+            Dimensionless parameters.
+        M, k1, L : float
+            Box mass, stiffness of box 1 to ground, and clearance, in consistent units.
 
         Returns
         -------
         PhysicalSystem
-            The PhysicalSystem whose `dimensionless` is the given one, up to rounding.
+            The system whose `dimensionless` is the given one, up to rounding.
 
         Raises
         ------

@@ -1,22 +1,22 @@
-"""Progress of long work, on standard error and on a terminal only."""
+"""Report the progress of long work on standard error, if it is a terminal."""
 
 import sys
 from collections.abc import Iterator, Sequence
 
 
-def shown(progress: bool) -> bool:
-    """Return True if progress is asked for and standard error is a terminal."""
+def wants_progress(progress: bool) -> bool:
+    """Return True if progress is requested and standard error is a terminal."""
     return progress and sys.stderr.isatty()
 
 
-def counted(things: Sequence, words: str, progress: bool = True) -> Iterator:
-    """Yield the things; count those that are done, after some words."""
+def track(things: Sequence, words: str, progress: bool = True) -> Iterator:
+    """Yield the things, and report how many are done after the words given."""
     for number, one in enumerate(things, start=1):
         yield one
-        if shown(progress):
-            tell(f"{words} {number}/{len(things)}", last=number == len(things))
+        if wants_progress(progress):
+            write_line(f"{words} {number}/{len(things)}", last=number == len(things))
 
 
-def tell(line: str, last: bool = False) -> None:
-    """Write a line over the one before."""
+def write_line(line: str, last: bool = False) -> None:
+    """Write a line over the previous one."""
     print(f"\r\033[K{line}", end="\n" if last else "", file=sys.stderr, flush=True)

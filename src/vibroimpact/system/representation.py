@@ -7,10 +7,10 @@ import numpy as np
 
 
 class Representation:
-    """Base class of results whose repr and HTML table show the texts of `_shown`."""
+    """Base class of results; `repr` and the HTML table show the texts of `_shown`."""
 
     def _shown(self) -> dict[str, str]:
-        """Return short texts by the names of attributes."""
+        """Return short texts by attribute name."""
         raise NotImplementedError
 
     def __repr__(self) -> str:
@@ -22,7 +22,7 @@ class Representation:
 
 
 class Found(list):
-    """A list of results, with the columns of its table, which `to_frame` keeps where nothing was found."""
+    """List of results that keeps the columns of its table when it is empty (see `to_frame`)."""
 
     def __init__(self, results: Iterable, columns: Iterable[str]):
         super().__init__(results)

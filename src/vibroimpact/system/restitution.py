@@ -1,10 +1,10 @@
-"""The impact law: Newton's restitution rule with conservation of momentum (section 10.2)."""
+"""Impact law: Newton's restitution rule with conservation of momentum (section 10.2)."""
 
 
 def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocity: float):
     """Return the velocities (X', Y') just after an impact, from those just before, (10.2).
 
-    Newton: W'+ = -kappa W'-; momentum X' + epsilon Y' unchanged. Works on floats and arrays alike.
+    W'+ = -kappa W'- (Newton's rule), and X' + epsilon Y' is conserved. Arguments are floats or arrays.
     """
     impulse = (1.0 + kappa) / (1.0 + epsilon) * (box_velocity - ball_velocity)
     return box_velocity - epsilon * impulse, ball_velocity + impulse

@@ -1,42 +1,42 @@
-"""The state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] of a motion and its events, as everyone writes them."""
+"""Conventions for states [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] and events."""
 
 from collections.abc import Mapping
 
 import numpy as np
 
-from vibroimpact.system.arguments import reals, shown
+from vibroimpact.system.arguments import reals, short_repr
 
 NAMES = ("X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2")
-"""Names of the components, of columns of tables say; d is d/dtau."""
+"""Names of the components, used for columns of tables; d is d/dtau."""
 
 BOXES = np.array([0, 2, 4, 6])
-"""Places of X1, X2, X1', X2' in the state."""
+"""Indices of X1, X2, X1', X2' in the state."""
 BALLS = np.array([1, 3, 5, 7])
-"""Places of Y1, Y2, Y1', Y2' in the state."""
+"""Indices of Y1, Y2, Y1', Y2' in the state."""
 MODULES = np.array([1, 1, 2, 2, 1, 1, 2, 2])
 """Modules to which the components of the state belong."""
 
 IMPACT, STICK, RELEASE = 0, 1, 2
 KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}
-"""Kinds of events: a ball meets a wall, comes to rest on it, leaves it."""
+"""Kinds of events: a ball hits a wall, comes to rest on it, or leaves it."""
 
 EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"), ("state", "f8", (8,))])
-"""One event: time, module 1 or 2, wall +1 or -1, kind, state just after it."""
+"""Data type of an event: time, module 1 or 2, wall +1 or -1, kind, state just after it."""
 
 _COMPONENTS = {name: k for k, name in enumerate(NAMES)} | {f"{name[1:]}'": k for k, name in enumerate(NAMES) if k > 3}
-"""Places of the components, by NAMES and as X1', Y1', X2', Y2'."""
+"""Indices of the components, by NAMES and as X1', Y1', X2', Y2'."""
 
 
 def states_array(name: str, values) -> np.ndarray:
-    """Return a new float array of states: those with labelled components in the order of NAMES, others as they are.
+    """Return a new float array of states, with labelled components sorted into the order of NAMES.
 
-    Labelled are mappings, named tuples, structured arrays, and the rows and tables of pandas and its like. They may
-    have other entries besides, as the tables of `to_frame` do.
+    Labelled are mappings, named tuples, structured arrays, and the rows and tables of pandas and similar libraries.
+    They may have further entries, as the tables of `to_frame` do. Unlabelled values are taken by position.
 
     Raises
     ------
     ValueError
-        If they are no array of real numbers, or their labels are not those of a state, each once.
+        If the values are not an array of real numbers, or if their labels are not those of a state, each once.
     """
     return reals(name, _ordered(name, values))
 
@@ -47,14 +47,16 @@ def _ordered(name, values):
         return [_ordered(f"{name}[{row}]", one) for row, one in enumerate(values)] if states else values
     dimensions = getattr(values, "dims", ())  # of xarray
     if dimensions and dimensions[-1] in getattr(values, "coords", ()):
-        raise ValueError(f"{name}: an array labelled by {dimensions[-1]!r}; give a table, a mapping or plain numbers")
+        raise ValueError(
+            f"{name}: arrays labelled by {dimensions[-1]!r} are not supported; pass a table, a mapping or plain numbers"
+        )
     labels = _labels(values)
     if labels is None:
         return values
     named = [(_COMPONENTS[str(label)], label) for label in labels if str(label) in _COMPONENTS]
     if sorted(k for k, _ in named) != [*range(len(NAMES))]:
         given = ", ".join(map(str, labels))
-        raise ValueError(f"{name}: the columns {shown(given)} are not those of a state, {', '.join(NAMES)}")
+        raise ValueError(f"{name}: the columns {short_repr(given)} are not those of a state, {', '.join(NAMES)}")
     parts = values._asdict() if hasattr(values, "_asdict") else values
     components = [reals(f"{name}[{label!r}]", parts[label]) for _, label in sorted(named)]
     if len({component.shape for component in components}) > 1:
@@ -63,28 +65,28 @@ def _ordered(name, values):
 
 
 def _labels(values):
-    """Return the labels of the last axis, or None where its entries go by their position."""
+    """Return the labels of the last axis, or None if entries are taken by position."""
     if isinstance(values, Mapping):
         return [*values]
     if names := getattr(values, "_fields", None) or getattr(getattr(values, "dtype", None), "names", None):
         return [*names]
     index = getattr(values, "index", None)
     labels = getattr(values, "columns", index)
-    if labels is None or callable(labels):  # a method, of lists say
+    if labels is None or callable(labels):  # a method, such as list.index
         return None
     numbered = [*labels] == [*range(len(labels))]
     of_rows = numbered and labels is not index and not _COMPONENTS.keys().isdisjoint(map(str, index))
-    return None if numbered and not of_rows else [*labels]  # states in columns are refused, too
+    return None if numbered and not of_rows else [*labels]  # reject states in columns too
 
 
 def takes_part(system) -> np.ndarray:
     """Return True for each component of the state of a module that takes part (`System.modules`), shape (8,).
 
-    Where no module does, both decay freely: True for all.
+    If no module takes part, both decay freely, and the result is True for all.
     """
     return np.isin(MODULES, system.modules or (1, 2))
 
 
 def idle_at_rest(system, states) -> np.ndarray:
-    """Return states (..., 8) with a module that takes no part at rest, whatever is given for it."""
+    """Return states (..., 8) with modules that take no part at rest, whatever their given values."""
     return np.where(takes_part(system), states, 0.0)

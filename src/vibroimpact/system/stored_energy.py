@@ -1,19 +1,17 @@
-"""Energies of (10.2), in units of M L^2 omega_10^2."""
+"""Stored energy of (10.2), in units of M L^2 omega_10^2."""
 
 from vibroimpact.system.state import BALLS, BOXES
 
 
 def stored(stiffness2, alpha12, epsilon, boxes, balls):
-    """Return the kinetic energy of boxes and balls and that of the springs; numbers or arrays.
+    """Return the kinetic energy of boxes and balls plus the energy of the springs; numbers or arrays.
 
     Parameters
     ----------
     stiffness2, alpha12, epsilon
-        Those of the System.
-    boxes
-        (X1, X2, X1', X2').
-    balls
-        (Y1, Y2, Y1', Y2').
+        Attributes of the System.
+    boxes, balls
+        (X1, X2, X1', X2') and (Y1, Y2, Y1', Y2').
     """
     x1, x2, v1, v2 = boxes
     kinetic = v1 * v1 + v2 * v2 + epsilon * (balls[2] * balls[2] + balls[3] * balls[3])

@@ -1,4 +1,4 @@
-"""Verdicts with three states, shared by every criterion of stability."""
+"""Verdicts on stability: stable, unstable or undecided."""
 
 STABLE, UNSTABLE, UNDECIDED = "stable", "unstable", "undecided"
 

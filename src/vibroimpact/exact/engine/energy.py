@@ -53,7 +53,7 @@ class Squares(NamedTuple):
 
 
 def _lyapunov():
-    """Return the return, on the upper triangle of S, the map A -> A' S + S A (36, 441) and sin^2 + cos^2 (21,)."""
+    """Return the map A -> A' S + S A, (36, 441), and sin^2 + cos^2, (21,), on the upper triangle of S."""
     units = np.zeros((TRIANGLE, SIZE, SIZE))
     units[np.arange(TRIANGLE), ROWS, COLUMNS] = units[np.arange(TRIANGLE), COLUMNS, ROWS] = 1.0
     rates = np.eye(SIZE * SIZE).reshape(-1, 1, SIZE, SIZE)

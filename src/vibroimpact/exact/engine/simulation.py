@@ -22,7 +22,7 @@ from vibroimpact.exact.engine.phase import TWO_PI, Instant, continues, exactly, 
 from vibroimpact.exact.engine.replay import replayed
 from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carried
 from vibroimpact.system import System
-from vibroimpact.system.arguments import instance, real, reals, shown, whole
+from vibroimpact.system.arguments import instance, real, reals, short_repr, whole
 from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.state import EVENT, KINDS, states_array
 
@@ -48,7 +48,9 @@ def checked_state(state) -> np.ndarray:
     if state.shape != (8,):
         raise ValueError(f"state: needs shape (8,), got {state.shape}")
     if not all(map(math.isfinite, values)):
-        raise ValueError(f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {shown(values)}")
+        raise ValueError(
+            f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {short_repr(values)}"
+        )
     x1, y1, x2, y2 = values[:4]
     if abs(x1 - y1) > 1.0 or abs(x2 - y2) > 1.0:
         _check_walls((1, x1, y1), (2, x2, y2))

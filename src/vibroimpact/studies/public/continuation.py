@@ -14,7 +14,7 @@ from vibroimpact.studies.regimes.continuation import Lost
 from vibroimpact.studies.regimes.families import AsymmetricOrbits, FixedPoints, SymmetricOrbits
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, pair, whole
-from vibroimpact.system.progress import shown, tell
+from vibroimpact.system.progress import wants_progress, write_line
 from vibroimpact.system.representation import Found
 
 FAMILIES = {
@@ -199,9 +199,11 @@ def _families(of):
 
 def _report(words, progress) -> Callable:
     """Return a function that reports parameters after some words."""
-    return lambda *values: shown(progress) and tell(f"{words} {', '.join(f'{value:.4g}' for value in values)}")
+    return lambda *values: (
+        wants_progress(progress) and write_line(f"{words} {', '.join(f'{value:.4g}' for value in values)}")
+    )
 
 
 def _end(progress):
-    if shown(progress):
-        tell("", last=False)
+    if wants_progress(progress):
+        write_line("", last=False)

@@ -5,7 +5,7 @@ import numpy as np
 from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import MOST_CYCLES
 from vibroimpact.system.arguments import whole
-from vibroimpact.system.progress import counted
+from vibroimpact.system.progress import track
 from vibroimpact.system.state import takes_part
 
 _STEP = 100  # cycles of the transient between two lines of progress
@@ -53,7 +53,7 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     moves = np.reshape([takes_part(system) for system in systems.flat], (*systems.shape, 8))
     states = np.where(moves, states, 0.0)
     steps = [_STEP] * (settle // _STEP) + [1] * (cycles - settle)
-    for step in counted(steps, "sections: step", progress):
+    for step in track(steps, "sections: step", progress):
         states = ensemble(systems, states, step, settle=step)["final"]
         found.append(states)
     return np.stack(found[settle - cycles :], axis=-2)

@@ -12,7 +12,7 @@ from vibroimpact.studies.sweeps.rows import rows
 from vibroimpact.studies.sweeps.spec import PEAKS, Spec
 from vibroimpact.system import System
 from vibroimpact.system.arguments import MOST_SEED, instance, reals, whole
-from vibroimpact.system.progress import counted
+from vibroimpact.system.progress import track
 
 _MOST_STARTS = 10_000
 _AXES = (1, 2)
@@ -92,7 +92,7 @@ def sweep(
     )
     for number in range(len(grid)):  # every point has a system, or none is computed
         grid.system(number)
-    return list(rows(grid, spec, counted(range(len(grid)), "sweep: point", progress)))
+    return list(rows(grid, spec, track(range(len(grid)), "sweep: point", progress)))
 
 
 def _axes(name, given, known) -> list[Axis]:

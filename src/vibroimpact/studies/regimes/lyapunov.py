@@ -176,14 +176,13 @@ def _largest_first(rates):
 
 
 def contraction(system, impacts, stuck) -> np.ndarray:
-    """Return the logarithm of the contraction of volumes in each cycle, shape (n,).
+    """Return the logarithm of the contraction of volumes of states in each cycle, shape (n,).
 
     Only impacts and sticking balls are counted, not the damping.
 
-    Flights shrink them by the damping, exp(-tr D t), D of the modules that take part. In the gap of its module, its
-    rate and the motion of their centre of mass an impact is triangular, with -kappa for the gap (the saltation) and
-    -kappa for its rate (Newton's rule): the factor is kappa^2, whatever the flights around it. A ball that sticks
-    leaves no volume: -inf.
+    A flight contracts volumes by exp(-tr D t), D being the damping matrix of the modules that take part. An impact
+    contracts them by kappa^2: in the coordinates gap, rate of the gap and motion of the centre of mass, its saltation
+    matrix is triangular, with -kappa for the gap and -kappa for the rate. A ball that sticks leaves no volume: -inf.
     """
     damping = np.diag(damping_matrix(system))[takes_part(system)[[0, 2]]].sum()
     volume = 2 * np.asarray(impacts) * np.log(system.kappa) - damping * system.period

@@ -27,7 +27,7 @@ class Amounts:
 
 
 def by_theory(system) -> list[Amounts]:
-    """Return the to leading order, (10.9), (10.10) and the power balance, at every fixed point of (10.23)."""
+    """Return the responses to leading order, (10.9), (10.10), at every fixed point of (10.23)."""
     tau = np.linspace(0.0, system.period / 2, SAMPLES)
     return [
         Amounts(

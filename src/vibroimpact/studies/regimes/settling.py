@@ -20,7 +20,7 @@ from vibroimpact.studies.regimes.classification import (
     classify_after,
 )
 from vibroimpact.system.arguments import real, whole
-from vibroimpact.system.progress import counted
+from vibroimpact.system.progress import track
 from vibroimpact.system.state import idle_at_rest
 
 MOST_WITNESSES = 5
@@ -88,12 +88,12 @@ def _rounds(system, states, observation, progress):
     waiting, now = np.arange(len(states)), states
     for number in range(1, observation.rounds):
         now = finals(system, now, observation.cycles)
-        for place, state in counted([*zip(waiting, now, strict=True)], f"starts: round {number},", progress):
+        for place, state in track([*zip(waiting, now, strict=True)], f"starts: round {number},", progress):
             found[place] = classify_after(system, state, observation.window, observation.nearness)
         passing = [_passing(found[place]) for place in waiting]
         waiting, now = waiting[passing], now[passing]
     # the last round, with the events that a name needs
-    for place, state in counted([*zip(waiting, now, strict=True)], "starts: last round,", progress):
+    for place, state in track([*zip(waiting, now, strict=True)], "starts: last round,", progress):
         found[place] = named(simulate(system, state, observation.cycles), observation)
         if found[place].name == UNSETTLED:
             found[place] = _later(system, found[place], observation)
@@ -134,7 +134,7 @@ def _try(system, regimes, members, observation, progress):
 
 
 def _run_on(system, regimes, places, observation, progress):
-    for k in counted([*places], f"starts: longer run, {observation.retest} cycles,", progress):
+    for k in track([*places], f"starts: longer run, {observation.retest} cycles,", progress):
         regimes[k] = _later(system, regimes[k], observation)
 
 
