@@ -208,7 +208,7 @@ def _bound_by_permissions():
 def test_a_read_only_installation_without_a_home_works(nowhere_to_write, tmp_path):
     first, second = nowhere_to_write(ADVANCE), nowhere_to_write(ADVANCE)
     [folder] = tmp_path.glob("vibroimpact-*")
-    kept = f"can be written to; compiled code is kept in {folder}"
+    kept = f"is writable; caching compiled code in {folder}"
     assert kept in first.stderr
     assert "compiling" in first.stderr
     assert "python -m vibroimpact.compile" in first.stderr

@@ -1,1 +1,1 @@
-"""The exact system: free flight in closed form, impacts, chatter and sticking, simulation, periodic orbits."""
+"""Exact system: event-driven simulation with closed-form flights, and periodic orbits."""

@@ -42,7 +42,7 @@ def test_code_is_kept_by_the_content_of_all_that_it_may_be_compiled_from(tmp_pat
 def test_code_beside_a_library_that_is_read_only_is_copied_once(tmp_path, monkeypatch):
     """Numba would pass over a folder that it cannot write to, and compile everything again."""
     beside, own = tmp_path / "library", tmp_path / "own"
-    monkeypatch.setattr(compiled, "BESIDE", beside)
+    monkeypatch.setattr(compiled, "LIBRARY_CACHE", beside)
     monkeypatch.setattr(compiled, "_writable", lambda: own)
     monkeypatch.setattr(compiled.config, "CACHE_DIR", "")
     own.mkdir()

@@ -10,7 +10,7 @@ from flint import arb, ctx
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.phase import Instant, ahead, phase_at, reduced, sine_and_cosine
+from vibroimpact.exact.engine.phase import Instant, advance_phase, phase_at, reduced, sine_and_cosine
 
 START = [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
 
@@ -47,7 +47,7 @@ def test_the_phase_loses_nothing_over_many_flights():
     omega, phase, tail = 1.0199999999999998, 0.7, 0.0
     lengths = np.random.default_rng(0).uniform(0, 6, 20_000)
     for t in lengths:
-        phase, tail = ahead(phase, tail, omega, t)
+        phase, tail = advance_phase(phase, tail, omega, t)
         if phase >= 2 * np.pi:
             phase, tail = reduced(phase, tail)
     total = sum(map(Fraction, lengths), Fraction(0.7) / Fraction(omega))
@@ -95,5 +95,5 @@ vi.{run}
 """
     environment = {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": ":".join(sys.path)}
     done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
-    last = "RuntimeError: NUMBA_DISABLE_JIT is set: the simulation works compiled only; unset it"
+    last = "RuntimeError: the simulation requires compiled code; unset NUMBA_DISABLE_JIT"
     assert done.stderr.splitlines()[-1] == last

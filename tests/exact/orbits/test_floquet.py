@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from stroboscope import ORDER, Stroboscope
-from vibroimpact.exact.orbits.floquet import floquet, impact_matrix, impact_saltation, multipliers, vector_field
+from vibroimpact.exact.orbits.floquet import floquet, impact_saltation, multipliers, restitution_matrix, vector_field
 from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.system.restitution import after_impact
@@ -39,7 +39,7 @@ def test_monodromy_matrix_and_multipliers_in_extended_precision(case):
 def test_impact_matrix_is_the_impact_law(chapter, module):
     system, box, ball, expected = chapter(), 2 * module + 2, 2 * module + 3, BEFORE.copy()
     expected[[box, ball]] = after_impact(system.epsilon, system.kappa, BEFORE[box], BEFORE[ball])
-    np.testing.assert_allclose(impact_matrix(system, module) @ BEFORE, expected, rtol=1e-15)
+    np.testing.assert_allclose(restitution_matrix(system, module) @ BEFORE, expected, rtol=1e-15)
 
 
 @MODULES
@@ -48,7 +48,7 @@ def test_impact_matrix_is_the_impact_law(chapter, module):
 def test_what_defines_the_saltation_matrix(chapter, module, gamma12_hat, kappa):
     """The motion itself passes unchanged, S f- = f+; along the wall the impact law holds; the determinant."""
     system = chapter(gamma12_hat=gamma12_hat, kappa=kappa)
-    law, saltation = impact_matrix(system, module), impact_saltation(system, BEFORE, TAU, module)
+    law, saltation = restitution_matrix(system, module), impact_saltation(system, BEFORE, TAU, module)
     carried = saltation @ vector_field(system, BEFORE, TAU)
     np.testing.assert_allclose(carried, vector_field(system, law @ BEFORE, TAU), rtol=0, atol=1e-14)
     along = np.random.default_rng(3).normal(size=8)

@@ -18,11 +18,11 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
     Parameters
     ----------
     runs : sequence of int
-        How many runs each piece has.
+        Number of runs of each piece.
     progress : bool
         Count finished runs on standard error, about once a second.
     """
-    if min(cores(), len(pieces)) <= 1 and not progress:  # nobody to share with; a pool would cost 0.1 ms and more
+    if min(cores(), len(pieces)) <= 1 and not progress:  # a pool would cost at least 0.1 ms and save nothing
         return [work(*piece) for piece in pieces]
     given_up = threading.Event()
     with ThreadPoolExecutor(cores(), initializer=setattr, initargs=(WORKER, "given_up", given_up)) as pool:
@@ -38,13 +38,16 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
 
 
 def stop_if_given_up():
-    """Raise CancelledError in a thread whose siblings failed or were interrupted; long work calls it now and then."""
+    """Raise CancelledError in a thread whose siblings failed or were interrupted.
+
+    Long work calls this function from time to time.
+    """
     if (given_up := getattr(WORKER, "given_up", None)) and given_up.is_set():
         raise CancelledError
 
 
 def cores() -> int:
-    """Return the number of cores that this process may use, as limited by a cluster, the user or `at_most`."""
+    """Return the number of cores available, as limited by a cluster, the user or `at_most`."""
     there = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return min(there, ALLOWED.get())
 

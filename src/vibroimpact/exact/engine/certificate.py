@@ -1,6 +1,6 @@
-"""The certificate of a run: proofs that no impact was missed, and error estimates of its states.
+"""Certificate of a run: proofs that no impact was missed, and error estimates of its states.
 
-Rounding errors are estimated by a unit error at the start and after every event, carried by the variational flow.
+Rounding errors are estimated by a unit error at the start and after every event, propagated by the variational flow.
 """
 
 import math
@@ -13,7 +13,7 @@ from vibroimpact.exact.engine import motion
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.flow import flow_of
 from vibroimpact.exact.engine.margins import DEPTH, DOUBT, DOUBTS, GAP, hits_of, margins_of, turning_points
-from vibroimpact.exact.engine.phase import ahead, phase_at
+from vibroimpact.exact.engine.phase import advance_phase, phase_at
 from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, FORCING, LENGTH, WALLS, land, start_of
 from vibroimpact.exact.engine.variation import fill_event, fill_flight, fill_rate
 from vibroimpact.system.representation import Representation, brief
@@ -21,15 +21,15 @@ from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
 TABLE, REBOUND = 0.15, 0.25
-"""Typical rounding, in units, of an entry of the flow tables, and of restitution times approach. One that repeats, the
-same entry being read again or kappa being next to 1, adds up instead of averaging out."""
+"""Typical rounding, in units, of an entry of the flow tables, and of restitution times approach. A rounding that
+repeats (the same entry is read again, or kappa is close to 1) adds up instead of averaging out."""
 
 
 class Errors(NamedTuple):
     """Estimated errors of a state in units of rounding.
 
-    independent: covariance (8, 8) of roundings that add by their squares; repeated: sums (8, 6) of those that are alike
-    each time, a column for each: growth and turn of either box by the tables, rebound of either ball.
+    independent: covariance (8, 8) of independent roundings. repeated: sums (8, 6) of roundings that are equal each
+    time, one column for each source: growth and rotation of either box by the tables, rebound of either ball.
     """
 
     independent: np.ndarray
@@ -38,39 +38,41 @@ class Errors(NamedTuple):
 
 @compiled
 def errors_of(flow, flights, events, limit):
-    """Return estimated errors at the start and end of every flight, rows (m + 1, 2), and of the rounded final state. An
-    error is the root mean square over the whole state; it is inf from the first event (or the end) on after which it
+    """Return estimated errors at the start and end of every flight, rows (m + 1, 2), and of the final state.
+
+    An error is the root mean square over the whole state. It is inf from the first event (or the end) on after which it
     exceeds the limit.
     """
     q = flow.coefficients
-    told, known = np.full((len(flights), 2), math.inf), limit / UNIT
+    estimates, largest = np.full((len(flights), 2), math.inf), limit / UNIT
     errors = Errors(np.zeros((8, 8)), np.zeros((8, 6)))
     matrix, product, part = np.empty((8, 8)), np.empty((8, 8)), np.empty(COLUMNS)
     _begin(q, flights[0], errors)
     root = _root(errors)
     for n in range(len(flights)):
-        told[n, 0] = told[n, 1] = UNIT * root
+        estimates[n, 0] = estimates[n, 1] = UNIT * root
         if flights[n, LENGTH] > 0.0:
             _copy(flights[n], part)
             _fly(flow, part, errors, matrix, product)
-            told[n, 1] = UNIT * _root(errors)
+            estimates[n, 1] = UNIT * _root(errors)
         if n < len(events):
             _pass(q, flights, events, n, errors, matrix, product)
         else:
             _end(q, flights[n], 0.0, errors, product[0])
         root = _root(errors)
-        if not root <= known:  # also where it is no number: an impact without velocity
-            return told, math.inf
-    return told, UNIT * root
+        if not root <= largest:  # also for nan, from an impact without velocity
+            return estimates, math.inf
+    return estimates, UNIT * root
 
 
 @compiled
 def errors_at(flow, flights, events, times, limit):
-    """Return estimated errors (n,) of the states at ascending times since the start, as `errors_of` would give for a
-    run that ends there.
+    """Return estimated errors (n,) of the states at ascending times since the start.
+
+    Each is the error that `errors_of` gives for a run that ends at this time.
     """
     q = flow.coefficients
-    told, known, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
+    estimates, largest, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
     errors = Errors(np.zeros((8, 8)), np.zeros((8, 6)))
     there = Errors(np.zeros((8, 8)), np.zeros((8, 6)))
     matrix, product, part = np.empty((8, 8)), np.empty((8, 8)), np.empty(COLUMNS)
@@ -85,23 +87,23 @@ def errors_at(flow, flights, events, times, limit):
             _fly(flow, part, there, matrix, product)
             land(flow, part)
             _end(q, part, times[k], there, product[0])
-            if _root(there) <= known:
-                told[k] = UNIT * _root(there)
+            if _root(there) <= largest:
+                estimates[k] = UNIT * _root(there)
             k += 1
         if last:
             break
         _copy(flights[n], part)
         _fly(flow, part, errors, matrix, product)
         _pass(q, flights, events, n, errors, matrix, product)
-        if not _root(errors) <= known:
+        if not _root(errors) <= largest:
             break
         start += flights[n, LENGTH]
-    return told
+    return estimates
 
 
 @inlined
 def _begin(q, flight, errors):
-    """Add to errors at the start of a run a rounding, also of the velocity of a ball on a wall, put there."""
+    """Add to errors the rounding of the initial state, including the velocity of a ball put on a wall."""
     state = flight[BEFORE:AFTER]
     touching = abs(state[0] - state[4]) >= 1.0, abs(state[1] - state[5]) >= 1.0
     _add_rounding(q, errors, flight[:AFTER], state, touching)
@@ -109,13 +111,14 @@ def _begin(q, flight, errors):
 
 @inlined
 def _fly(flow, flight, errors, matrix, product):
-    """Carry errors over a flight, adding those of the tables, and a rounding at each end of them; the row becomes its
-    last part.
+    """Propagate errors over a flight, adding the rounding of the tables at each end of a piece.
+
+    The row of the flight is replaced by its last piece.
     """
     left = flight[LENGTH]
     while left > 0.0:
         flight[LENGTH] = min(left, flow.longest)
-        if flight[LENGTH] > 0.5 * flow.spacing:  # the first entry is the unit matrix
+        if flight[LENGTH] > 0.5 * flow.spacing:  # the first entry is the identity, without rounding
             _add_table(flow.coefficients, flight[BEFORE:AFTER], errors.repeated)
         fill_flight(flow, flight, matrix)
         _carry(matrix, errors, product)
@@ -124,12 +127,12 @@ def _fly(flow, flight, errors, matrix, product):
             land(flow, flight)
             _add_rounding(flow.coefficients, errors, flight[:AFTER], flight[AFTER:], (False, False))
             _copy(flight[AFTER:], flight[BEFORE:AFTER])
-            flight[FORCING], _ = ahead(flight[FORCING], 0.0, flow.coefficients.omega, flight[LENGTH])
+            flight[FORCING], _ = advance_phase(flight[FORCING], 0.0, flow.coefficients.omega, flight[LENGTH])
 
 
 @inlined
 def _pass(q, flights, events, n, errors, matrix, product):
-    """Carry errors over event n, adding a rounding."""
+    """Propagate errors over event n, adding a rounding."""
     _add_miss(errors.independent, flights[n], events[n])
     fill_event(q, flights, events, n, matrix)
     _carry(matrix, errors, product)
@@ -142,14 +145,14 @@ def _pass(q, flights, events, n, errors, matrix, product):
 
 @inlined
 def _end(q, flight, elapsed, errors, rate):
-    """Add to errors at the end of a run, or at a sample, those of its time and the rounding of the state."""
+    """Add to errors at the end of a run, or at a sample, the error of the time and the rounding of the state."""
     _add_lateness(q, errors.independent, flight, elapsed, rate)
     _add_rounding(q, errors, flight[:AFTER], flight[AFTER:], (False, False))
 
 
 @inlined
 def _carry(matrix, errors, product):
-    """Replace errors by those times a matrix M, a covariance C by M (M C)^T."""
+    """Replace errors by their product with a matrix M, and a covariance C by M (M C)^T."""
     covariance, sums = errors.independent, errors.repeated
     _multiply(matrix, covariance, product)
     for i in range(8):
@@ -188,7 +191,7 @@ def _root(errors):
     """Return the root mean square of errors over the whole state."""
     total = 0.0
     for k in range(8):
-        row = errors.independent[k, k]  # rows by themselves, which the processor adds side by side
+        row = errors.independent[k, k]  # separate rows, which the processor can add in parallel
         for j in range(errors.repeated.shape[1]):
             row += errors.repeated[k, j] ** 2
         total += row
@@ -208,8 +211,8 @@ def _add_miss(covariance, flight, event):
 def _add_lateness(q, covariance, flight, elapsed, rate):
     """Add the effect of a rounding error in the duration to the covariance at the end of a flight.
 
-    A run ends, and is sampled, at a difference of phases or times: of the phase since the run began its last cycle, and
-    of the time elapsed (zero: only the phase counts).
+    The end of a run and its sample times are differences: of phases since the start of the last cycle, and of elapsed
+    times (`elapsed` = 0: only the phase counts).
     """
     late = 2.0 / q.omega + flight[LENGTH] + elapsed
     _, _, walls = start_of(flight)
@@ -220,7 +223,10 @@ def _add_lateness(q, covariance, flight, elapsed, rate):
 
 @inlined
 def _add_table(q, state, sums):
-    """Add to sums before a flight from a state (8,) the rounding of a table entry: each box grows and turns by it."""
+    """Add the rounding of a table entry to sums before a flight from a state (8,).
+
+    Each box grows and rotates by this rounding.
+    """
     for i in range(2):
         x, v = state[i], state[2 + i]
         omega = math.sqrt(max(q.k11 if i == 0 else q.k22, 1.0))
@@ -234,9 +240,9 @@ def _add_table(q, state, sums):
 def _add_rounding(q, errors, flight, state, met):
     """Add a unit rounding error of a state (8,), [boxes, balls], at the end of a flight (row up to its start).
 
-    A flight sums what the force does on the way, F / Omega^2 to a position and F / Omega to a velocity, and loses the
-    last digits of it however little of it is left. So it does with the velocities that a stiff spring gives the boxes.
-    The velocity of a free ball is not computed but where it has met a wall.
+    A flight adds up the effect of the force, F / Omega^2 for a position and F / Omega for a velocity, and rounds it in
+    absolute terms even if it cancels later. The same holds for the velocities due to a stiff spring. The velocity of a
+    free ball is only computed at an impact.
     """
     covariance, began = errors.independent, flight[BEFORE:]
     speed = q.drive / max(1.0, q.omega)
@@ -249,11 +255,11 @@ def _add_rounding(q, errors, flight, state, met):
             covariance[k, k] += (1.0 + abs(state[k]) + swing) ** 2
 
 
-KNOWN = 1e-3
-"""A trajectory counts as known while its estimated error is below this, which a printed figure can show."""
+HORIZON_ERROR = 1e-3
+"""Estimated error at the horizon of a run; a printed figure can show such an error."""
 
-CLEAR = 4.0
-"""An event is decided if its margin is this many times the estimated error; true errors stay below 2.6 times the
+CLEARANCE_FACTOR = 4.0
+"""An event is decided if its margin exceeds the estimated error by this factor; true errors stay below 2.6 times the
 estimate."""
 
 
@@ -261,20 +267,43 @@ estimate."""
 class Certificate(Representation):
     """Proof and error estimates of one run.
 
-    flights, exclusions: number of flights, and of proofs that nothing happens over an interval. Proofs cover every
-        instant of the run, or it raises.
-    chatters: number of infinite sequences of impacts completed; neglected: bound on the change by completing them.
-    wall_residual: largest ||W| - 1| at an impact before it was set to zero.
-    nearest_miss: smallest gap at which a ball turned before a wall, in that half of its box (inf if none did).
-    shallowest_hit: smallest depth that an impact prevented.
-    clearance: smallest ratio of a distance from a change of the event sequence to the estimated error at that time.
-        Distances are the two above, contact forces of sticking and released balls, and those of events from the start
+    Attributes
+    ----------
+    flights, exclusions : int
+        Number of flights, and of proofs that nothing happens over an interval. Proofs cover every instant of the run;
+        otherwise the run raises an error.
+    chatters : int
+        Number of infinite sequences of impacts that were completed.
+    neglected : float
+        Bound on the change of the state by completing them.
+    wall_residual : float
+        Largest ||W| - 1| at an impact before it was set to zero.
+    nearest_miss : float
+        Smallest gap at which a ball turned before a wall, in that half of its box; inf if none did.
+    shallowest_hit : float
+        Smallest depth that an impact prevented.
+    clearance : float
+        Smallest ratio of a distance from a change of the event sequence to the estimated error at that time. Distances
+        are the two above, the contact forces of sticking and released balls, and the distances of events from the start
         and the end of the run.
-    undecided: number of turns and impacts that rounding alone cannot tell from each other.
-    error: estimated error of the final state, from unit rounding after every event carried by the variational flow;
-        inf beyond the horizon.
-    horizon: time tau of the first event, or end, at which this estimate exceeds 1e-3 (inf if never). Beyond it the
-        trajectory is one possible motion of the system, not the one from this start.
+    undecided : int
+        Number of turns and impacts that cannot be distinguished within rounding.
+    error : float
+        Estimated error of the final state (root mean square), from unit roundings after every event propagated by the
+        variational flow; inf beyond the horizon.
+    horizon : float
+        Time tau of the first event, or end, at which this estimate exceeds 1e-3; inf if it never does. Beyond it the
+        trajectory is a possible motion of the system, but not the one from this initial state.
+
+    Notes
+    -----
+    docs/engine.md explains the proofs and the estimates.
+
+    Examples
+    --------
+    >>> run = vi.simulate(system, [0.0] * 8, cycles=100)
+    >>> run.certificate.decided
+    True
     """
 
     flights: int
@@ -295,7 +324,7 @@ class Certificate(Representation):
         q, counters, (flow, flights, rows) = flow_of(run.system).coefficients, run.counters, run.trajectory
         phase, duration = phase_at(run.begin, run.system.Omega)[0], run.cycles * run.system.period
         turns, hits = turning_points(flow, flights), hits_of(q, flights, rows)
-        errors, error = errors_of(flow, flights, rows, KNOWN)
+        errors, error = errors_of(flow, flights, rows, HORIZON_ERROR)
         margins = margins_of(q, flights, turns, hits, rows, phase, duration)
         return cls(
             flights=int(counters[motion.FLIGHTS]),
@@ -317,8 +346,8 @@ class Certificate(Representation):
 
     @property
     def decided(self) -> bool:
-        """True if every event is clear of the estimated error by the factor CLEAR, up to the end of the run."""
-        return not self.undecided and self.clearance > CLEAR and bool(np.isfinite(self.error))
+        """True if the margin of every event exceeds the estimated error by CLEARANCE_FACTOR, to the end of the run."""
+        return not self.undecided and self.clearance > CLEARANCE_FACTOR and bool(np.isfinite(self.error))
 
 
 def _least_ratio(margins, errors):
@@ -328,7 +357,7 @@ def _least_ratio(margins, errors):
 
 
 def _horizon(errors, error, times, duration):
-    """Return the time of the event, or the end, from which on the estimated error is infinite."""
+    """Return the time of the first event, or the end, at which the estimated error is infinite."""
     if np.isfinite(error):
         return np.inf
     return [*times, duration][np.count_nonzero(np.isfinite(errors[:, 0])) - 1]

@@ -1,20 +1,21 @@
-"""Compilation of the inner loops with Numba, cached on disk, without the interpreter's lock.
+"""Compile the inner loops with Numba, cached on disk and without the global interpreter lock.
 
-What a step of a run is computed by is rounded as it is written, so that the run has the same bits alone and in a lane
-beside others (`lanes`). What is `compiled`, and what is `inlined_source` there, may round product and sum as one.
+Rounding: functions that compute a step of a run round every operation as written, so that a run has the same bits alone
+and in a lane of an ensemble (`lanes`). Functions decorated by `compiled`, and `inlined_source` functions in them, may
+contract a product and a sum into one rounding.
 
-What runs at every event becomes part of the loop: handing over a motion and its Taylor polynomials (some 30 numbers)
-would cost more than what is computed from them. What is called from one place is mostly put there before anything is
-compiled (`inlined_source`), which spares compiling it twice; the rest is compiled once and then inlined. Each says how
-it rounds, whether it is inlined, and whether it counts, since Numba takes what is left open from the caller that is
-compiled first.
+Inlining: functions that run at every event become part of the loop, because passing a motion and its Taylor polynomials
+(some 30 numbers) would cost more than the computation. Functions with one caller are mostly inlined as source
+(`inlined_source`), which avoids compiling them twice; the others are compiled once and then inlined.
 
-Only what is `compiled` makes arrays or gives them back, and what is `inlined_source` there alone. All else works in
-memory that is given, and counts no references to it: a count is a locked operation and a call, for which all numbers at
-hand are put away.
+References: only `compiled` functions, and `inlined_source` functions in them, create or return arrays. All others work
+in the memory they receive and count no references, since counting needs a locked operation and a call.
 
-Compiled code is kept by the content of all sources that may be compiled into it: Numba looks at the file of a function,
-not at those of the functions it calls. With NUMBA_CACHE_DIR set, the user handles invalidation.
+Each decorator sets fastmath, inlining and reference counting explicitly; Numba would otherwise take open options from
+the caller that is compiled first.
+
+The cache key covers the content of all sources that may be compiled into a function, since Numba itself checks the file
+of a function, but not those of the functions it calls. With NUMBA_CACHE_DIR set, the user handles invalidation.
 """
 
 import hashlib
@@ -30,25 +31,25 @@ from numba import config, njit
 from numba.core import event
 
 SIMULATION = "the simulation, some 15 s"
-ON_DEMAND = "what certificates, energies and Jacobians of runs need, some 10 s"
+ON_DEMAND = "certificates, energies and Jacobians of runs, some 10 s"
 ENSEMBLE = "the simulation of ensembles, some 25 s"
-APART = {"flow_tables": SIMULATION, "event_loop": SIMULATION, "ensemble": ENSEMBLE}
-"""Groups of code compiled separately, by the modules that start them, with their duration."""
+COMPILED_SEPARATELY = {"flow_tables": SIMULATION, "event_loop": SIMULATION, "ensemble": ENSEMBLE}
+"""Groups of code that are compiled separately, with their duration, by the module that starts them."""
 
 
 class _Notice(event.Listener):
-    """Listener to every compilation of Numba that prints a line before a long one."""
+    """Listener to Numba's compilations that prints a line before a long one."""
 
     def __init__(self):
-        self.within, self.said, self.hint = 0, set(), " (python -m vibroimpact.compile does it beforehand)"
+        self.within, self.said, self.hint = 0, set(), " (run python -m vibroimpact.compile to do it in advance)"
 
     def beforehand(self) -> None:
-        """Drop the hint, for a user who compiles on purpose."""
+        """Omit the hint, for a user who compiles on purpose."""
         self.hint = ""
 
     def on_start(self, compilation):
         module = compilation.data["dispatcher"].py_func.__module__ or ""
-        what = APART.get(module.removeprefix(f"{__package__}."), ON_DEMAND)
+        what = COMPILED_SEPARATELY.get(module.removeprefix(f"{__package__}."), ON_DEMAND)
         if not self.within and module.startswith(__package__) and what not in self.said:
             self.said.add(what)
             say(f"compiling {what}, once{self.hint}")
@@ -68,8 +69,8 @@ event.register("numba:compile", NOTICE)
 
 
 PACKAGE = Path(__file__).parents[2]
-BESIDE = PACKAGE / "__pycache__"
-SHARED = ("system", "exact/engine")
+LIBRARY_CACHE = PACKAGE / "__pycache__"
+SHARED_FOLDERS = ("system", "exact/engine")
 
 
 def disk_cached(**options):
@@ -84,21 +85,21 @@ def disk_cached(**options):
 
 @cache
 def code_folder(package: Path) -> Path | None:
-    """Return the cache folder for a package; None if NUMBA_CACHE_DIR gives one.
+    """Return the cache folder for a package, or None if NUMBA_CACHE_DIR gives one.
 
-    Numba uses no folder that it cannot write to: what was compiled beside a library that is read-only by now is copied.
+    Numba uses no folder that is not writable: code compiled next to a library that is read-only now is copied.
     """
     if config.CACHE_DIR:
         return None
     name = f"compiled-{_fingerprint(package)}"
-    folder, installed = _writable() / name, BESIDE / name
+    folder, installed = _writable() / name, LIBRARY_CACHE / name
     if installed.is_dir() and not folder.exists():
         _copy(installed, folder)
     return folder
 
 
 def _copy(code, folder):
-    """Copy compiled code as a whole, since other processes may read it, or be about to copy the same."""
+    """Copy compiled code as a whole, since other processes may read it or copy it at the same time."""
     try:
         with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".copy-") as part:
             for file in code.glob("*/*"):
@@ -106,13 +107,13 @@ def _copy(code, folder):
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(file, copy)
             Path(part, folder.name).rename(folder)
-    except OSError:  # another process was first, or there is no room: it is compiled again
+    except OSError:  # another process was first, or the disk is full: compile again
         pass
 
 
 @contextmanager
 def _numba_caching_in(folder):
-    """Set Numba's cache folder while a function is decorated; functions of other packages keep theirs."""
+    """Set Numba's cache folder while a function is decorated; other packages keep theirs."""
     before = config.CACHE_DIR
     config.CACHE_DIR = str(folder or before)
     try:
@@ -124,7 +125,7 @@ def _numba_caching_in(folder):
 @cache
 def _fingerprint(package):
     """Return a hash of all sources that a function of this package may be compiled from."""
-    files = {path for folder in (*(PACKAGE / name for name in SHARED), package) for path in folder.glob("*.py")}
+    files = {path for folder in (*(PACKAGE / name for name in SHARED_FOLDERS), package) for path in folder.glob("*.py")}
     digest = hashlib.sha256()
     for path in sorted(files):
         digest.update(path.name.encode() + path.read_bytes())
@@ -133,15 +134,16 @@ def _fingerprint(package):
 
 @cache
 def _writable() -> Path:
-    """Return the first writable folder: beside the library, in the user's cache, or a private temporary one, which is
-    reported.
+    """Return the first writable folder: next to the library, in the user's cache, or a private temporary one.
+
+    The use of a temporary folder is reported.
     """
     own = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
-    for folder in (BESIDE, own / "vibroimpact"):
-        if folder.is_absolute() and _takes_files(folder):  # "~" stays where nobody knows the home
+    for folder in (LIBRARY_CACHE, own / "vibroimpact"):
+        if folder.is_absolute() and _takes_files(folder):  # "~" is not expanded if the home directory is unknown
             return folder
     folder = _temporary()
-    say(f"neither the installation nor {own} can be written to; compiled code is kept in {folder}")
+    say(f"neither the installation nor {own} is writable; caching compiled code in {folder}")
     return folder
 
 
@@ -155,7 +157,10 @@ def _takes_files(folder):
 
 
 def _temporary():
-    """Return one folder for all processes of this user, or a new one if others could write to it: code in it is run."""
+    """Return one folder for all processes of this user.
+
+    It is a new folder if other users could write to the common one, since its code is executed.
+    """
     folder = Path(tempfile.gettempdir(), f"vibroimpact-{os.getuid()}")
     folder.mkdir(mode=0o700, exist_ok=True)
     state = folder.lstat()
@@ -163,9 +168,9 @@ def _temporary():
     return folder if private else Path(tempfile.mkdtemp(prefix="vibroimpact-"))
 
 
-_alike = partial(disk_cached, error_model="numpy", nogil=True, no_cfunc_wrapper=True)
-_given_memory = partial(_alike, _nrt=False, fastmath=False)
-compiled = _alike(fastmath={"contract"}, forceinline=False, _nrt=True)
-in_place = _given_memory(forceinline=False, no_cpython_wrapper=True)
-inlined = _given_memory(forceinline=True)
-inlined_source = _given_memory(forceinline=True, inline="always")
+_cached = partial(disk_cached, error_model="numpy", nogil=True, no_cfunc_wrapper=True)
+_without_allocation = partial(_cached, _nrt=False, fastmath=False)
+compiled = _cached(fastmath={"contract"}, forceinline=False, _nrt=True)
+in_place = _without_allocation(forceinline=False, no_cpython_wrapper=True)
+inlined = _without_allocation(forceinline=True)
+inlined_source = _without_allocation(forceinline=True, inline="always")

@@ -1,4 +1,4 @@
-"""Events at one instant: impacts, completed chatters, sticking of balls at rest, releases."""
+"""Apply the events at one instant: impacts, completed chatters, sticks and releases."""
 
 from typing import NamedTuple
 
@@ -28,13 +28,15 @@ from vibroimpact.exact.engine.motion import (
 )
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
-NEGLIGIBLE = 1e-18  # change of the state by what completing a chatter neglects
-LOW = 1e-12  # height of a hop, the wall being at 1, below which its impacts are not listed one by one
+NEGLIGIBLE = 1e-18  # largest change of the state neglected by completing a chatter
+LOW = 1e-12  # height of a hop, relative to the wall at 1, below which its impacts are not listed
 
 
 class Moment(NamedTuple):
-    """An instant of a run: time elapsed since its start, time remaining to its end, and the module due, whose
-    constraint has just been met, or -1.
+    """Instant of a run.
+
+    elapsed: time since its start; remaining: time to its end; due: the module whose constraint has just been met, or
+    -1.
     """
 
     elapsed: float
@@ -46,8 +48,8 @@ class Moment(NamedTuple):
 def impact(q, box, ball):
     """Return the velocities (X', Y') just after an impact, as `restitution.after_impact`.
 
-    A factor rounded once would err alike at every impact, so its rest is added. The velocity of the heavier one changes
-    less and is the first to be computed; that of the other follows by kappa.
+    The remainder of the rounded factor is added, since it would cause the same error at every impact. The velocity of
+    the heavier body changes less and is computed first; that of the other follows from kappa.
     """
     relative = box - ball
     gained = q.impulse * relative + q.impulse_rest * relative
@@ -60,7 +62,7 @@ def impact(q, box, ball):
 
 @inlined
 def common_velocity(q, box, ball):
-    """Return the velocity of box and ball moving as one, with their momentum kept."""
+    """Return the velocity of box and ball moving as one, with their momentum conserved."""
     return box - q.epsilon * q.inverse_mass * (box - ball)
 
 
@@ -75,8 +77,8 @@ def box_accelerations(q, walls, boxes, sine):
 def _hold(q, jets, boxes, i, wall, sticking):
     """Return the sign of the contact force on ball i at rest on a wall: > 0 holds it there, < 0 would have to pull.
 
-    Where the force vanishes within rounding its first derivative that does not decides. So it does for a sticking ball
-    where the pull is too brief to lift the ball by more than rounding: it would lift it by 2 |force|^3 / (3 change^2).
+    If the force vanishes within rounding, its first nonzero derivative decides. The same holds for a sticking ball if
+    the pull is too brief to lift it by more than rounding: the lift is 2 |force|^3 / (3 change^2).
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -105,8 +107,8 @@ def _end_of_chatter(flow, motion, i, counters):
     """Return (True if the chatter of ball i may be completed now, time to its end).
 
     After an impact with inward speed u under the push a the flights shrink by kappa each and end after
-    T = 2 u / (a (1 - kappa)). Completing at once keeps the momentum of box and ball; it neglects the force of the
-    springs on the distance of the ball meanwhile, of order u^3 / a^2.
+    T = 2 u / (a (1 - kappa)). Completing at once conserves the momentum of box and ball. It neglects the spring force
+    due to the distance of the ball in the meantime, of order u^3 / a^2.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     wall = motion.touching[i]
@@ -139,7 +141,7 @@ def _end_of_chatter(flow, motion, i, counters):
 
 @inlined_source
 def _complete(flow, motion, i, counters):
-    """Complete the chatter of ball i where possible; return (motion, time to its end or -1)."""
+    """Complete the chatter of ball i if possible; return (motion, time to its end or -1)."""
     done, end = _end_of_chatter(flow, motion, i, counters)
     if not done:
         return motion, -1.0
@@ -149,7 +151,7 @@ def _complete(flow, motion, i, counters):
 
 @inlined
 def _joined(q, motion, i):
-    """Return the motion with ball i moving as its box, with their momentum kept."""
+    """Return the motion with ball i moving with its box, with their momentum conserved."""
     boxes, balls = motion.boxes, motion.balls
     common = common_velocity(q, boxes[2 + i], balls[2 + i])
     return with_boxes_and_balls(motion, with_velocity(boxes, i, common), with_velocity(balls, i, common))
@@ -159,8 +161,8 @@ def _joined(q, motion, i):
 def resolve(flow, motion, moment, log):
     """Return the motion after all events of this instant.
 
-    The forces on balls at rest are looked at after all impacts, since an impact in one module can release the ball of
-    the other, and the ends of chatters, which are later, last.
+    Forces on balls at rest are checked after all impacts, since an impact in one module can release the ball of the
+    other. Ends of chatters, which are later, come last.
     """
     due, elapsed = moment.due, moment.elapsed
     pulled = due if due >= 0 and motion.walls[due] != 0 else -1
@@ -179,14 +181,17 @@ def resolve(flow, motion, moment, log):
 
 @inlined_source
 def _meet(flow, motion, i, moment, log):
-    """Let a flying ball meet the wall ahead if it is there; return (motion, True if a chatter would end soon)."""
+    """Apply the impact of a flying ball on the wall ahead if it is there.
+
+    Returns (motion, True if a chatter would end soon).
+    """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
     wall = 1 if relative > 0.0 else -1
     if i != moment.due and 1.0 - wall * relative > gap_rounding(q, boxes, balls, i):
         return motion, False
     slow = RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i]))
-    if i != moment.due and wall * velocity < -slow and wall * relative < 1.0:  # it leaves, from where it is
+    if i != moment.due and wall * velocity < -slow and wall * relative < 1.0:  # it moves away from the wall
         return with_contacts(motion, i, 0, wall), False
     balls = with_position(balls, i, boxes[i] - wall)
     motion = with_contacts(with_boxes_and_balls(motion, boxes, balls), i, 0, wall)
@@ -197,7 +202,7 @@ def _meet(flow, motion, i, moment, log):
     log.counters[RESIDUAL] = max(log.counters[RESIDUAL], abs(1.0 - wall * relative))
     box, ball = impact(q, boxes[2 + i], balls[2 + i])
     motion = with_boxes_and_balls(motion, with_velocity(boxes, i, box), with_velocity(balls, i, ball))
-    if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # no rebound to speak of
+    if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # the rebound is within rounding
         motion = _joined(q, motion, i)
     record(log, moment.elapsed, i, wall, IMPACT, motion.boxes, motion.balls, velocity)
     return motion, _ends_soon(flow, motion, moment.remaining, i, wall)
@@ -205,10 +210,10 @@ def _meet(flow, motion, i, moment, log):
 
 @inlined
 def _rest(q, motion, i, pulled, elapsed, log):
-    """Return the motion after a ball at rest on a wall has stuck to it or been released."""
+    """Return the motion after a ball at rest on a wall sticks to it or is released."""
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
-    # Of box and ball together, whether it sticks as yet or not: the box alone is accelerated 1 + epsilon times as much,
-    # and within rounding of no force a ball could stick and be released without end.
+    # Use the acceleration of box and ball together in both cases. That of the box alone is 1 + epsilon times as large,
+    # and with a force within rounding of zero a ball would stick and be released endlessly.
     together = mode_of(pair(motion.walls, i, 1))
     jets = jet(q, together, boxes, motion.sine, motion.cosine)
     if wall != 0:
@@ -226,7 +231,7 @@ def _rest(q, motion, i, pulled, elapsed, log):
 def _complete_both(flow, motion, chatters, elapsed, log):
     """Return the motion after completing the chatters of both balls, where possible.
 
-    Their ends are noted last, in the order of their times and with the states at these times.
+    Their ends are recorded last, in order of time and with the states at these times.
     """
     boxes, balls = motion.boxes, motion.balls
     ends, inward = (-1.0, -1.0), (abs(boxes[2] - balls[2]), abs(boxes[3] - balls[3]))
@@ -234,7 +239,7 @@ def _complete_both(flow, motion, chatters, elapsed, log):
         if chatters[i] and motion.touching[i] != 0:
             motion, end = _complete(flow, motion, i, log.counters)
             ends = pair(ends, i, end)
-    for i in range(2):  # the other ball may be pulled off by it
+    for i in range(2):  # this may pull the other ball off its wall
         if motion.walls[i] != 0 and ends[i] < 0.0:
             motion = _rest(flow.coefficients, motion, i, False, elapsed, log)
     sooner = 0 if ends[0] <= ends[1] else 1

@@ -1,14 +1,14 @@
 """Energy balance of a run: work of the forces, dissipation of dampers and impacts, stored energy.
 
-Work and dissipation are integrals of quadratic forms along the flights. None of them is found as what the others leave,
-so that they add up to the change of what is stored by being right. The stick that ends a chatter takes what is left of
-the relative motion: the energy of the rebounds that are not listed.
+Work and dissipation are integrals of quadratic forms along the flights. Each is computed independently, so that the
+balance is a test of all of them. The stick that ends a chatter takes the remaining energy of the relative motion: that
+of the rebounds that are not listed.
 
-In flight z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. The integral of a quadratic form of z over a time t is such a
-form of z at the start, which a table has at the times of the flow table (`flow`), and Gauss's rule on the Taylor
-polynomial there adds the rest. Where there is damping, ensembles do without tables: z G z is the rate of a potential,
-z S z + c t, with A' S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation), so that of a run count its ends, and what
-the velocities lose at impacts. With hardly any damping, S is too large to leave its differences their digits.
+In flight z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. The integral of a quadratic form of z over a time t is again
+a quadratic form of z at the start. It is tabulated at the times of the flow table (`flow`); Gauss's rule on the Taylor
+polynomial adds the remaining time. With damping, ensembles need no tables: z G z is the rate of a potential
+z S z + c t, where A' S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation). Then only the ends of a run and the
+velocity changes at impacts contribute. With very little damping, S is so large that its differences lose all digits.
 """
 
 import math
@@ -19,10 +19,10 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
-from vibroimpact.exact.engine.flow import along, flow_of, jet_at, slope, turned
+from vibroimpact.exact.engine.flow import evaluate, flow_of, jet_at, rotate_phase, slope
 from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.exact.engine.motion import APPROACH, drift_balls, mode_of
-from vibroimpact.exact.engine.phase import ahead
+from vibroimpact.exact.engine.phase import advance_phase
 from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, start_of
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.representation import Representation, brief
@@ -32,17 +32,17 @@ from vibroimpact.system.stored_energy import stored
 
 SIZE, TRIANGLE = 6, 21
 ROWS, COLUMNS = np.triu_indices(SIZE)
-TERMS = 24  # of the exponential series over one spacing
+TERMS = 24  # terms of the exponential series over one spacing
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 REST = 0.5 - np.sqrt(0.15), 0.5, 0.5 + np.sqrt(0.15)
 SHARES = 5 / 18, 8 / 18, 5 / 18
-"""Gauss's rule with three points on [0, 1]: over half a spacing its error is below rounding."""
+"""Nodes and weights of Gauss's rule with three points on [0, 1]; over half a spacing its error is below rounding."""
 
 
 POSITIONS = np.stack([np.diag(np.eye(SIZE)[i]) for i in range(2)])
-"""z G z is X_i^2."""
+"""Matrices G with z G z = X_i^2."""
 LARGEST = 1e3
-"""Largest entry of S, times the largest rate, whose differences keep their digits."""
+"""Largest product of an entry of S and the largest rate at which differences of potentials keep enough digits."""
 
 
 class Squares(NamedTuple):
@@ -66,13 +66,15 @@ OPERATORS, FORCED = _lyapunov()
 
 
 def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the potentials (n, 4, k, 6, 6) and drifts (n, 4, k) of the integrals of z G z, kernels (k, 6, 6), for rate
-    matrices (n, 4, 6, 6), and True (n,) for systems where their differences keep their digits.
+    """Return potentials (n, 4, k, 6, 6), drifts (n, 4, k) and flags (n,) of the integrals of z G z.
+
+    The kernels G have shape (k, 6, 6), the rate matrices (n, 4, 6, 6). A flag is True for a system whose potential
+    differences keep enough digits.
     """
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
     images = rates.reshape(-1, SIZE * SIZE) @ OPERATORS
     equations[..., :-1, :-1] = images.reshape(*rates.shape[:2], TRIANGLE, TRIANGLE)
-    equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED  # S and S + sin^2 + cos^2 do alike
+    equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED  # S and S + sin^2 + cos^2 are equivalent
     sides = np.zeros((TRIANGLE + 1, len(kernels)))
     sides[:-1] = kernels[:, ROWS, COLUMNS].T
     sides = np.broadcast_to(sides, (*rates.shape[:2], *sides.shape))
@@ -90,10 +92,11 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def integrals_of(system, kernels) -> np.ndarray:
-    """Return the quadratic forms that integrate symmetric matrices G (k, 6, 6) along a flight. Shape (4, n, k, 21):
-    contact state, time of the flow table, index of G, upper triangle.
+    """Return the quadratic forms that integrate symmetric matrices G (k, 6, 6) along a flight.
 
-    What stands beside the diagonal is doubled, so that a form is one sum over the products of a pair.
+    Shape (4, n, k, 21): contact state, time of the flow table, index of G, upper triangle.
+
+    Off-diagonal entries are doubled, so that a form is one sum over products of pairs.
     """
     flow = flow_of(system)
     turned = np.zeros((len(flow.rotations), 2, SIZE))
@@ -109,10 +112,10 @@ def integrals_of(system, kernels) -> np.ndarray:
 
 
 def _summed(over_one, powers):
-    """Return the forms over 0, 1, 2, ... spacings, from that over one spacing and the propagators (n, 6, 6)."""
+    """Return the forms over 0, 1, 2, ... spacings, from the form over one spacing and propagators (n, 6, 6)."""
     forms, made = np.zeros((len(powers), *over_one.shape)), 2
     forms[1] = over_one
-    while made < len(powers):  # as many again: what follows a flight is carried back to its start
+    while made < len(powers):  # double the number: later forms are carried back to the start of the flight
         last, after = made - 1, min(made - 1, len(powers) - made)
         forms[made : made + after] = forms[last] + _carried_back(forms[1 : 1 + after], powers[last])
         made += after
@@ -120,7 +123,7 @@ def _summed(over_one, powers):
 
 
 def _carried_back(forms, power):
-    """Return P^T G P for symmetric forms G (n, k, 6, 6), as two products with one tall matrix."""
+    """Return P^T G P for symmetric forms G (n, k, 6, 6), by two products with one tall matrix."""
     half = (forms.reshape(-1, SIZE) @ power).reshape(forms.shape)
     return (np.swapaxes(half, -1, -2).reshape(-1, SIZE) @ power).reshape(forms.shape)
 
@@ -155,7 +158,7 @@ def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
 def add_potential_drops(squares, before, after, forcing, sums):
     """Add the decrease of the potentials in an instant to sums (k,); before, after: contact state and boxes.
 
-    Where the contact state stays, only what the change of velocities adds is computed: two products instead of 36.
+    If the contact state stays the same, only the terms of the velocity change are computed: two products instead of 36.
     """
     (mode, boxes), (later, others), (sine, cosine) = before, after, forcing
     if mode != later:
@@ -176,11 +179,11 @@ def add_potential_drops(squares, before, after, forcing, sums):
 ENERGY = np.dtype(
     [("work", "f8", (2,)), ("ground", "f8", (2,)), ("coupling", "f8"), ("impacts", "f8", (2,)), ("stored", "f8")]
 )
-"""Energies over some time, in units of M L^2 omega_10^2: the work of each force, what each damper to ground and the one
-between the boxes dissipate, what the impacts of each module lose, and the change of what is stored."""
+"""Data type of energies over a time, in units of M L^2 omega_10^2: work of each force, dissipation of each damper to
+ground and of the coupling damper, loss in the impacts of each module, and change of the stored energy."""
 
 FORMS, IMPACTS, STORED, ENTRIES = 5, 5, 7, 8
-"""Places in a row of the kernel: the integrals of sin X_1', sin X_2', X_1'^2, X_2'^2, (X_1' - X_2')^2, and so on."""
+"""Indices in a row of the kernel: the integrals of sin X_1', sin X_2', X_1'^2, X_2'^2, (X_1' - X_2')^2, and so on."""
 
 DIFFERENCE = np.outer([0, 0, 1, -1, 0, 0], [0, 0, 1, -1, 0, 0])
 
@@ -194,8 +197,8 @@ def _kernels():
 
 KERNELS = _kernels()
 OBSERVED = np.concatenate([POSITIONS, KERNELS])
-"""Quadratic forms whose integrals an ensemble takes: of X_1^2 and X_2^2, and those of the energy balance."""
-lost, held = inlined(energy_lost), inlined(stored)
+"""Quadratic forms integrated by an ensemble: X_1^2, X_2^2 and those of the energy balance."""
+impact_loss, energy_stored = inlined(energy_lost), inlined(stored)
 
 
 @lru_cache(maxsize=16)
@@ -208,11 +211,29 @@ def work_tables(system) -> np.ndarray:
 class Energy(Representation):
     """Energy balance of a run, in units of M L^2 omega_10^2 (omega_10^2 = k_1 / M).
 
-    work: (2,), of the force on each box. ground: (2,), dissipated by the damper from each box to ground, and coupling,
-    by the one between the boxes. impacts: (2,), lost in the impacts of each module, completed chatters included.
-    stored: the change of what boxes, balls and springs store, so that work = ground + coupling + impacts + stored.
-    per_cycle: (cycles,) structured array (ENERGY) with the same fields for each forcing period since the start of the
-    run; an event in the instant between two of them belongs to the later one.
+    The balance is work = ground + coupling + impacts + stored.
+
+    Attributes
+    ----------
+    work : ndarray
+        Work of the force on each box, shape (2,).
+    ground : ndarray
+        Energy dissipated by the damper from each box to ground, shape (2,).
+    coupling : float
+        Energy dissipated by the damper between the boxes.
+    impacts : ndarray
+        Energy lost in the impacts of each module, completed chatters included, shape (2,).
+    stored : float
+        Change of the energy stored in boxes, balls and springs.
+    per_cycle : ndarray
+        Structured array (cycles,) of type ENERGY with the same fields for each forcing period since the start of the
+        run. An event between two periods belongs to the later one.
+
+    Examples
+    --------
+    >>> run = vi.simulate(system, [0.0] * 8, cycles=100)
+    >>> bool(abs(run.energy.residual) < 1e-9)
+    True
     """
 
     work: np.ndarray
@@ -236,7 +257,7 @@ class Energy(Representation):
 
     @property
     def residual(self) -> float:
-        """Difference of both sides of the balance, which is rounding."""
+        """Difference of the two sides of the balance, which is due to rounding."""
         return float(self.work.sum() - self.ground.sum() - self.coupling - self.impacts.sum() - self.stored)
 
     @property
@@ -258,7 +279,7 @@ def energies(system, rows) -> np.ndarray:
 def accumulate_energy(flow, forms, flights, events, begins, rows):
     """Add the integrals along the flights of a run (`departures` is enough) to rows (k, ENTRIES) of zeros.
 
-    begins (k,): ascending times since the start of the run at which the rows begin; the last one goes on to the end.
+    begins (k,): ascending times since the start of the run at which the rows begin; the last row lasts until the end.
     """
     q, row, passed = flow.coefficients, -1, 0.0
     boxes, balls, walls = start_of(flights[0])
@@ -269,7 +290,7 @@ def accumulate_energy(flow, forms, flights, events, begins, rows):
             t = min(left, flow.longest)
             if row + 1 < len(begins):
                 if passed >= begins[row + 1]:
-                    energy = held(q.ground, -q.k12, q.epsilon, boxes, balls)
+                    energy = energy_stored(q.ground, -q.k12, q.epsilon, boxes, balls)
                     if row >= 0:
                         rows[row, STORED] += energy
                     row += 1
@@ -278,24 +299,24 @@ def accumulate_energy(flow, forms, flights, events, begins, rows):
                 t = min(t, begins[row + 1] - passed)
             boxes = _follow(flow, forms, walls, boxes, phase, t, rows[max(row, 0)], row >= 0)
             balls = drift_balls(balls, walls, boxes, t)
-            phase, tail = ahead(phase, tail, q.omega, t)
+            phase, tail = advance_phase(phase, tail, q.omega, t)
             left, passed = left - t, passed + t
         if n < len(events):
             event = events[n]
             if not completes_chatter(events, n):
-                passed = event[0]  # sums of lengths would drift
+                passed = event[0]  # sums of lengths would accumulate rounding
             if row >= 0:
                 kappa = q.kappa if event[3] == IMPACT else 0.0
-                rows[row, IMPACTS + int(event[1]) - 1] += lost(q.epsilon, kappa, event[APPROACH])
-    rows[row, STORED] += held(q.ground, -q.k12, q.epsilon, boxes, balls)
+                rows[row, IMPACTS + int(event[1]) - 1] += impact_loss(q.epsilon, kappa, event[APPROACH])
+    rows[row, STORED] += energy_stored(q.ground, -q.k12, q.epsilon, boxes, balls)
 
 
 @inlined_source
 def _follow(flow, forms, walls, boxes, phase, t, row, counted):
-    """Return the boxes after a flight no longer than flow.longest; add its integrals to the row if counted."""
+    """Return the boxes after a flight no longer than flow.longest; add its integrals to the row if `counted`."""
     q, mode, j = flow.coefficients, mode_of(walls), int(t * flow.density + 0.5)
     rest, sine, cosine = t - j * flow.spacing, math.sin(phase), math.cos(phase)
-    jets, (s, c) = jet_at(flow, mode, boxes, sine, cosine, j), turned(flow, sine, cosine, j)
+    jets, (s, c) = jet_at(flow, mode, boxes, sine, cosine, j), rotate_phase(flow, sine, cosine, j)
     if counted:
         z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
         for k in range(FORMS):
@@ -307,7 +328,7 @@ def _follow(flow, forms, walls, boxes, phase, t, row, counted):
             row[k] += total
         for k in range(len(REST)):
             _add_powers(jets, s, c, q.omega, rest * REST[k], rest * SHARES[k], row)
-    return along(jets, rest)
+    return evaluate(jets, rest)
 
 
 @inlined

@@ -1,4 +1,4 @@
-"""Simulate many initial states and systems; return summary statistics in place of events."""
+"""Simulate many initial states and systems; return summary statistics instead of events."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -22,12 +22,15 @@ from vibroimpact.exact.engine.energy import (
     work_tables,
 )
 from vibroimpact.exact.engine.energy import ENTRIES as ACCOUNTED
-from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Progress, Sampling, Span, go_on
+from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED, PAUSED, Progress, Sampling, Span, run_until
 from vibroimpact.exact.engine.flow import OMEGA, RATE, flow_of, numbers_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
 from vibroimpact.exact.engine.lanes import WIDTH
 from vibroimpact.exact.engine.motion import ENTRIES, EVENTS, ROW, Log, Motion, mode_of
-from vibroimpact.exact.engine.observation import (
+from vibroimpact.exact.engine.phase import TWO_PI, Instant, continues, phase_at
+from vibroimpact.exact.engine.replay import FORCING, Departure, first_departure
+from vibroimpact.exact.engine.simulation import MOST_CYCLES, NO_TIMES, attempt, checked_window, within_walls
+from vibroimpact.exact.engine.statistics import (
     IMPACTS,
     INTEGRALS,
     LARGEST,
@@ -40,9 +43,6 @@ from vibroimpact.exact.engine.observation import (
     discount_rests,
     open_or_close,
 )
-from vibroimpact.exact.engine.phase import TWO_PI, Instant, continues, phase_at
-from vibroimpact.exact.engine.replay import FORCING, Departure, first_departure
-from vibroimpact.exact.engine.simulation import MOST_CYCLES, NO_TIMES, attempt, checked_window, within_walls
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, whole
 from vibroimpact.system.state import states_array
@@ -62,23 +62,23 @@ OUTCOME = np.dtype(
         ("ball_speed", "f8", (2,)),
     ]
 )
-"""Outcome of a run: status, a key of STATUSES; the final state; for each module over the observed cycles the numbers of
-impacts and of sticks, the largest |X_i|, the means over time of X_i^2 and of |Y_i'|."""
+"""Data type of the outcome of a run: status, a key of STATUSES; the final state; and, for each module over the observed
+cycles, the numbers of impacts and sticks, the largest |X_i|, and the time averages of X_i^2 and |Y_i'|."""
 WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
-"""The same with the energy balance."""
+"""OUTCOME with the energy balance."""
 
 FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
 MEANS = slice(PATH, INTEGRALS + 2)
 ENERGIES = [*range(INTEGRALS + 2, STATISTICS), LOST, LOST + 1, STORED]
 UNOBSERVED = np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0))
-"""Places of time integrals, and of a row of `energy.energies`; tables where nothing is observed."""
+"""Indices of time integrals, and of a row of `energy.energies`; empty tables for runs without observation."""
 MOST_RUNS, SHARES = 1024, 4
-"""Runs in a piece of work; pieces per core where there are many runs."""
-LATER = INADMISSIBLE + 1
-FAR = np.log(4.0)  # the rates of boxes and forcing are so far apart that flights would be many steps, each rounded
-TABLE = 64  # times in the flow tables of the event loop: it takes over where the lanes cannot, seldom for long
-NEAR = 1e-6  # from a wall, no ball rests on it
-INTERRUPT_INTERVAL = 500_000  # steps of all lanes, some 20 ms, between two looks for an interrupt
+"""Largest number of runs in a piece of work; pieces per core if there are many runs."""
+DEFERRED = INADMISSIBLE + 1
+MOST_LOG_RATIO = np.log(4.0)  # of the rates of boxes and forcing; beyond it a flight takes many steps, each rounded
+TABLE = 64  # times in the flow tables of the event loop, which handles the few events that the lanes cannot
+NEAR = 1e-6  # distance from a wall beyond which a ball cannot rest on it
+INTERRUPT_INTERVAL = 500_000  # steps of all lanes between two checks for an interrupt, about 20 ms
 
 
 def ensemble(
@@ -91,45 +91,52 @@ def ensemble(
     energy: bool = False,
     by_cycle: bool = False,
 ) -> np.ndarray:
-    """Simulate many initial states, of one system or of many, on all cores; return summary statistics.
-
-    Impacts and sticks are those of `simulate`, except for grazes that its certificate counts as undecided, and for
-    impacts after which the ball hops by less than four units of rounding. The error of a decided run's final state is
-    at most 2.6 times the estimate of that certificate (docs/engine.md). For events, samples or a certificate use
-    `simulate`.
+    """Simulate many initial states and systems on all cores; return summary statistics.
 
     Parameters
     ----------
-    systems : System | sequence of System | Sequence[sequence of System] | array_like
-        A System, or an array of them (a list, or lists in a list).
+    systems : System or array_like of System
+        One System, or an array of them (a list or nested lists).
     states : array_like
-        (..., 8) starts, by position or by name as for `simulate`. Systems and starts are combined as NumPy combines
-        arrays: n systems and n starts pair by pair, one start with every system, systems (m, 1) with starts (n, 8) all
-        with all.
+        Initial states, shape (..., 8), by position or by name as for `simulate`. Systems and states broadcast: n
+        systems and n states pair by pair, one state with every system, or systems (m, 1) with states (n, 8) in all
+        combinations.
     cycles, tau0
         As for `simulate`.
     settle : int, default 0
-        Cycles before the observation, from 0 to cycles; if all, only the final state is returned.
+        Cycles before the observation, from 0 to `cycles`. If settle equals cycles, only the final state is returned.
     progress : bool, default False
         Count finished runs on standard error, about once a second.
     energy : bool, default False
-        Add the energy balance over the observed cycles (`Run.energy`) as the field energy (ENERGY).
+        Add the energy balance over the observed cycles (`Run.energy`) as the field `energy` (ENERGY).
     by_cycle : bool, default False
-        Return an outcome for each observed cycle, in a last axis of their number; its final state is that at the end of
-        the cycle.
+        Return an outcome for each observed cycle along an additional last axis, with the state at the end of the cycle.
 
     Returns
     -------
     ndarray
-        A structured array (OUTCOME, or WITH_ENERGY) in the shape of the combination. The status (STATUSES) of a run
-        that failed gives the reason; its numbers are nan and its counts 0, and other runs are not affected. Numbers of
-        a run that was not observed are nan, too. The largest |X_i| is exact except for turns of a box almost at rest
-        (1e-5 of its path); the means are exact to rounding.
+        Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
+        the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
+        observed cycles are nan. The largest |X_i| is exact except for turns of a box almost at rest (1e-5 of its path);
+        the averages are exact to rounding.
 
     Raises
     ------
     ValueError
-        If an argument is malformed, or systems and states cannot be combined.
+        If an argument is malformed, or if systems and states do not broadcast.
+
+    Notes
+    -----
+    Impacts and sticks equal those of `simulate`, except for grazing contacts that its certificate counts as undecided,
+    and for impacts after which the ball hops by less than four units of rounding. The error of the final state of a
+    decided run is at most 2.6 times the estimate of that certificate (docs/engine.md). Use `simulate` for events,
+    samples or a certificate.
+
+    Examples
+    --------
+    >>> outcome = vi.ensemble(system, np.zeros((4, 8)), cycles=200, settle=100)
+    >>> outcome["largest"].shape
+    (4, 2)
     """
     known, numbers, states = _combined(systems, states)
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
@@ -138,7 +145,7 @@ def ensemble(
     windows = max(cycles - settle, 1) if by_cycle else 1
     outcomes = np.empty((*numbers.shape, windows), WITH_ENERGY if energy else OUTCOME)
     filled, starts = outcomes.reshape(numbers.size, windows), states.reshape(-1, 8)
-    order = np.argsort(numbers, axis=None, kind="stable")  # runs of one system share what is known of it
+    order = np.argsort(numbers, axis=None, kind="stable")  # runs of one system share its tables
     share = -(-numbers.size // cores())
     size = max(min(MOST_RUNS, share, max(share // SHARES, 8 * WIDTH)), 1)
     pieces = [
@@ -163,7 +170,7 @@ def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
     Raises
     ------
     ArithmeticError
-        If one of them could not be finished.
+        If a run could not be finished.
     ValueError
         As for `ensemble`.
     """
@@ -175,7 +182,7 @@ def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
 
 
 def _combined(systems, states):
-    """Return the distinct systems and, in the combined shape, the index of each run's system and its initial state."""
+    """Return the distinct systems and, in the broadcast shape, each run's system index and initial state."""
     states = states_array("states", states)
     if states.ndim == 0 or states.shape[-1] != 8:
         raise ValueError(f"states: needs shape (..., 8), got {states.shape}")
@@ -185,19 +192,22 @@ def _combined(systems, states):
         shape = np.broadcast_shapes(systems.shape, states.shape[:-1])
     except ValueError:
         raise ValueError(
-            f"states: starts in the shape {states.shape[:-1]} do not combine with systems in the shape {systems.shape}"
+            f"states: their shape {states.shape[:-1]} does not broadcast with that of systems, {systems.shape}"
         ) from None
     numbers = np.array(numbers, dtype=int).reshape(systems.shape)
     return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))
 
 
 def _run(known, begins, numbers, starts, stages, outcomes, places):
-    """Run the initial states at these places and fill in their outcomes; stages: as of `_loop`."""
+    """Run the initial states at these places and write their outcomes.
+
+    `stages` is as for `_loop`.
+    """
     (settle, cycles, length), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
     owners, energy, shape = numbers[places] - first, "energy" in outcomes.dtype.names, (len(places), outcomes.shape[1])
     systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
     scalars, rates = numbers_of(systems, TABLE)
-    alone = abs(np.log(scalars[:, RATE] / scalars[:, OMEGA])) > FAR
+    alone = abs(np.log(scalars[:, RATE] / scalars[:, OMEGA])) > MOST_LOG_RATIO
     statistics, final = np.zeros((*shape, STATISTICS)), np.full((*shape, 8), np.nan)
     status = np.where(within_walls(starts), FINISHED, INADMISSIBLE)
     potentials, drifts = UNOBSERVED
@@ -206,14 +216,16 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
         alone |= ~sound
     phases = np.array([phase_at(begin, system.Omega) for begin, system in zip(begins, systems, strict=True)])
     single = np.flatnonzero(alone[owners] & (status == FINISHED))
-    status[single] = LATER
+    status[single] = DEFERRED
     runs = owners, starts, stages, status, final, statistics, continues(begins[0])
     piece = Piece(scalars, rates, phases, potentials, drifts, *runs)
     memory = _memory()
     while not _loop(piece, memory):
         stop_if_given_up()
     for n in single:
-        status[n] = _alone(systems[owners[n]], starts[n], begins[owners[n]], stages, energy, final[n], statistics[n])
+        status[n] = _single_run(
+            systems[owners[n]], starts[n], begins[owners[n]], stages, energy, final[n], statistics[n]
+        )
     failed = status != FINISHED
     final[failed], statistics[failed, :, :LARGEST], statistics[failed, :, LARGEST:] = np.nan, 0.0, np.nan
     if settle == cycles:
@@ -228,10 +240,11 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
             outcomes["energy"][places[owners == owner]] = energies(system, statistics[owners == owner][..., ENERGIES])
 
 
-def _alone(system, state, begin, stages, energy, final, statistics):
-    """Return the status of a run by `simulate`; fill in its final states (k, 8) and statistics (k, STATISTICS).
+def _single_run(system, state, begin, stages, energy, final, statistics):
+    """Return the status of a run by `simulate`; write its final states (k, 8) and statistics (k, STATISTICS).
 
-    For systems with fast and slow rates, whose flights would be many steps, and where potentials lose their digits.
+    This is for systems with fast and slow rates, whose flights would take many steps, and for systems whose potentials
+    lose accuracy by cancellation.
     """
     (settle, cycles, length), flow = stages, flow_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]
@@ -255,7 +268,10 @@ def _alone(system, state, begin, stages, energy, final, statistics):
 
 @compiled
 def _watch(flow, squares, start, rows, final, end, continued, statistics):
-    """Add the statistics of a finished run; end: its duration and phase; continued: it continues another run."""
+    """Add the statistics of a finished run.
+
+    end: its duration and phase; continued: True if it continues another run.
+    """
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), np.sin(phase), np.cos(phase))
     open_or_close(flow, squares, Motion(*leaving[:3], (0, 0), last.sine, last.cosine), -1.0, statistics)
@@ -266,11 +282,11 @@ def _watch(flow, squares, start, rows, final, end, continued, statistics):
 
 
 class Piece(NamedTuple):
-    """Runs to be done, and what comes out.
+    """Runs to be computed, and their results.
 
-    numbers, rates, phases, potentials, drifts: of each system; owners (n,): the system of each start; starts (n, 8);
-    stages: cycles before the observation, all, and in each of its k windows; status (n,); final (n, k, 8); statistics
-    (n, k, STATISTICS); continued: the runs continue others.
+    numbers, rates, phases, potentials, drifts: of each system. owners (n,): the system of each initial state. starts
+    (n, 8). stages: cycles before the observation, cycles in all, and cycles in each of its k windows. status (n,);
+    final (n, k, 8); statistics (n, k, STATISTICS). continued: the runs continue others.
     """
 
     numbers: np.ndarray
@@ -288,11 +304,12 @@ class Piece(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """Runs in the lanes and what is known of them, between two calls of the loop.
+    """Runs in the lanes and their data, between two calls of the loop.
 
-    runs, constants: rows of `march`; work: its room; members: the start in each lane, or -1; begun: how many starts
-    were looked at; slots: where the tables of each lane's system are; owners: whose they are; made: for which contact
-    states; series, rotations: `flow_tables.tables`; known: constants; rows, counters, statistics, change: room.
+    runs, constants: rows of `march`; work: its workspace. members: the initial state in each lane, or -1; begun: number
+    of initial states processed. slots: position of the tables of each lane's system; owners: their systems; made:
+    contact states with tables. series, rotations: `flow_tables.tables`; known: constants. rows, counters, statistics,
+    change: workspace.
     """
 
     runs: np.ndarray
@@ -334,12 +351,13 @@ def _memory():
 
 @compiled
 def _loop(piece, memory):
-    """Run the starts of a piece whose status is FINISHED, as many at once as there are lanes; fill in their status,
-    final states and statistics. Returns False after a while: then call again.
+    """Run the initial states of a piece whose status is FINISHED, as many at once as there are lanes.
+
+    Writes their status, final states and statistics. Returns False if it pauses for an interrupt; then call it again.
     """
     m, stages, steps = memory, piece.stages, 0
     integrals = piece.drifts.shape[2] if stages[0] < stages[1] else 0
-    squares = Squares(piece.potentials[0], piece.drifts[0])  # a type for the compiler
+    squares = Squares(piece.potentials[0], piece.drifts[0])  # gives the compiler the type
     while True:
         alive = 0
         for lane in range(WIDTH):
@@ -356,8 +374,8 @@ def _loop(piece, memory):
         if steps > INTERRUPT_INTERVAL:
             _stop_crowded(piece, m)
             return False
-        steps += march.march(m.runs, m.constants, m.work, max(3 * alive // 4, 1)) + 16
-        if march.meet(m.runs, m.constants, m.work, integrals) == 0:
+        steps += march.advance_lanes(m.runs, m.constants, m.work, max(3 * alive // 4, 1)) + 16
+        if march.step_to_event(m.runs, m.constants, m.work, integrals) == 0:
             continue
         for lane in range(WIDTH):
             outcome, n = m.runs[march.OUTCOME, lane], m.members[lane]
@@ -381,7 +399,10 @@ def _loop(piece, memory):
 
 @in_place
 def _is_last(piece, flow, squares, motion, n, lane, m):
-    """Return True if a run is at its end. Close the window of its observation that ends there, else open the next."""
+    """Return True if a run is at its end.
+
+    Closes the window of its observation that ends there, or opens the next.
+    """
     settle, cycles, length = piece.stages
     stop, watched = int(m.runs[march.STOP, lane]), m.runs[march.WATCHED, lane] > 0.0
     if watched or stop == cycles:
@@ -405,7 +426,7 @@ def _is_last(piece, flow, squares, motion, n, lane, m):
 
 @in_place
 def _stop_crowded(piece, m):
-    """Give up runs with too many events."""
+    """Stop runs with too many events."""
     most = kernel.MOST_EVENTS + kernel.MOST_EVENTS_PER_CYCLE * float(piece.stages[1])
     for lane in range(WIDTH):
         if m.members[lane] >= 0 and m.runs[march.EVENTS, lane] > most:
@@ -414,7 +435,7 @@ def _stop_crowded(piece, m):
 
 @inlined_source
 def _begin(piece, n, lane, m):
-    """Put a start into a lane."""
+    """Put an initial state into a lane."""
     owner, slot, stages = piece.owners[n], -1, piece.stages
     for k in range(WIDTH):
         if m.owners[k] == owner:
@@ -469,7 +490,7 @@ def _write(m, lane):
 
 @inlined_source
 def _fill_constants(piece, owner, flow, change, step, c):
-    """Fill in the constants (CONSTANTS,) of a system."""
+    """Write the constants (CONSTANTS,) of a system."""
     q, phase = flow.coefficients, piece.phases[owner]
     for row in range(4):
         for k in range(6):
@@ -497,8 +518,9 @@ def _fill_constants(piece, owner, flow, change, step, c):
 
 @inlined_source
 def _by_events(piece, flow, squares, n, lane, m):
-    """Carry the run of a lane on by the event loop to where both balls fly; return PAUSED, or the status of a finished
-    run.
+    """Continue the run of a lane by the event loop until both balls fly.
+
+    Returns PAUSED, or the status of a finished run.
     """
     runs, counters, unsampled = m.runs, m.counters[lane], Sampling(0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[march.FIRST, lane], m.constants[march.FIRST_TAIL, lane]
@@ -512,7 +534,7 @@ def _by_events(piece, flow, squares, n, lane, m):
         counters[EVENTS] = 0.0
         motion, log, earlier = progress.motion, Log(m.rows, counters), runs[march.EVENTS, lane]
         leaving = Departure(motion.boxes, motion.balls, motion.walls, progress.elapsed, progress.phase)
-        progress, ended = go_on(flow, progress, Span(*first, stop), unsampled, log, earlier, np.int64(0))
+        progress, ended = run_until(flow, progress, Span(*first, stop), unsampled, log, earlier, np.int64(0))
         noted, motion = int(counters[EVENTS]), progress.motion
         runs[march.EVENTS, lane] += noted
         if runs[march.WATCHED, lane] > 0.0:
@@ -543,7 +565,7 @@ def _by_events(piece, flow, squares, n, lane, m):
 
 @inlined_source
 def _make_tables(flow, rates, progress, made, change):
-    """Make the tables of the contact states that the next events can lead to."""
+    """Compute the tables of the contact states that the next events can lead to."""
     motion = progress.motion
     modes = mode_of(motion.walls)
     for i in range(2):

@@ -1,16 +1,16 @@
-"""The event-driven integration of (10.2): flights, impacts, chatter, sticking and release.
+"""Event-driven integration of (10.2): flights, impacts, chatter, sticking and release.
 
-Between events the flow is linear and evaluated in closed form (flow.advance). From where nothing has happened yet, each
-module says how far it may certainly fly, or when it certainly has its next event (exclusion.module_time). An event that
-is certain and the first is sought at once, by Newton's method from the time of the flow table next to it; else the
-flight goes on to the end of what is proved, so that nothing before an event is missed. Events (contact.resolve):
+Between events the flow is linear and evaluated in closed form (flow.advance). For each module, exclusion.module_time
+returns a time over which it certainly has no event, or the time of its certain next event. If the first event is
+certain, Newton's method finds it, starting at the nearest time of the flow table. Otherwise the flight continues to the
+end of the proved interval, so that no event is missed. Events (contact.resolve):
 
-impact    a ball meets a wall with outward relative velocity: Newton's restitution, momentum conserved;
-stick     the end of a chatter: infinitely many impacts in a finite time, completed at once when what that neglects is
-          below rounding; from then on box and ball move as one of mass 1 + epsilon;
-release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it jump below zero.
+impact    a ball meets a wall with outward relative velocity: Newton's restitution rule, momentum conserved;
+stick     the end of a chatter, infinitely many impacts in a finite time. It is completed at once when the neglected
+          change is below rounding; from then on box and ball move as one body of mass 1 + epsilon;
+release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it negative.
 
-Time is the forcing phase, kept modulo one period without loss (phase.ahead), so it does not lose digits in long runs.
+Time is the forcing phase, kept modulo one period without loss (phase.advance_phase), so that long runs lose no digits.
 """
 
 import math
@@ -21,7 +21,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
 from vibroimpact.exact.engine.contact import Moment, resolve
 from vibroimpact.exact.engine.exclusion import LOOKAHEAD, SHORT, gap, gap_rounding, module_time, nearby_zero, remainder
-from vibroimpact.exact.engine.flow import along, jet_at, unpacked
+from vibroimpact.exact.engine.flow import evaluate, jet_at, unpacked
 from vibroimpact.exact.engine.motion import (
     COSINE,
     ENTRIES,
@@ -39,7 +39,7 @@ from vibroimpact.exact.engine.motion import (
     mode_of,
     pack,
 )
-from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, ahead, reduced, sine_and_cosine
+from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, advance_phase, reduced, sine_and_cosine
 
 TRIES = 3
 STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
@@ -49,7 +49,7 @@ STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 def fly(flow, motion, remaining, most_proofs, counters):
     """Fly to the next event, the end of the run or of the table; return (time, module due or -1, boxes, balls).
 
-    Gives up where time stands still, or when the counters counts more than most_proofs.
+    It stops if time does not advance, or after most_proofs exclusions.
     """
     q = flow.coefficients
     mode = mode_of(motion.walls)
@@ -65,11 +65,11 @@ def fly(flow, motion, remaining, most_proofs, counters):
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
         due, step, width, safe, doubt = _first_event(q, now, jets, bound, horizon, short)
-        step = step if step >= -t else 0.0  # an event that was just passed is not before the flight
+        step = step if step >= -t else 0.0  # an event just passed is not before the start of the flight
         met, boxes, end = due >= 0 and abs(step) <= short, now.boxes, t + step
         if met:
             counters[UNDECIDED] += doubt
-            boxes = along(jets, step)
+            boxes = evaluate(jets, step)
         elif due >= 0 and now.walls[due] == 0 and end + width + short < reach:
             met, end, boxes = _refine_impact_time(flow, motion, due, end, end - width, end + width)
         if met:
@@ -92,7 +92,7 @@ def _first_event(q, motion, jets, bound, horizon, short):
     two = 1 - one
     t1, w1, u1 = module_time(q, motion, one, jets, bound, horizon, short)
     w, s1 = _bounds(t1, w1, short)
-    # the other module is asked a little further, so that it cannot interfere where the first one is due
+    # check the other module a little further, so that it cannot interfere when the first one is due
     t2, w2, u2 = module_time(q, motion, two, jets, bound, min(t1 + w + short, horizon), short)
     v, s2 = _bounds(t2, w2, short)
     if w1 < math.inf and t1 + w <= s2:
@@ -104,14 +104,14 @@ def _first_event(q, motion, jets, bound, horizon, short):
 
 @inlined
 def _bounds(t, width, short):
-    """Return the result of module_time as the uncertainty of a time and the time until which nothing happens."""
+    """Return the result of module_time as the uncertainty of a time and the end of the event-free interval."""
     w = 0.0 if width == math.inf or abs(t) <= short else width
     return w, t - w
 
 
 @inlined_source
 def _first_to_check(boxes, balls):
-    """Return the module whose ball reaches the wall ahead first at its present speed."""
+    """Return the module whose ball would first reach the wall ahead at its present speed."""
     v1, v2 = boxes[2] - balls[2], boxes[3] - balls[3]
     g1 = 1.0 - math.copysign(1.0, v1) * (boxes[0] - balls[0])
     g2 = 1.0 - math.copysign(1.0, v2) * (boxes[1] - balls[1])
@@ -133,7 +133,7 @@ def _refine_impact_time(flow, motion, i, t, low, high):
         if not low <= t <= high:
             break
         if abs(step) <= SHORT * flow.unit:
-            return True, t, along(jets, step)
+            return True, t, evaluate(jets, step)
     return False, t, motion.boxes
 
 
@@ -145,22 +145,24 @@ FAILURES = {
     CROWDED: "there are too many events",
     EXHAUSTED: "there are too many exclusions",
 }
-ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # for events, to begin with: few runs need more
-MOST_AT_ONCE = 8  # events of one instant: an impact, a stick, a release and the end of a chatter in each module
+ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # initial rows for events; few runs need more
+MOST_AT_ONCE = 8  # most events at one instant: an impact, a stick, a release and the end of a chatter per module
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
-"""A run with more events is given up: only kappa next to 1 can chatter so long."""
-INTERRUPT_INTERVAL = 200_000  # exclusions, some 20 ms, between two looks for an interrupt
-PATIENCE = 100_000  # events without any progress of time after which a run is given up
+"""Limits on the events of a run; only a kappa close to 1 exceeds them."""
+INTERRUPT_INTERVAL = 200_000  # exclusions between two checks for an interrupt, about 20 ms
+PATIENCE = 100_000  # events without progress of time before a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
-"""A run with more exclusions than the sum of these is given up; the unit is that of the flow."""
-PIECE = 65536  # rows for the events of a long run, 8 MB: the system gives so much at once in large pages
+"""Terms of the limit on the exclusions of a run; the time unit is that of the flow."""
+PIECE = 65536  # rows for the events of a long run, 8 MB, for which the system uses large pages
 EARLIER, PLACES = 19, 20
-"""Place, in the array of a paused run, of the number of events before the current rows; length of that array."""
+"""Index, in the array of a paused run, of the number of events before the current rows; length of that array."""
 
 
 class Progress(NamedTuple):
-    """State of an unfinished run: motion, module due; phase with its tail, revolutions, time elapsed; samples taken;
-    flights without progress in time.
+    """State of an unfinished run.
+
+    motion; due: module due, or -1; phase and tail; revolutions; elapsed: time since the start; sampled: samples taken;
+    stalled: flights without progress in time.
     """
 
     motion: Motion
@@ -174,7 +176,7 @@ class Progress(NamedTuple):
 
 
 class Span(NamedTuple):
-    """Where a run begins and ends: phase with its tail, and number of forcing cycles."""
+    """Start and length of a run: phase with its tail, and number of forcing cycles."""
 
     phase: float
     tail: float
@@ -182,7 +184,7 @@ class Span(NamedTuple):
 
 
 class Sampling(NamedTuple):
-    """Ascending sample times (n,), on a clock that shows start when the run starts, and states (n, 8) to fill."""
+    """Ascending sample times (n,), on a clock that shows `start` at the start of the run, and states (n, 8)."""
 
     start: float
     times: np.ndarray
@@ -195,12 +197,13 @@ def integrate(
 ):
     """Integrate from a state (8,), in public order, over a number of forcing cycles, or continue such a run.
 
-    numbers, series, rotations: `flow.tables_of` the system; phase, tail: a float in [0, 2 pi) and what it leaves out;
-    times (n,) ascending, on a clock that shows start when the run starts; samples (n, 8) is filled (at an event: the
-    state after it), and final (8,) if the run is finished. rows, counters, checkpoint: `memory`, filled. Returns the
-    status: PAUSED if rows are full (`is_full`: make room), or after INTERRUPT_INTERVAL exclusions, for the interpreter
-    to see to an interrupt; then call again. A number, as the interpreter makes an array of a result with an interrupt
-    half-way.
+    numbers, series, rotations: `flow.tables_of` the system. phase, tail: a float in [0, 2 pi) and its remainder.
+    times (n,): ascending, on a clock that shows `start` at the start of the run. samples (n, 8): written; at an event,
+    the state after it. final (8,): written when the run is finished. rows, counters, checkpoint: `memory`, written.
+
+    Returns the status. It is PAUSED if the rows are full (`is_full`: make room), or after INTERRUPT_INTERVAL
+    exclusions, so that the interpreter can handle an interrupt; then call the function again. The status is a number,
+    because an interrupt during the conversion of a tuple would leave it incomplete.
     """
     flow = unpacked(numbers, series, rotations)
     if counters[FLIGHTS] == 0.0:
@@ -210,7 +213,7 @@ def integrate(
         progress = progress_at(checkpoint)
     log = Log(rows, counters)
     span, sampling, interval = Span(phase, tail, cycles), Sampling(start, times, samples), np.int64(INTERRUPT_INTERVAL)
-    progress, status = go_on(flow, progress, span, sampling, log, checkpoint[EARLIER], interval)
+    progress, status = run_until(flow, progress, span, sampling, log, checkpoint[EARLIER], interval)
     if status == FINISHED:
         pack(progress.motion.boxes, progress.motion.balls, final)
     write_checkpoint(progress, checkpoint)
@@ -236,7 +239,7 @@ def empty_rows(counters, checkpoint):
 
 @inlined_source
 def write_checkpoint(progress, checkpoint):
-    """Write down the state of a paused run in a checkpoint."""
+    """Write the state of a paused run to a checkpoint."""
     motion = progress.motion
     for k in range(4):
         checkpoint[k], checkpoint[4 + k] = motion.boxes[k], motion.balls[k]
@@ -261,8 +264,11 @@ def progress_at(checkpoint):
 
 
 @in_place
-def go_on(flow, progress, span, sampling, log, earlier, interval):
-    """Continue to the end or to a pause (rows full, or more than interval exclusions); return (progress, status)."""
+def run_until(flow, progress, span, sampling, log, earlier, interval):
+    """Continue to the end or to a pause (rows full, or more than `interval` exclusions).
+
+    Returns (progress, status).
+    """
     q = flow.coefficients
     (first, first_tail, cycles), (start, sample_times, samples) = span, sampling
     motion, due, phase, tail, revolutions, elapsed, sampled, stalled = progress
@@ -293,7 +299,7 @@ def go_on(flow, progress, span, sampling, log, earlier, interval):
         if due < 0 and t >= remaining:
             revolutions, phase, tail = cycles, first, first_tail
         else:
-            phase, tail = ahead(phase, tail, q.omega, t)
+            phase, tail = advance_phase(phase, tail, q.omega, t)
             if phase >= TWO_PI:
                 (phase, tail), revolutions = reduced(phase, tail), revolutions + 1
         before, elapsed = elapsed, (revolutions * TWO_PI + ((phase - first) + (tail - first_tail))) / q.omega
@@ -310,7 +316,7 @@ def go_on(flow, progress, span, sampling, log, earlier, interval):
 
 @inlined_source
 def _failure(q, boxes, balls, due, stalled, count, most_events):
-    """Return the reason for giving up a run after a flight, or FINISHED."""
+    """Return the reason for stopping a run after a flight, or FINISHED."""
     for i in range(2):
         beyond = abs(boxes[i] - balls[i]) - 1.0
         if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, boxes, balls, i):

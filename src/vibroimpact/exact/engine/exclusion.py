@@ -1,13 +1,13 @@
-"""Lower bounds on the time that the constraints of a flight hold, and brackets of the time when they end.
+"""Bound from below the time over which the constraints of a flight hold, and bracket the time when they end.
 
-A constraint is a smooth g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. With its Taylor
-polynomial of degree 6 and a bound on its seventh derivative it stays above a polynomial c (8,), c0 + ... + c7 t^7, and
-that is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are (conservative advancement: repeated
-from the safe side, the times T converge to the first zero of g and never pass it). Where the rate of g certainly keeps
-its sign there is one zero at most, and it may be sought from either side.
+A constraint is a smooth function g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. Its Taylor
+polynomial of degree 6 and a bound on its seventh derivative give a lower bound c0 + ... + c7 t^7 with coefficients
+c (8,). This polynomial is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are. Repeated steps
+of such lengths T converge to the first zero of g and never pass it (conservative advancement). If the rate of g
+certainly keeps its sign, there is at most one zero, which can be approached from either side.
 
-The tests are carried out in floating point. Callers lower c0 by a margin, the rounding of all that g is made of, and
-"certain" means: by these tests, with that margin.
+The tests use floating-point arithmetic. Callers lower c0 by a margin for the rounding of g; "certain" means certain by
+these tests with that margin.
 """
 
 import math
@@ -18,7 +18,7 @@ from vibroimpact.exact.engine.compiled import inlined, inlined_source
 from vibroimpact.exact.engine.flow import half_curvature, jet, slope, value
 from vibroimpact.exact.engine.motion import mode_of
 
-MOMENT = 1e-300  # times do not go on shrinking below it
+MOMENT = 1e-300  # times do not shrink below this
 
 
 @inlined
@@ -39,7 +39,7 @@ def least(c, t):
     low = c[0]
     for _ in range(7):  # the k-th coefficient is the sum of the first with Pascal's k-th row as weights
         b = (b[0] + b[1], b[1] + b[2], b[2] + b[3], b[3] + b[4], b[4] + b[5], b[5] + b[6], b[6] + b[7], b[7])
-        low = low if low < b[0] else b[0]  # no number if the polynomial is none
+        low = low if low < b[0] else b[0]  # nan if a coefficient is nan
     return low
 
 
@@ -47,7 +47,7 @@ def least(c, t):
 def positive(c, t):
     """Return True if the polynomial c (8,) is certainly positive on [0, t].
 
-    Mostly that can be told with the terms from the fourth power on taken by their size, for half of what `least` costs.
+    In most cases a bound on the terms from the fourth power on decides, at half the cost of `least`.
     """
     t2 = t * t
     line, square = c[1] * t * (1 / 3), c[2] * t2 * (1 / 3)
@@ -58,10 +58,12 @@ def positive(c, t):
 
 @inlined
 def safe_time(c, horizon):
-    """Return a time in [0, horizon] up to which the polynomial c (8,) is positive, 0 if not c[0] > 0. It is close to
-    the first zero if that is simple, and at least half as far as the Bernstein coefficients prove.
+    """Return a time in [0, horizon] up to which the polynomial c (8,) is positive, 0 if not c[0] > 0.
 
-    They tell it at least as far as no zero, real or complex, lies in the disc with diameter [0, t].
+    The time is close to the first zero if that is simple, and at least half of the time that the Bernstein coefficients
+    prove.
+
+    They prove it at least for times t such that no real or complex zero lies in the disc with diameter [0, t].
     """
     if not c[0] > 0.0:
         return 0.0
@@ -83,15 +85,15 @@ def safe_time(c, horizon):
 
 UNCERTAIN = (False, 0.0, math.inf)
 MOST_STEPS = 8
-CONVERGING = 1e-8  # a step of Newton's method so short leaves an error below rounding
+CONVERGING = 1e-8  # after a shorter Newton step the error is below rounding
 
 
 @inlined
 def crossing(c, remainder, margin, horizon, short):
-    """Return (certain, time, width): a constraint that falls throughout certainly meets zero at time +- width.
+    """Return (certain, time, width): a decreasing constraint certainly meets zero at time +- width.
 
     c: its Taylor polynomial (8,), c1 < 0; remainder: bound on its seventh derivative over 5040; margin: rounding of c0.
-    Width inf says that it holds up to time = horizon. A time no longer than short is exact to rounding.
+    If width is inf, the constraint holds up to time = horizon. A time up to `short` is exact to rounding.
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)
@@ -132,10 +134,10 @@ def nearby_zero(c, t):
 
 @inlined
 def return_time(c, remainder, horizon):
-    """Return the end of a very short hop, c0 = 0 and c1 > 0, to rounding, if it certainly ends so; else inf.
+    """Return the end of a very short hop, c0 = 0 and c1 > 0, to rounding, or inf if it does not certainly end.
 
     c, remainder: as for `crossing`. The zero at the start is divided out, so that the time keeps its relative accuracy
-    however short the hop.
+    for short hops.
     """
     t = -c[1] / c[2] if c[2] < 0.0 else math.inf
     if t > 0.5 * horizon or 8.0 * t * spread(c, remainder, t) > -c[2]:
@@ -151,22 +153,24 @@ def spread(c, remainder, t):
 
 
 RESOLUTION = 4.0 * np.finfo(float).eps
-MET = 2.0  # margins: a constraint that falls below them is met, as proofs would go on in ever smaller steps
+MET = 2.0  # in units of the margin; a constraint below it counts as met, since proofs would need ever smaller steps
 DOUBTED = 2.0 * MET
-"""Margins below which rounding decides a turn, or an impact of so little depth: by other steps, as in a lane of an
-ensemble, the same motion may come as near as MET, or miss what is met here."""
+"""In units of the margin: below it, rounding decides a turn or a shallow impact. With other steps, as in a lane of an
+ensemble, the same motion may meet a wall that it misses here, or miss one that it meets here."""
 LOOKAHEAD = 2.5
-NOTHING = 1e-300  # a margin of a force that stays zero
-SHORT = 0.02  # in units of the flow: over so short a time a jet is exact to rounding
+NOTHING = 1e-300  # margin of a force that stays zero
+SHORT = 0.02  # in units of the flow; over shorter times a jet is exact to rounding
 
 
 @inlined
 def remainder(q, mode, jets, growth):
-    """Return a bound on |X_i^(7)| / 7! of both boxes, given a bound on the integral of the seventh derivative of the
-    force.
+    """Return a bound on |X_i^(7)| / 7! of both boxes.
 
-    The sixth derivative of the boxes obeys the boxes' equations under that of the force, so the square root of twice
-    its energy, which bounds its velocity, grows no faster than that force: dampings only take away.
+    `growth` bounds the integral of the seventh derivative of the force.
+
+    The sixth derivative of the boxes obeys the equations of the boxes under the sixth derivative of the force. The
+    square root of twice its energy, which bounds its velocity, grows no faster than the time integral of that force,
+    since damping only removes energy.
     """
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
@@ -179,8 +183,8 @@ def remainder(q, mode, jets, growth):
 def own_remainder(q, mode, jets, both, i, force, horizon):
     """Return `remainder` for box i alone; force: bound on the sixth derivative of its force; both: that of both boxes.
 
-    The energy of a box is raised by its own force, and by what the coupling passes on: next to a box that the other one
-    cannot reach, or hardly, the energy of the other one does not count.
+    The energy of a box grows by its own force and by the force of the coupling. With weak coupling this bound does not
+    contain the energy of the other box.
     """
     m, k, p = (q.mass if mode & (i + 1) else 1.0), (q.k11 if i == 0 else q.k22), (jets[0] if i == 0 else jets[1])
     passed = (abs(q.k12) / math.sqrt(q.ground if i == 0 else 1.0) + abs(q.c12)) * both
@@ -201,7 +205,7 @@ def acceleration_rounding(q, boxes, i):
 @inlined
 def gap_rounding(q, boxes, balls, i):
     """Return the size below which a gap of module i is rounding error of a flight."""
-    x1, x2, v1, v2 = boxes  # velocities enter like positions over a unit of time
+    x1, x2, v1, v2 = boxes  # velocities count like positions over a unit of time
     return RESOLUTION * (1.0 + abs(x1) + abs(x2) + abs(v1) + abs(v2) + abs(balls[i]) + abs(balls[2 + i]) + q.shift)
 
 
@@ -216,7 +220,8 @@ def gap(p, position, velocity, w):
 def push(q, mode, jets, i, wall, sine, cosine, horizon):
     """Return (polynomial (8,), remainder) of the force per unit of ball mass with which a wall pushes a sticking ball.
 
-    It is the acceleration of the box, which obeys the boxes' equations under the second derivative of the force.
+    The force is the acceleration of the box, which obeys the equations of the boxes under the second derivative of the
+    forcing.
     """
     one, two = jets
     fall = -q.omega * q.omega
@@ -255,8 +260,8 @@ def _safe_time(c, bound, margin, horizon):
 def _leaving_time(c, bound, margin, horizon, rises):
     """Return how long a constraint that starts within rounding of zero certainly holds.
 
-    If it rises, its zero at the start is divided out. If it does not, or where it is the bound alone that makes that
-    time short, it holds, within rounding, as long as it stays above minus its margin.
+    If it rises, its zero at the start is divided out. If it does not rise, or if only the bound makes that time short,
+    it holds within rounding as long as it stays above minus its margin.
     """
     time = 0.0
     if rises:
@@ -268,9 +273,11 @@ def _leaving_time(c, bound, margin, horizon, rises):
 
 @inlined_source
 def _hop_time(c, bound, margin, horizon, short):
-    """Return (time, True if the hop ends then) for the wall that the ball touches; c[1] >= 0 is its velocity away.
+    """Return (time, True if the hop ends then) for the wall that the ball touches.
 
-    A hop no longer than short is timed to its end.
+    c[1] >= 0 is its velocity away from the wall.
+
+    A hop up to `short` is timed to its end.
     """
     if c[1] == 0.0:
         rise = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
@@ -285,15 +292,15 @@ def _hop_time(c, bound, margin, horizon, short):
 def module_time(q, motion, i, jets, bound, horizon, short):
     """Return how far module i may fly: (time, width, undecided).
 
-    With width inf the module has no event before time. Else it certainly has its next event at time +- width (slightly
-    negative when just passed), width 0 being rounding; undecided marks a tangential meeting that rounding cannot tell
-    from a miss. jets: of both boxes; bound: their remainder over the horizon; short: the longest time over which a jet
-    is exact to rounding.
+    If width is inf, the module has no event before time. Otherwise its next event is certainly at time +- width; width
+    0 means to rounding, and time is slightly negative if the event was just passed. undecided is True for a tangential
+    contact that is a miss within rounding. jets: of both boxes; bound: their remainder over the horizon; short: the
+    longest time over which a jet is exact to rounding.
     """
     if motion.walls[i] != 0:
         return _sticking_time(q, motion, i, jets, horizon, short)
     velocity = motion.boxes[2 + i] - motion.balls[2 + i]
-    if velocity != 0.0:  # as long as it keeps its sign only the wall ahead matters
+    if velocity != 0.0:  # as long as it keeps its sign, only the wall ahead matters
         ahead = 1.0 if velocity > 0.0 else -1.0
         c = gap(jets[0] if i == 0 else jets[1], motion.balls[i], motion.balls[2 + i], ahead)
         certain, t, width = crossing(c, bound, gap_rounding(q, motion.boxes, motion.balls, i), horizon, short)
@@ -304,9 +311,9 @@ def module_time(q, motion, i, jets, bound, horizon, short):
 
 @inlined_source
 def _sticking_time(q, motion, i, jets, horizon, short):
-    """Return module_time of a sticking ball: its constraint is that the wall pushes it."""
+    """Return module_time of a sticking ball; the constraint is that the wall pushes the ball."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
-    # where the box is at rest as yet: the rounding of what its force may become meanwhile
+    # if the box is still at rest: the rounding of the force that may develop in the meantime
     margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + NOTHING
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)
@@ -318,7 +325,10 @@ def _sticking_time(q, motion, i, jets, horizon, short):
 
 @inlined_source
 def _turning_time(q, motion, i, jets, bound, horizon, short):
-    """Return module_time of a flying ball whose relative velocity may change sign: its constraints are both gaps."""
+    """Return module_time of a flying ball whose relative velocity may change sign.
+
+    The constraints are both gaps.
+    """
     boxes, balls = motion.boxes, motion.balls
     margin = gap_rounding(q, boxes, balls, i)
     force = abs(q.f1 if i == 0 else q.f2) * q.omega**6

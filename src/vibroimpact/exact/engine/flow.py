@@ -1,9 +1,9 @@
 """Free flight in closed form: the linear flow of the boxes, evaluated without time stepping.
 
 Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix).
-The flow over a time t is the Taylor polynomial at j h, from a table (`jet_at`), over the rest of at most h/2, short
-enough to be exact to rounding. No eigenvalues are used, so repeated, defective, undamped and
-resonant spectra are no exception.
+The flow over a time t is the Taylor polynomial at j h, from a table (`jet_at`), over the remaining time of at most h/2,
+which is short enough to be exact to rounding. No eigenvalues are used, so that repeated, defective, undamped and
+resonant spectra need no special treatment.
 """
 
 from functools import lru_cache
@@ -24,11 +24,11 @@ LONGEST_TABLE = 8192
 
 
 class Coefficients(NamedTuple):
-    """The scalars of (10.2) as the compiled loops read them.
+    """Scalars of (10.2) used by the compiled loops.
 
-    ground: stiffness of box 2 to ground (that of box 1 is 1); drive: |(f1, f2)|; growth: that of the sixth derivative
-    of the force; shift: no farther does the force move a box from rest within a period; mass: that of box and
-    ball together; impulse, impulse_rest: (1 + kappa) / (1 + epsilon), the nearest float and the rest.
+    ground: stiffness of box 2 to ground (that of box 1 is 1). drive: |(f1, f2)|. growth: that of the sixth derivative
+    of the force. shift: bound on the displacement of a box from rest by the force within a period. mass: mass of box
+    and ball together. impulse, impulse_rest: (1 + kappa) / (1 + epsilon), the nearest float and the remainder.
     """
 
     k11: float
@@ -53,11 +53,11 @@ class Coefficients(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """Tables of one system (`tables`): series (4, n, 6, 16), rotations (n, 2); their spacing (and its inverse), their
-    longest time.
+    """Tables of one system (`tables`).
 
-    unit: a time over which nothing in the system changes much, 1 / its fastest rate; rate: a bound on that of the boxes
-    in free flight, in the norm of their energy.
+    series (4, n, 6, 16), rotations (n, 2); spacing, its inverse (density) and the longest time. unit: a time over which
+    the system changes little, 1 / its fastest rate. rate: a bound on the rate of the boxes in free flight, in the
+    energy norm.
     """
 
     coefficients: Coefficients
@@ -72,7 +72,7 @@ class Flow(NamedTuple):
 
 SCALARS = len(Coefficients._fields)
 NUMBERS = SCALARS + len(Flow._fields[3:])
-"""Numbers packed by `tables_of`: the coefficients, and the fields of Flow behind its arrays."""
+"""Number of scalars packed by `tables_of`: the coefficients, and the fields of Flow after its arrays."""
 SPACING, LONGEST, RATE, OMEGA = SCALARS, SCALARS + 2, SCALARS + 4, Coefficients._fields.index("omega")
 PARAMETERS = (
     *("epsilon", "kappa", "alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat"),
@@ -81,9 +81,11 @@ PARAMETERS = (
 
 
 def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the numbers of flows with tables of so many times, (n, NUMBERS), and their `exact_rates`.
+    """Return the scalars of flows, (n, NUMBERS), and their `exact_rates`.
 
-    The shift is a bound, since the force adds no more than its time integral to the square root of twice the energy.
+    `count` is the number of times in the tables.
+
+    The shift is a bound, since the square root of twice the energy grows at most by the time integral of the force.
     """
     parameters = np.array([[getattr(system, name) for name in PARAMETERS] for system in systems])
     rates, impulses, fastest = exact_rates(parameters)
@@ -105,7 +107,10 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 @lru_cache(maxsize=64)
 def flow_of(system) -> Flow:
-    """Return the flow tables of a system, over at least one forcing period unless its spectrum is extremely fast."""
+    """Return the flow tables of a system.
+
+    They cover at least one forcing period, unless the fastest rate is extremely high.
+    """
     (numbers,), (rates,) = numbers_of([system], 2)
     count = min(LONGEST_TABLE, int(np.ceil(system.period / numbers[SPACING])) + 1)
     series, rotations = tables(rates, numbers[SPACING], count)
@@ -115,7 +120,10 @@ def flow_of(system) -> Flow:
 
 @lru_cache(maxsize=64)
 def tables_of(system) -> tuple[np.ndarray, ...]:
-    """Return `flow_of` as three arrays. Numba inspects tuples number by number: 4 us per call, 1.5 without."""
+    """Return `flow_of` as three arrays.
+
+    Numba inspects tuples item by item, which takes 4 us per call instead of 1.5 us.
+    """
     coefficients, series, rotations, *rest = flow_of(system)
     return np.array([*coefficients, *rest]), series, rotations
 
@@ -174,7 +182,7 @@ def _scaled(x, v, a, b, c, d, e, g):
 
 @inlined
 def value(p, t):
-    """Return a polynomial of degree 7, p (8,), at t; the upper half in pairs, which do not wait for each other."""
+    """Return a polynomial of degree 7, p (8,), at t; the upper half is summed in independent pairs."""
     t2 = t * t
     upper = (p[2] + t * p[3]) + t2 * ((p[4] + t * p[5]) + t2 * (p[6] + t * p[7]))
     return p[0] + t * (p[1] + t * upper)
@@ -196,14 +204,14 @@ def half_curvature(p, t):
 
 
 @inlined
-def along(jets, t):
-    """Return the boxes (X1, X2, X1', X2') a short time t (of either sign) along their jets."""
+def evaluate(jets, t):
+    """Return the boxes (X1, X2, X1', X2') a short time t (of either sign) later, from their jets."""
     one, two = jets
     return value(one, t), value(two, t), slope(one, t), slope(two, t)
 
 
 @inlined
-def turned(flow, sine, cosine, j):
+def rotate_phase(flow, sine, cosine, j):
     """Return sine and cosine of the forcing phase at the j-th time of the table."""
     ca, sa = flow.rotations[j, 0], flow.rotations[j, 1]
     return sine * ca + cosine * sa, cosine * ca - sine * sa
@@ -215,9 +223,9 @@ def advance(flow, mode, boxes, sine, cosine, t):
     j = int(t * flow.density + 0.5)
     r = t - j * flow.spacing
     jets = jet_at(flow, mode, boxes, sine, cosine, j)
-    s, c = turned(flow, sine, cosine, j)
+    s, c = rotate_phase(flow, sine, cosine, j)
     angle = flow.coefficients.omega * r
-    h = angle * angle  # below 1e-3: the sine and cosine of the angle to rounding
+    h = angle * angle  # below 1e-3, so that these series give sine and cosine to rounding
     sa = angle * (1.0 - h * (1 / 6) * (1.0 - h * (1 / 20) * (1.0 - h * (1 / 42))))
     ca = 1.0 - h * (1 / 2) * (1.0 - h * (1 / 12) * (1.0 - h * (1 / 30)))
-    return along(jets, r), s * ca + c * sa, c * ca - s * sa
+    return evaluate(jets, r), s * ca + c * sa, c * ca - s * sa

@@ -1,7 +1,7 @@
-"""Taylor series of the flow at many equally spaced times, rounded once.
+"""Tabulate Taylor series of the flow at many equally spaced times, with a single rounding.
 
-They are computed in numbers of twice the precision, pairs of a float and what it leaves out (Dekker 1971). Matrices of
-pairs are (2, 6, 6, times), so that the processor multiplies those of several times at once.
+The computation uses double-double numbers, pairs of a float and its remainder (Dekker 1971). Matrices of pairs have
+shape (2, 6, 6, times), so that the processor multiplies those of several times at once.
 """
 
 import math
@@ -11,18 +11,21 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.phase import fused
 
-SIZE, BOXES = 6, 4  # of z = [X1, X2, X1', X2', sin, cos] and of what there is of the boxes
-TERMS = 20  # of the exponential series: over a step of the flow table the next one is below 1e-40
-ORDERS = 8  # of the Taylor polynomials
+SIZE, BOXES = 6, 4  # length of z = [X1, X2, X1', X2', sin, cos] and of its part for the boxes
+TERMS = 20  # terms of the exponential series; over one spacing the next term is below 1e-40
+ORDERS = 8  # coefficients of the Taylor polynomials
 
 
 @compiled
 def exact_rates(parameters):
-    """Return for each system, parameters (n, 10) with Omega in place of sigma_e_hat: the rate matrices of its contact
-    states in pairs, (n, 2, 4, 6, 6), floats next to the exact entries, and the rest; the change of a ball's velocity at
-    an impact per unit of relative velocity, (n, 2); and the largest rates of stiffness and damping, (n, 2).
+    """Return rate matrices, velocity changes and largest rates of each system.
 
-    Rounded, a stiff coupling would not quite cancel where both boxes move alike, and shift the slow frequency.
+    parameters: (n, 10), with Omega in place of sigma_e_hat. Returns the rate matrices of the contact states as pairs,
+    (n, 2, 4, 6, 6); the velocity change of a ball at an impact per unit of relative velocity, (n, 2); and the largest
+    rates of stiffness and damping, (n, 2).
+
+    With rounded entries, a stiff coupling would not cancel exactly for equal motions of both boxes, and would shift the
+    slow frequency.
     """
     n = len(parameters)
     rates, impulses, fastest = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2)), np.empty((n, 2))
@@ -79,9 +82,9 @@ def tables(rates, spacing, count):
 
     h = spacing, a power of two; count is at least 2.
 
-    Returns the Taylor coefficients of the boxes there for each state at the start, (k, count, 6, 16), X_i^(m) / m! of
-    box i at place 8 i + m, positions and velocities being exp(A j h) to rounding; and cosine and sine of the forcing
-    phase, (count, 2).
+    Returns the Taylor coefficients of the boxes for each initial state, (k, count, 6, 16), with X_i^(m) / m! of box i
+    at index 8 i + m (positions and velocities are exp(A j h) to rounding); and cosine and sine of the forcing phase,
+    (count, 2).
     """
     series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     for mode in range(rates.shape[1]):
@@ -91,13 +94,13 @@ def tables(rates, spacing, count):
 
 @compiled
 def fill_table(rates, mode, spacing, series, rotations, step, change):
-    """Fill in series[mode] and the rotations of `tables`, and the change of the state in `step` steps, (2, 6, 6)."""
+    """Write series[mode] and the rotations of `tables`, and the change of the state in `step` steps, (2, 6, 6)."""
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
     _fill_unit(power, 0)
     _fill_exponential(rates, mode, spacing, power, one, other)
-    last = np.intp(1)  # not the literal, for which `_entries` would be compiled once more
+    last = np.intp(1)  # a literal would compile `_entries` once more
     while last < count - 1:
         _multiply(power, last, min(last, count - 1 - last))
         last *= 2
@@ -113,7 +116,7 @@ def fill_table(rates, mode, spacing, series, rotations, step, change):
 
 @inlined_source
 def _fill_unit(matrices, place):
-    """Set the matrix at a place to the unit matrix, in pairs."""
+    """Set the matrix at a place to the identity, in pairs."""
     for i in range(SIZE):
         for j in range(SIZE):
             matrices[0, i, j, place], matrices[1, i, j, place] = 1.0 if i == j else 0.0, 0.0
@@ -121,7 +124,10 @@ def _fill_unit(matrices, place):
 
 @inlined_source
 def _fill_exponential(rates, k, spacing, powers, term, after):
-    """Fill in the first power, exp(A_k spacing), at place 1. term, after: (2, 6, 6, 1), room to work in."""
+    """Write the first power, exp(A_k spacing), at place 1.
+
+    term, after: (2, 6, 6, 1), workspace.
+    """
     _fill_unit(powers, 1)
     _fill_unit(term, 0)
     for order in range(1, TERMS + 1):
@@ -143,9 +149,11 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
 
 @inlined_source
 def _fill_coefficients(rates, k, rows, power, after):
-    """Fill in the Taylor coefficients of the boxes by the state, (6, 16): of X_i^(m) / m! at place 8 i + m, z' = A_k z.
+    """Write the Taylor coefficients of the boxes by the state, (6, 16), for z' = A_k z.
 
-    power, after: (2, 6, 6, 1), room to work in.
+    X_i^(m) / m! is at index 8 i + m.
+
+    power, after: (2, 6, 6, 1), workspace.
     """
     _fill_unit(power, 0)
     for m in range(ORDERS):
@@ -164,7 +172,7 @@ def _fill_coefficients(rates, k, rows, power, after):
 
 @inlined_source
 def _expand(coefficients, powers, series, mode):
-    """Fill in series[mode], (count, 6, 16), from the coefficients by the state and the powers (2, 6, 6, count)."""
+    """Write series[mode], (count, 6, 16), from the coefficients by the state and the powers (2, 6, 6, count)."""
     for j in range(powers.shape[3]):
         for m in range(SIZE):
             a, b, c = powers[0, 0, m, j], powers[0, 1, m, j], powers[0, 2, m, j]
@@ -177,9 +185,9 @@ def _expand(coefficients, powers, series, mode):
 
 @inlined_source
 def _multiply(powers, last, many):
-    """Append powers behind the last one, each the last times one from the first on.
+    """Append powers after the last one: products of the last power with all powers from the first on.
 
-    In all of them the forcing phase does not depend on the boxes.
+    The forcing phase does not depend on the boxes.
     """
     for i in range(BOXES):
         for j in range(BOXES):
@@ -193,19 +201,19 @@ def _multiply(powers, last, many):
 
 @inlined
 def _entries(powers, last, many, i, j, first, end):
-    """Fill entry (i, j) of all of them; terms outside first to end are zero."""
+    """Write entry (i, j) of all powers; terms outside first to end are zero."""
     for time in range(1, many + 1):
         high, low = 0.0, 0.0
         for n in range(first, end):
             a, a_low = powers[0, i, n, time], powers[1, i, n, time]
             high, low = _plus_product(high, low, a, a_low, powers[0, n, j, last], powers[1, n, j, last])
-        there = np.uintp(last + time)  # not counted from the end, so that several times go at once
+        there = np.uintp(last + time)  # an unsigned index, so that the loop is vectorised
         powers[0, i, j, there], powers[1, i, j, there] = _normal(high, low)
 
 
 @inlined
 def _plus_product(high, low, a, a_low, b, b_low):
-    """Return a pair plus the product of two others; the second number may be longer than the rounding of the first."""
+    """Return a pair plus the product of two others; the second number may exceed the rounding of the first."""
     product = a * b
     total = high + product
     part = total - high
@@ -223,13 +231,13 @@ def _sum(a, a_low, b, b_low):
 
 @inlined
 def _over(high, low, k):
-    """Return a pair over a small whole number."""
+    """Return a pair divided by a small integer."""
     quotient = high / k
     return _normal(quotient, (fused(-quotient, k, high) + low) / k)
 
 
 @inlined
 def _normal(high, low):
-    """Return the nearest float and the rest as a pair."""
+    """Return the nearest float and the remainder as a pair."""
     total = high + low
     return total, low - (total - high)

@@ -1,7 +1,7 @@
-"""Vectors of eight floats in compiled code: weighted sums of table rows, and `Lanes`, eight runs as one number.
+"""Vectors of eight floats in compiled code: weighted sums of table rows, and the type `Lanes` for eight runs.
 
-The compiler does not form the sums of rows by itself. Each operation on Lanes rounds as that of a float, so that a
-formula gives the same bits for both. Comparisons give a `Mask`; `where` chooses by it.
+The compiler does not vectorise the sums of rows by itself. Each operation on Lanes rounds like that on a float, so that
+a formula gives the same bits for both. Comparisons return a `Mask`; `where` selects by it.
 """
 
 import math
@@ -46,7 +46,7 @@ def row_at(context, builder, start, place):
 
 
 def weighted(builder, rows, weights):
-    """Return the weighted sum of vectors; product and sum are rounded as one where the processor can."""
+    """Return the weighted sum of vectors; product and sum are rounded once if the processor can."""
     total = None
     for row, weight in zip(rows, weights, strict=True):
         part = builder.fmul(row, weight, flags=("contract",))
@@ -97,14 +97,14 @@ class _MaskModel(models.PrimitiveModel):
 
 
 def _wide(context, builder, value, kind):
-    """Return a float or whole number in all lanes."""
+    """Return a float or integer in all lanes."""
     if isinstance(kind, Lanes):
         return value
     return _in_all(builder, context.cast(builder, value, kind, types.float64))
 
 
 def _operation(function, result, generate):
-    """Register an operation with two operands, one of which may be a number for all lanes."""
+    """Register an operation with two operands, one of which may be a scalar."""
 
     class Typing(AbstractTemplate):
         def generic(self, args, kws):
@@ -222,7 +222,7 @@ def _pointer(context, builder, signed, args):
 
 @intrinsic
 def count(_, mask):
-    """Return in how many lanes a mask is true."""
+    """Return the number of lanes in which a mask is true."""
 
     def generate(context, builder, signed, args):
         bits = builder.bitcast(args[0], ir.IntType(WIDTH))

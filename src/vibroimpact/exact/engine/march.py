@@ -1,19 +1,19 @@
-"""Free flights of eight runs of any systems side by side, and their plain impacts.
+"""Advance eight runs in parallel lanes through free flights and simple impacts; each lane has its own system.
 
-Between impacts all lanes advance by a fixed step each, z' = exp(A h) z (`march`); what a step changes is added, so that
-its rounding is small. A step is proved free of an impact by the hull of a cubic polynomial. The position w of a ball in
-its box and its rate r at both ends make Hermite's polynomial, which lies within its Bernstein coefficients w,
-w + h r / 3, w' - h r' / 3, w'. With a bound B on the fourth derivative it errs by at most B h^4 s^2 (1 - s)^2 / 24 at a
-part s of the step; lowering the two coefficients in the middle by B h^4 / 72 takes away more. B follows from the energy
-of the boxes, which grows no faster than the force raises it.
+Between impacts each lane advances by its fixed step h, z' = exp(A h) z (`advance_lanes`); only the change of z is
+added, so that its rounding is small. The hull of a cubic polynomial proves that a step has no impact. The position w of
+a ball in its box and its rate r at both ends define Hermite's polynomial, which is bounded by its Bernstein
+coefficients w, w + h r / 3, w' - h r' / 3, w'. With a bound B on the fourth derivative, its error is at most B h^4 s^2
+(1 - s)^2 / 24 at the fraction s of the step; lowering the two middle coefficients by B h^4 / 72 covers more than that.
+B follows from the energy of the boxes, which grows no faster than by the work of the force.
 
-Lanes whose step is not proved wait until there are enough of them for a pass (`meet`): the Taylor polynomials of both
-boxes give the time of an impact, and the same hull proves the flight until then. A proof that fails is tried again over
-half the time. What is not plain (chatter to be completed, balls at rest, two events at once, any doubt) is left to the
-event loop.
+Lanes whose step is not proved wait until there are enough of them for a pass (`step_to_event`): the Taylor polynomials
+of both boxes give the time of an impact, and the same hull proves the flight until then. If a proof fails, it is tried
+again over half the time. All other cases (chatter to be completed, balls at rest, simultaneous events, any doubt) are
+left to the event loop.
 
-A turn of a box whose hull exceeds its largest displacement so far is kept in its lane and found later, with those of
-the other lanes: no lane waits for it, and a higher one may come first.
+If the hull of a box exceeds its largest displacement so far, its turn is stored in the lane and computed later together
+with those of the other lanes. No lane has to wait, and a larger turn may replace it.
 """
 
 import math
@@ -22,17 +22,17 @@ from vibroimpact.exact.engine.compiled import in_place, inlined
 from vibroimpact.exact.engine.contact import LOW
 from vibroimpact.exact.engine.exclusion import CONVERGING, LOOKAHEAD
 from vibroimpact.exact.engine.lanes import count, load, store, where
-from vibroimpact.exact.engine.observation import IMPACTS, INTEGRALS, LARGEST, LOST, PATH, STATISTICS
 from vibroimpact.exact.engine.phase import (
     QUARTER,
     QUARTER_TAIL,
     TWO_PI,
     TWO_PI_TAIL,
-    ahead,
+    advance_phase,
     fused,
     reduced,
     sine_and_cosine_near,
 )
+from vibroimpact.exact.engine.statistics import IMPACTS, INTEGRALS, LARGEST, LOST, PATH, STATISTICS
 
 X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
 Y1_LOW, Y2_LOW, PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 20)
@@ -40,38 +40,37 @@ PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_A
 TURNS_AT = STATISTICS_AT + STATISTICS
 SINCE, HIGHEST, KEPT, TURN = 6, 7, 8, 9
 STATES = TURNS_AT + 2 * TURN
-"""Rows of the runs, (STATES, 8): boxes, balls at the beginning of the flight, sine and cosine of the forcing phase;
-what the floats of the positions of the balls leave out; the time passed since that beginning, and that to the end; the
-length of the next step (0: begin a flight, -1: leave it to the event loop); a bound on the boxes' energy, that for
-Bernstein's coefficients; the walls that the balls leave; the module that is on a wall, or -1; the phase at the
-beginning, revolutions, and those at which the run stops; 1 for a run, 1 if it is observed; its events, its flights
-without progress; what a pass did; its statistics; for each box a turn that may be its largest displacement
-(`find_turns`): boxes and forcing at a time near it, roughly the time from then to the turn, a bound on its
-displacement, 1 if there is one."""
+"""Rows of the runs, (STATES, 8): boxes; balls at the start of the flight; sine and cosine of the forcing phase;
+remainders of the positions of the balls; time since the start of the flight, and time to its end; length of the next
+step (0: begin a flight, -1: leave it to the event loop); bound on the energy of the boxes; limit for the Bernstein
+coefficients; walls that the balls leave; module on a wall, or -1; phase at the start, with its tail; revolutions, and
+those at which the run stops; 1 for a run; 1 if it is observed; its events; its flights without progress; result of a
+pass; statistics; and, for each box, a turn that may be its largest displacement (`find_turns`): boxes and forcing at a
+time near it, the approximate time from there to the turn, a bound on its displacement, and 1 if there is one."""
 
 LOW_PARTS = 24
 CA, SA, STEP, K11, K12, K22, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, IMPULSE, REST, GROUND, DRIVE = range(40, 58)
 BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, UNIT, LOSS, FIRST, FIRST_TAIL, DRIFTS, DROPS = (*range(58, 67), 74)
 CONSTANTS = DROPS + 12 * (STATISTICS - INTEGRALS)
-"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; four rows of four, what the
-floats in the columns of the boxes leave out, an error that would add up as each step repeats it; cos - 1 and sin of
-Omega h; h; scalars of `flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding likewise; what
-impacts lose; the phase at the start; of each integral its drift and the rows of its potential for both velocities."""
+"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; the remainders of its columns
+for the boxes, four rows of four, since every step would repeat this error; cos - 1 and sin of Omega h; h; scalars of
+`flow.Coefficients`; B / 72 per bound on the energy and due to the force; rounding, in the same way; loss of an impact;
+phase at the start; and, for each integral, its drift and the rows of its potential for both velocities."""
 
 NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
-"""What a pass did in a lane: DOUBTFUL asks for the event loop."""
+"""Result of a pass in a lane; DOUBTFUL requires the event loop."""
 
-LONGEST_STEP = 0.52  # over the largest rate of boxes and forcing
+LONGEST_STEP = 0.52  # times the largest rate of boxes and forcing
 ORDER = next(n for n in range(1, 99) if LONGEST_STEP**n / math.factorial(n - 1) < 2.0**-53)
 """Order n of the Taylor polynomials over a time t <= LONGEST_STEP / r, where r bounds the rates of boxes and forcing.
 
-The derivative of order n of a velocity is at most r^n E + n r^(n - 1) F, with E the root of twice the energy of the
-boxes and F the force. So the polynomial of a velocity leaves out less than a rounding of E / n + F / r, and that of a
-position t / (n + 1) times as much.
+The derivative of order n of a velocity is at most r^n E + n r^(n - 1) F, where E is the root of twice the energy of
+the boxes and F the force. So the truncation error of a velocity is less than a rounding of E / n + F / r, and that of a
+position is t / (n + 1) times as large.
 """
-TERMS = 7  # of them that are enough for the time of a turn in a step
-SHORTEST = 1 / 32  # of a step, over which a proof is tried
-LONGEST = 6.0  # angle of the forcing, below a full turn, after which its sine and cosine are computed anew
+TERMS = 7  # terms that suffice for the time of a turn in a step
+SHORTEST = 1 / 32  # smallest fraction of a step over which a proof is tried
+LONGEST = 6.0  # forcing angle [rad], below a full turn, after which its sine and cosine are computed again
 ROUNDED = 8.0 * 2.0**-52
 SAME_TIME = 2.0**-48
 
@@ -95,33 +94,40 @@ def _change(c, k, x1, x2, v1, v2, s, cosine):
 
 @inlined
 def _rough_change(c, k, x1, x2, v1, v2, s, cosine, low=0.0):
-    """Return the same without the rounding errors of the constants; low: their part, where it is needed."""
+    """Return `_change` without the rounding errors of the constants.
+
+    low: their contribution, if it is needed.
+    """
     boxes = _of_boxes(c, 6 * k, x1, x2, v1, v2)
     return boxes + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
 
 
 @inlined
 def _of_boxes(c, k, x1, x2, v1, v2):
-    """Return four constants from row k on times the boxes."""
+    """Return the product of four constants, from row k on, with the boxes."""
     return fused(load(c, k + 1), x2, load(c, k) * x1) + fused(load(c, k + 3), v2, load(c, k + 2) * v1)
 
 
 @inlined
 def _inside(limit, w, rate, later, rate_later, third):
-    """Return True where the Bernstein coefficients in the middle are within a limit; third: of the time."""
+    """Return True where the middle Bernstein coefficients are within a limit.
+
+    third: a third of the time.
+    """
     return (abs(fused(third, rate, w)) <= limit) & (abs(fused(-third, rate_later, later)) <= limit)
 
 
 @inlined
 def _may_turn_beyond(most, x, v, later, v_later, third):
-    """Return True where a box turns in a step and a Bernstein coefficient in the middle is beyond most."""
+    """Return True where a box turns in a step and a middle Bernstein coefficient exceeds `most`."""
     return (v * v_later < 0.0) & (_most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > most)
 
 
 @in_place
-def march(runs, c, work, enough):
-    """Carry runs (STATES, 8) with constants (CONSTANTS, 8) on until so many have a step that is not proved; return the
-    number of steps.
+def advance_lanes(runs, c, work, enough):
+    """Advance runs (STATES, 8) with constants (CONSTANTS, 8) until `enough` have an unproved step.
+
+    Returns the number of steps.
     """
     x1, x2, v1, v2 = load(runs, X1), load(runs, X2), load(runs, V1), load(runs, V2)
     y1, y2, u1, u2 = load(runs, Y1), load(runs, Y2), load(runs, U1), load(runs, U2)
@@ -175,10 +181,11 @@ def march(runs, c, work, enough):
 
 
 @in_place
-def meet(runs, c, work, integrals):
-    """Carry pending runs over a step, to an impact or to the end of their flight; return how many must leave the lanes.
+def step_to_event(runs, c, work, integrals):
+    """Advance pending runs over a step, to an impact or to the end of their flight.
 
-    work (2 ORDER + 2, 8): room for polynomials; integrals: how many are observed.
+    Returns the number of runs that must leave the lanes. work (2 ORDER + 2, 8): workspace for polynomials; integrals:
+    number of observed integrals.
     """
     pending, n = load(runs, OUTCOME) == DONE, ORDER + 1
     x1, x2, v1, v2 = load(runs, X1), load(runs, X2), load(runs, V1), load(runs, V2)
@@ -190,7 +197,7 @@ def meet(runs, c, work, integrals):
     on_wall = (due >= 0.0) & ~leaves
     _expand(c, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE), work)
 
-    # when the first ball meets a wall, if it does
+    # time at which the first ball meets a wall
     until = _least(_most(trial, 0.0), reach - passed)
     a1 = x1 - fused(step, u1, y1) + _rough_change(c, 0, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
     a2 = x2 - fused(step, u2, y2) + _rough_change(c, 1, x1, x2, v1, v2, load(runs, SINE), load(runs, COSINE))
@@ -206,7 +213,7 @@ def meet(runs, c, work, integrals):
     missed = (soonest <= until) & ~found
     t = where(on_wall, 0.0, where(found, t, until))
 
-    # the flight until then, and its proof
+    # flight until then, and its proof
     b1, d1 = _at(work, 0, t)
     b2, d2 = _at(work, n, t)
     time = passed + t
@@ -222,7 +229,7 @@ def meet(runs, c, work, integrals):
     ok = (ok & ~missed) | (t == 0.0)
     ok = ok & (meets1 | (abs(b1 - z1) <= 1.0 - rounding)) & (meets2 | (abs(b2 - z2) <= 1.0 - rounding))
 
-    # the impact
+    # impact
     wall = where(on_wall, where(where(one, b1 - z1, b2 - z2) > 0.0, 1.0, -1.0), wall)
     before, rate = where(one, d1, d2), where(one, u1, u2)
     approach = before - rate
@@ -235,8 +242,8 @@ def meet(runs, c, work, integrals):
     e1, e2 = where(meets1, box, d1), where(meets2, box, d2)
     o1, o2 = where(meets1, ball, u1), where(meets2, ball, u2)
 
-    # the next flight
-    phase, tail = ahead(load(runs, PHASE), load(runs, TAIL), load(c, OMEGA), time)
+    # next flight
+    phase, tail = advance_phase(load(runs, PHASE), load(runs, TAIL), load(c, OMEGA), time)
     full, (less, rest) = phase >= TWO_PI, reduced(phase, tail)
     phase, tail, turns = where(full, less, phase), where(full, rest, tail), load(runs, TURNS)
     turns = where(full, turns + 1.0, turns)
@@ -304,7 +311,7 @@ def _replace(runs, mask, row, value):
 
 @inlined
 def _drifted(y, low, u, time):
-    """Return the position of a ball after a time as a pair of floats: flights of equal length round a drift alike."""
+    """Return the position of a ball after a time as a pair of floats, since equal flights round in the same way."""
     way = fused(time, u, low)
     there = y + way
     part = there - y
@@ -350,7 +357,10 @@ def _at(work, first, t):
 
 @inlined
 def _about(work, first, leaves, wall, y, u, step):
-    """Return roughly when a ball meets a wall, by a quadratic and two steps of Newton's method; leaves: it is there."""
+    """Return the approximate time at which a ball meets a wall: a quadratic and two Newton steps.
+
+    leaves: True if the ball is on the wall.
+    """
     c0 = where(leaves, 0.0, 1.0 - wall * (load(work, first) - y))
     c1, c2 = -wall * (load(work, first + 1) - u), -wall * load(work, first + 2)
     root = fused(c1, c1, -4.0 * c0 * c2)
@@ -366,8 +376,10 @@ def _about(work, first, leaves, wall, y, u, step):
 
 @inlined
 def _sharp(work, one, near, speed, t):
-    """Return (the zero of a relative position by two steps of Newton's method from t, True if they converge); one: of
-    module 1; near, speed: its first two coefficients. The first step takes fewer terms: the second corrects it.
+    """Return (the zero of a relative position by two Newton steps from t, True if they converge).
+
+    one: of module 1; near, speed: the first two coefficients of the position. The first step uses fewer terms, since
+    the second corrects it.
     """
     t = t - _newton_step(work, one, near, speed, t, TERMS + 2)
     change = _newton_step(work, one, near, speed, t, ORDER)
@@ -377,7 +389,7 @@ def _sharp(work, one, near, speed, t):
 
 @inlined
 def _newton_step(work, one, near, speed, t, order):
-    """Return the step of Newton's method at t, by the terms up to an order."""
+    """Return the Newton step at t, with the terms up to an order."""
     n = ORDER + 1
     value, slope = where(one, load(work, order), load(work, n + order)), 0.0 * t
     for m in range(order - 1, 1, -1):
@@ -406,9 +418,9 @@ def _sine_and_cosine(phase, tail):
 def _observe(runs, c, work, integrals, flight, hits, early, arrival):
     """Add the statistics of a flight and its impact.
 
-    flight: where there is one, its last step, its time, the error of Hermite's polynomial in that step; hits: where a
-    module has an impact; early: boxes and forcing before the step; arrival: positions of the boxes after it, their
-    velocities before and after the impact, those of the balls, the forcing.
+    flight: mask of the lanes with a flight, its last step, its time, and the error of Hermite's polynomial in that
+    step. hits: mask of the lanes with an impact, per module. early: boxes and forcing before the step. arrival:
+    positions of the boxes after it, their velocities before and after the impact, those of the balls, and the forcing.
     """
     (there, t, time, wrong), (boxes, late, after, balls, forcing) = flight, arrival
     watched, third = (load(runs, WATCHED) > 0.0) & there, t * (1 / 3)
@@ -440,11 +452,12 @@ def _add(runs, mask, place, value):
 
 @inlined
 def _keep_turns(runs, c, work, turns, wrong, early, late, step):
-    """Keep the turns of boxes in a step that may be their largest displacements; find those kept before where it cannot
-    be told which is larger.
+    """Store turns of boxes in a step that may be their largest displacements.
 
-    early, late: boxes and forcing before and after the step; wrong: five times the error of Hermite's polynomial, whose
-    hull is next to it when split where the box turns.
+    A stored turn is computed first if the larger of both is not certain.
+
+    early, late: boxes and forcing before and after the step. wrong: five times the error of Hermite's polynomial, whose
+    hull is close to it if the polynomial is split at the turn.
     """
     wrong = 0.2 * wrong
     for i in range(2):
@@ -471,9 +484,9 @@ def _keep_turns(runs, c, work, turns, wrong, early, late, step):
 
 @in_place
 def find_turns(runs, c, work):
-    """Find the turns that have been kept, by Newton's method and a parabola at last; note the largest displacements.
+    """Compute the stored turns by Newton's method and a final parabola; update the largest displacements.
 
-    Of the polynomials, the first terms are enough for the time of a turn.
+    The first terms of the polynomials suffice for the time of a turn.
     """
     for i in range(2):
         row, first = TURNS_AT + TURN * i, (ORDER + 1) * i

@@ -1,9 +1,9 @@
 """Distances of a run from a change of its event sequence, at every event and every turn.
 
-A turn is where the gap between a ball and a wall, or the force that holds a sticking ball, is least. A flight is cut
-into pieces in which the rate of each constraint certainly keeps its sign, or its rate does, so that it turns once at
-most and the signs at both ends tell. The rates are bounded by their Taylor polynomials and the bound on the seventh
-derivative of the boxes, in the Bernstein basis, as the flight itself was proved (exclusion).
+A turn is a minimum of the gap between a ball and a wall, or of the force that holds a sticking ball. A flight is cut
+into pieces in which the rate of each constraint, or the derivative of this rate, certainly keeps its sign. Then there
+is at most one turn, and the signs at both ends show it. The rates are bounded by their Taylor polynomials and the bound
+on the seventh derivative of the boxes, in the Bernstein basis, as in the proof of the flight (exclusion).
 
 A distance is given in units of the error of the state that would bridge it.
 """
@@ -25,21 +25,23 @@ from vibroimpact.exact.engine.exclusion import (
 )
 from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses, jet, value
 from vibroimpact.exact.engine.motion import PHASE, Motion, drift_balls, mode_of, pair
-from vibroimpact.exact.engine.phase import ahead
+from vibroimpact.exact.engine.phase import advance_phase
 from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, end_of, start_of
 from vibroimpact.system.state import IMPACT, RELEASE
 
-SHORTEST = 1e-9  # in units of the flow: over so short a piece nothing moves by more than rounding
-SHARP = 1e-10  # in units of the flow: a gap is stationary at its turn, so half the digits of the time give all of it
-UNSEEN = 1e-17  # a constraint that is known so well is known to rounding
+SHORTEST = 1e-9  # in units of the flow; shorter pieces move by less than rounding
+SHARP = 1e-10  # in units of the flow; half of the digits of the time suffice, since a gap is stationary at its turn
+UNSEEN = 1e-17  # an uncertainty of a constraint below this is rounding
 MOST_STEPS = 60
 GAP, FORCE, DOUBTS = 0, 1, 2
 
 
 @compiled
 def turning_points(flow, flights):
-    """Return for each flight the least gap and the least force (per unit of ball mass) at a turn, inf if there is none,
-    and the number of turns that rounding decides (DOUBTED): rows (m + 1, 3).
+    """Return the least gap, the least force and the number of doubtful turns of each flight, rows (m + 1, 3).
+
+    Gap and force (per unit of ball mass) are those at turns, inf if there is none. A turn is doubtful if rounding
+    decides it (DOUBTED).
     """
     turns = np.empty((len(flights), 3))
     for n in range(len(flights)):
@@ -50,7 +52,7 @@ def turning_points(flow, flights):
             t = min(left, flow.longest)
             motion = Motion(boxes, balls, walls, (0, 0), math.sin(phase), math.cos(phase))
             boxes, balls = _search(flow, motion, t, turns[n])
-            phase, tail = ahead(phase, tail, flow.coefficients.omega, t)
+            phase, tail = advance_phase(phase, tail, flow.coefficients.omega, t)
             left -= t
     return turns
 
@@ -92,8 +94,8 @@ def _search(flow, motion, length, least_of):
 def _rate(q, jets, boxes, balls, walls, i, bound):
     """Return the rate of module i's constraint up to the sign of the wall: (polynomial (8,), bounds (8,) on its error).
 
-    The constraint is the gap of a flying ball, the acceleration of the box of a sticking one. A rate that vanishes
-    within rounding, together with the rate of its own, is that of a ball just released.
+    The constraint is the gap of a flying ball, the acceleration of the box of a sticking one. If the
+    rate and its derivative vanish within rounding, the ball was just released.
     """
     p = jets[0] if i == 0 else jets[1]
     if walls[i] != 0:
@@ -143,11 +145,11 @@ def _rate_at(q, walls, boxes, balls, sine, cosine, i):
 
 @inlined_source
 def _note(flow, motion, i, times, rates, least_of):
-    """Find the turn of module i between two times of a flight, given the rates there; record it if it is a minimum."""
+    """Find the turn of module i between two times of a flight, given the rates there; record a minimum."""
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
     (low, high), (early, late) = times, rates
     t = low + (high - low) * abs(early) / (abs(early) + abs(late))
-    for _ in range(MOST_STEPS):  # Newton on the rate, kept between the ends
+    for _ in range(MOST_STEPS):  # Newton's method on the rate, safeguarded by the bracket
         x, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, t)
         jets = jet(q, mode, x, s, c)
         p = jets[0] if i == 0 else jets[1]
@@ -179,8 +181,10 @@ DEPTH, DOUBT = 0, 1
 
 @compiled
 def hits_of(q, flights, events):
-    """For each event (m, 2): of an impact the depth that it cut off, u^2 / (2 b) for a speed u and a braking b (inf
-    where nothing brakes), and whether rounding decides it (DOUBTED); else inf and 0.
+    """Return the prevented depth and the doubt of each event, rows (m, 2).
+
+    An impact at speed u under the deceleration b prevents the depth u^2 / (2 b), inf if nothing decelerates the ball.
+    The doubt is 1 if rounding decides it (DOUBTED). Other events have inf and 0.
     """
     hits = np.empty((len(events), 2))
     for n in range(len(events)):
@@ -201,9 +205,9 @@ def hits_of(q, flights, events):
 def margins_of(q, flights, turns, hits, events, start_phase, duration):
     """Return the least margin of each flight, in units of the error at its start and at its end: rows (m + 1, 2).
 
-    At the start of the run a ball must be on a wall or off it, and its motion must say whether it stays. A flight must
-    keep its turns (turning_points), and its event its depth (hits_of) and its distance from the end of the run. An
-    impact must leave no doubt whether it releases the other ball. At the end no event may be about to happen.
+    Margins are distances from: another contact state at the start of the run; another number of turns of a flight
+    (turning_points); a miss instead of an event (hits_of), or an event after the end of the run; a different effect of
+    an impact on the other ball; and a further event just after the end.
     """
     margins = np.full((len(flights), 2), math.inf)
     for n in range(len(flights)):
@@ -239,13 +243,13 @@ def _of_event(q, walls, boxes, balls, events, n, left):
     """Return the distance of an event from the end of the run, a given time later; for a release, at most its depth."""
     i, wall, kind, phase = int(events[n, 1]) - 1, events[n, 2], events[n, 3], events[n, PHASE]
     force = wall * box_accelerations(q, walls, boxes, math.sin(phase))[i]
-    if kind == IMPACT:  # by then the ball would be so far beyond the wall
+    if kind == IMPACT:  # distance of the ball beyond the wall by then
         return left * (wall * (boxes[2 + i] - balls[2 + i]) + 0.5 * left * max(force, 0.0))
     if kind == RELEASE:
         change, bend = _changes(q, walls, boxes, phase, i)
         depth = 0.5 * change * change / (wall * bend) if wall * bend > 0.0 else math.inf
         return min(left * abs(change), depth) / _force_weight(q, walls, i)
-    if completes_chatter(events, n):  # it ends after 2 u / (a (1 - kappa))
+    if completes_chatter(events, n):  # the chatter ends after 2 u / (a (1 - kappa))
         return 0.5 * left * force * (1.0 - q.kappa)
     return math.inf
 
@@ -265,8 +269,9 @@ def _at_start(q, boxes, balls, phase):
 
 @inlined_source
 def _at_end(q, walls, boxes, balls, phase):
-    """Return the distance of the end from the next event: of a ball approaching a wall, or of one that is held less and
-    less.
+    """Return the distance of the end from the next event.
+
+    The event is that of a ball approaching a wall, or of a sticking ball whose contact force decreases.
     """
     margin = math.inf
     for i in range(2):

@@ -1,8 +1,8 @@
 """State of a motion in compiled code, its free flight, and the table of its events.
 
-A row of the table is [time since the start, module, wall, kind, state after, forcing phase when it was noted, approach,
-sine and cosine of the phase]; the stick that completes a chatter is noted at the chatter's last simulated impact. A
-counters holds what the certificate needs besides.
+A row of the table is [time since the start, module, wall, kind, state after, forcing phase when it was recorded,
+approach, sine and cosine of the phase]. The stick that completes a chatter is recorded at the last simulated impact of
+the chatter. Counters hold the other data that the certificate needs.
 """
 
 from typing import NamedTuple
@@ -14,10 +14,10 @@ from vibroimpact.exact.engine.flow import advance
 
 
 class Motion(NamedTuple):
-    """The state at one instant of a run.
+    """State at one instant of a run.
 
-    boxes (X1, X2, X1', X2'); balls (Y1, Y2, Y1', Y2'); for each module walls, the wall that its ball sticks to, and
-    touching, the wall that it touches, moving inwards or at rest, or 0; sine and cosine of the forcing phase.
+    boxes: (X1, X2, X1', X2'); balls: (Y1, Y2, Y1', Y2'). walls: for each module, the wall that its ball sticks to, or
+    0. touching: the wall that it touches, moving inwards or at rest, or 0. sine, cosine: of the forcing phase.
     """
 
     boxes: tuple[float, float, float, float]
@@ -67,7 +67,7 @@ def with_contacts(motion, i, wall, touching):
 
 @inlined
 def drift_balls(balls, walls, boxes, t):
-    """Return the balls a time t after the start of a flight; the boxes are there already."""
+    """Return the balls a time t after the start of a flight, given the boxes at that time."""
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
         y1, v1 = boxes[0] - walls[0], boxes[2]
@@ -78,33 +78,36 @@ def drift_balls(balls, walls, boxes, t):
 
 @inlined
 def free_flight(flow, motion, t):
-    """Return the motion a time t later, without an event in between; only sticking balls touch a wall."""
+    """Return the motion a time t later if there is no event in between.
+
+    Only sticking balls touch a wall then.
+    """
     boxes, sine, cosine = advance(flow, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine, t)
     return Motion(boxes, drift_balls(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
 
 
 EVENTS, FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
-"""Entries of a run's counters: five counts, the largest |W| - 1 at an impact, the sum of what completed chatters
-neglect; and their number."""
+"""Indices of a run's counters: five counts, the largest |W| - 1 at an impact, and the sum of the changes neglected by
+completed chatters; and the number of entries."""
 
 
 class Log(NamedTuple):
-    """Rows of events (n, ROW), of which the counters (ENTRIES,) counts the used ones."""
+    """Rows of events (n, ROW); the counters (ENTRIES,) hold the number of rows in use."""
 
     rows: np.ndarray
     counters: np.ndarray
 
 
 TIME, MODULE, WALL, KIND = range(4)
-PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # places in a row, and its length
+PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # indices in a row, and its length
 
 
 @inlined
 def record(log, time, i, wall, kind, boxes, balls, approach):
     """Write an event of module i (0, 1), without its phase.
 
-    approach: the relative velocity before an impact; the speed with which the last rebound of a completed chatter
-    starts, at its stick; else 0.
+    approach: the relative velocity before an impact; for the stick of a completed chatter, the speed after its last
+    rebound; else 0.
     """
     row = log.rows[int(log.counters[EVENTS])]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind

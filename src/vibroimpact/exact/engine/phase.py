@@ -1,4 +1,4 @@
-"""The forcing phase Omega tau: reduced exactly at the start of a run, advanced without loss, returned exactly."""
+"""Forcing phase Omega tau, reduced exactly at the start of a run and advanced without loss of digits."""
 
 import math
 from dataclasses import dataclass
@@ -17,17 +17,22 @@ QUARTER = 0.5 * math.pi
 QUARTER_TAIL = 0.25 * TWO_PI_TAIL
 SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(1, 8))
 COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(2, 9))
-"""Taylor coefficients of the sine from the third power on, of the cosine from the fourth."""
+"""Taylor coefficients of the sine from the third power on, and of the cosine from the fourth."""
 _GUARD_BITS = 192
 
 
 @dataclass(frozen=True)
 class Instant:
-    """The exact time offset + 2 pi turns, both rational: the end of a run over a whole number of cycles.
+    """Exact time offset + 2 pi turns with rational offset and turns, such as the end of a run.
 
-    reached: True if it is the end of a run, so that a run from there continues it.
+    `float` returns the nearest float.
 
-    `float` gives the nearest float.
+    Attributes
+    ----------
+    offset, turns : Fraction
+        Terms of the time.
+    reached : bool
+        True if this is the end of a run, so that a run from there continues it.
     """
 
     offset: Fraction
@@ -35,7 +40,7 @@ class Instant:
     reached: bool = False
 
     def later(self, cycles: int, omega: float) -> "Instant":
-        """Return the time a number of periods 2 pi / omega later, as reached by a run."""
+        """Return the time a number of periods 2 pi / omega later, as the end of a run."""
         return Instant(self.offset, self.turns + Fraction(cycles) / Fraction(omega), reached=True)
 
     def __float__(self):
@@ -48,13 +53,13 @@ def exactly(tau: float | Instant) -> Instant:
 
 
 def continues(begin: float | Instant) -> bool:
-    """Return True if a run from this time continues another, in which balls at rest on a wall stick already."""
+    """Return True if a run from this time continues another, so that balls at rest on a wall already stick."""
     return isinstance(begin, Instant) and begin.reached
 
 
 @lru_cache(maxsize=1024)
 def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
-    """Return the phase omega tau modulo 2 pi, as a float in [0, 2 pi) and the rest."""
+    """Return the phase omega tau modulo 2 pi as a float in [0, 2 pi) and the remainder."""
     instant = exactly(tau)
     part, turns = Fraction(omega) * instant.offset, Fraction(omega) * instant.turns % 1
     two_pi = _two_pi(_digits(part))
@@ -64,7 +69,7 @@ def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
 
 
 def _digits(value):
-    """Return the number of bits of 2 pi that leaves guard bits behind the point after so many turns."""
+    """Return the number of bits of 2 pi needed for guard bits behind the binary point after these turns."""
     return _GUARD_BITS + max(math.ceil(abs(value)).bit_length(), 0)
 
 
@@ -99,15 +104,15 @@ def fused(_, a, b, c):
 if config.DISABLE_JIT:
 
     def fused(*_):
-        """Raise RuntimeError: nothing but compiled code rounds a b + c once."""
-        raise RuntimeError("NUMBA_DISABLE_JIT is set: the simulation works compiled only; unset it")
+        """Raise RuntimeError, since only compiled code rounds a b + c once."""
+        raise RuntimeError("the simulation requires compiled code; unset NUMBA_DISABLE_JIT")
 
 
 @inlined
 def sine_and_cosine(phase, tail):
-    """Return sine and cosine of a phase in [0, 2 pi] plus its rest, to a unit in the last place, on every machine.
+    """Return sine and cosine of a phase in [0, 2 pi] plus its remainder, to a unit in the last place.
 
-    The Taylor series over the eighth of a turn next to the nearest quarter.
+    The Taylor series over the eighth of a turn next to the nearest quarter gives the same bits on every machine.
     """
     quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
     x, y = fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
@@ -119,7 +124,7 @@ def sine_and_cosine(phase, tail):
 
 @inlined
 def sine_and_cosine_near(x, y):
-    """Return sine and cosine of an angle within an eighth of a turn of 0, plus its rest."""
+    """Return sine and cosine of an angle within an eighth of a turn of 0, plus its remainder."""
     z = x * x
     half = 0.5 * z
     one = 1.0 - half
@@ -130,15 +135,18 @@ def sine_and_cosine_near(x, y):
 
 @inlined
 def _series(c, z):
-    """Return a polynomial of degree 6, c (7,), at z; in pairs, which do not wait for each other."""
+    """Return a polynomial of degree 6, c (7,), at z; in independent pairs."""
     w = z * z
     upper = fused(w, fused(w, c[6], fused(z, c[5], c[4])), fused(z, c[3], c[2]))
     return fused(w, upper, fused(z, c[1], c[0]))
 
 
 @inlined
-def ahead(phase, tail, omega, t):
-    """Return the phase a time t later, not reduced; rounding errors of product and sum go to the tail."""
+def advance_phase(phase, tail, omega, t):
+    """Return the phase a time t later, not reduced.
+
+    Rounding errors of product and sum go to the tail.
+    """
     step = omega * t
     total = phase + step
     part = total - phase
@@ -147,7 +155,7 @@ def ahead(phase, tail, omega, t):
 
 @inlined
 def reduced(phase, tail):
-    """Return a phase less a full turn, with a small tail again."""
+    """Return a phase reduced by a full turn, with its tail made small again."""
     phase, tail = phase - TWO_PI, tail - TWO_PI_TAIL
     total = phase + tail
     part = total - phase

@@ -1,4 +1,4 @@
-"""Flights of a finished run, computed again from the table of its events."""
+"""Recompute the flights of a finished run from the table of its events."""
 
 import math
 from typing import NamedTuple
@@ -9,20 +9,20 @@ from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.contact import common_velocity
 from vibroimpact.exact.engine.flow import advance
 from vibroimpact.exact.engine.motion import APPROACH, PHASE, drift_balls, mode_of, pair, with_velocity
-from vibroimpact.exact.engine.phase import TWO_PI, ahead
+from vibroimpact.exact.engine.phase import TWO_PI, advance_phase
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 LENGTH, WALLS, FORCING, BEFORE, AFTER, COLUMNS = 0, 1, 3, 4, 12, 20
-"""Places in a flight's row: its length, the wall (or 0) each ball sticks to, the forcing phase and the state (8,) at
-its start, the state (8,) at its end. States are ordered [boxes, balls]."""
+"""Indices in a flight's row: its length, the wall (or 0) that each ball sticks to, the forcing phase and the state (8,)
+at its start, the state (8,) at its end. States are ordered [boxes, balls]."""
 
 
 @compiled
 def replayed(flow, start, events, start_phase, duration):
-    """Return the flights of a run, rows (m + 1, COLUMNS): one before each event (rows of the log), one to its end.
+    """Return the flights of a run, rows (m + 1, COLUMNS): one before each event and one to the end.
 
-    start (8,) in public order. The flight before the stick that completes a chatter is empty: it is carried out at the
-    chatter's last impact, ahead of the time it ends.
+    The events are rows of the log; start (8,) is in public order. The flight before the stick that completes a chatter
+    is empty, because the stick is applied at the last impact of the chatter, ahead of its time.
     """
     flights = departures(flow.coefficients, start, events, start_phase, duration)
     for n in range(len(flights)):
@@ -66,14 +66,14 @@ def first_departure(start, phase):
 
 @inlined
 def next_departure(q, events, n, leaving, end):
-    """Return the departure after event n; after the last, with the time and phase of the end of the run."""
+    """Return the departure after event n; after the last one, with time and phase of the end of the run."""
     if n == len(events):
         return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
     event, walls = events[n], leaving.walls
     i = int(event[1]) - 1
     if event[3] != IMPACT:
         walls = pair(walls, i, int(event[2]) if event[3] == STICK else 0)
-    if completes_chatter(events, n):  # box and ball go on together
+    if completes_chatter(events, n):  # box and ball move together from here on
         boxes, balls = leaving.boxes, leaving.balls
         common = common_velocity(q, boxes[2 + i], balls[2 + i])
         boxes, balls = with_velocity(boxes, i, common), with_velocity(balls, i, common)
@@ -84,21 +84,21 @@ def next_departure(q, events, n, leaving, end):
 
 @inlined_source
 def _length(q, lapse, turned):
-    """Return the time between two events, with the digits of the difference of their phases."""
+    """Return the time between two events, as accurate as the difference of their phases."""
     more = turned - q.omega * lapse
     return max(lapse + (more - TWO_PI * math.floor(more / TWO_PI + 0.5)) / q.omega, 0.0)
 
 
 @inlined_source
 def land(flow, flight):
-    """Fill in the state at the end of a flight."""
+    """Write the state at the end of a flight."""
     boxes, balls, walls = start_of(flight)
     left, phase, tail = flight[LENGTH], flight[FORCING], 0.0
     while left > 0.0:
         t = min(left, flow.longest)
         later, _, _ = advance(flow, mode_of(walls), boxes, math.sin(phase), math.cos(phase), t)
         boxes, balls = later, drift_balls(balls, walls, later, t)
-        phase, tail = ahead(phase, tail, flow.coefficients.omega, t)
+        phase, tail = advance_phase(phase, tail, flow.coefficients.omega, t)
         left -= t
     for k in range(4):
         flight[AFTER + k], flight[AFTER + 4 + k] = boxes[k], balls[k]

@@ -1,4 +1,4 @@
-"""Direct integration of the equations of motion, (10.1) in the form (10.2), and the checks of its arguments."""
+"""Simulate single motions of (10.2), the dimensionless form of (10.1)."""
 
 import math
 import numbers
@@ -14,13 +14,13 @@ from vibroimpact import frames
 from vibroimpact.exact.engine import event_loop as kernel
 from vibroimpact.exact.engine import motion
 from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_given_up
-from vibroimpact.exact.engine.certificate import KNOWN, Certificate, errors_at
+from vibroimpact.exact.engine.certificate import HORIZON_ERROR, Certificate, errors_at
 from vibroimpact.exact.engine.energy import Energy
 from vibroimpact.exact.engine.flow import flow_of, tables_of
-from vibroimpact.exact.engine.observation import rests_at_start
 from vibroimpact.exact.engine.phase import TWO_PI, Instant, continues, exactly, phase_at
 from vibroimpact.exact.engine.replay import replayed
-from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, carried
+from vibroimpact.exact.engine.statistics import rests_at_start
+from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, propagate
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, real, reals, short_repr, whole
 from vibroimpact.system.representation import Representation, brief
@@ -28,11 +28,11 @@ from vibroimpact.system.state import EVENT, KINDS, states_array
 
 NO_TIMES = np.empty(0)
 LATEST = 2.0**43
-"""Beyond this time floats are more than 1e-3 apart, too far to represent events."""
+"""Largest time: beyond it, floats are more than 1e-3 apart and cannot represent events."""
 MOST_CYCLES = 10_000_000
-"""Most cycles of one run, which holds all its events: about a kilobyte per cycle."""
+"""Largest number of cycles of one run, which stores all its events: about a kilobyte per cycle."""
 ROUNDED = 1e-12
-"""Largest distance beyond a wall (plus rounding of the positions) of an initial state; the ball is put on the wall."""
+"""Largest distance of a ball beyond a wall in an initial state (plus rounding); the ball is put on the wall."""
 
 
 def checked_state(state) -> np.ndarray:
@@ -41,7 +41,7 @@ def checked_state(state) -> np.ndarray:
     Raises
     ------
     ValueError
-        If it is none.
+        If the state is invalid.
     """
     state = states_array("state", state)
     values = state.tolist()
@@ -79,7 +79,7 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
     Raises
     ------
     ValueError
-        If one of them is malformed, or the run leaves the range of times.
+        If an argument is malformed, or if the run exceeds the range of times.
     """
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     begin = _instant(tau0)
@@ -88,8 +88,8 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
     if not (abs(start) < LATEST and abs(end) < LATEST):
         name, tau = ("cycles", end) if abs(start) < LATEST else ("tau0", start)
         raise ValueError(
-            f"{name}: takes the run to tau = {tau}; from 2**43 on floats are more than 1e-3 apart and cannot tell "
-            "its times (the forcing is the same whole periods earlier)"
+            f"{name}: the run reaches tau = {tau}; times must stay below 2**43, where floats are 1e-3 apart "
+            "(start whole forcing periods earlier instead)"
         )
     return begin, cycles
 
@@ -108,7 +108,7 @@ def checked_times(name, times, start, end) -> np.ndarray:
     Raises
     ------
     ValueError
-        If they are not ascending, not finite or not within the run.
+        If the times are not ascending, not finite or not within the run.
     """
     times = reals(name, times)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
@@ -123,14 +123,24 @@ def checked_times(name, times, start, end) -> np.ndarray:
 class Run(Representation):
     """A simulated motion.
 
-    system, start, cycles: as given; begin: exact time of the start.
-    events: (m,) structured array (EVENT) in the order of time, with the fields tau; module, 1 or 2; wall, +1 where
-        X_i - Y_i = 1 or -1; kind, a key of KINDS: 0 an impact, 1 the ball comes to rest on the wall (stick), 2 it
-        leaves it (release); state, (8,), just after the event.
-    samples: (n, 8) states at the sample times, at an event the state after it; final: (8,) state at the end.
-    pieces, counters: rows of events and counts of the kernel (`motion`).
-
     States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless. Arrays are read-only.
+
+    Attributes
+    ----------
+    system : System
+        Parameters of the run.
+    start : ndarray
+        Initial state, shape (8,).
+    begin : float or Instant
+        Exact time of the start.
+    cycles : int
+        Number of forcing periods.
+    samples : ndarray
+        States at the sample times, shape (n, 8); at an event, the state after it.
+    final : ndarray
+        State at the end, shape (8,).
+    pieces, counters : list of ndarray, ndarray
+        Rows of events and counts of the engine (`vibroimpact.exact.engine.motion`).
     """
 
     system: System
@@ -143,14 +153,14 @@ class Run(Representation):
     counters: np.ndarray
 
     def __init__(self, system, start, begin, cycles, samples, final, pieces, counters):
-        fields = self.__dict__  # at once, in half of the time that a frozen class takes for one after another
+        fields = self.__dict__  # one update takes half of the time of single assignments to a frozen class
         fields.update(system=system, start=start, begin=begin, cycles=cycles)
         fields.update(samples=samples, final=final, pieces=pieces, counters=counters)
         for array in (start, samples, final, counters):
             array.flags.writeable = False
 
     def __reduce__(self):
-        """Make a copy or an unpickled run anew, since NumPy forgets that an array is read-only."""
+        """Rebuild a copied or unpickled run, because NumPy does not keep the read-only flag of arrays."""
         given = self.system, self.start, self.begin, self.cycles, self.samples, self.final, self.pieces, self.counters
         return type(self), given
 
@@ -166,7 +176,7 @@ class Run(Representation):
 
     @cached_property
     def rows(self) -> np.ndarray:
-        """Events of the kernel (n, ROW), joined into one array."""
+        """Rows of events of the engine, joined into one array (n, ROW)."""
         rows = self.pieces[0] if len(self.pieces) == 1 else np.concatenate(self.pieces)
         self.pieces[:] = [rows]
         rows.flags.writeable = False
@@ -174,8 +184,13 @@ class Run(Representation):
 
     @cached_property
     def events(self) -> np.ndarray:
+        """Events in order of time, a structured array (m,) of type EVENT.
+
+        Fields: tau; module, 1 or 2; wall, +1 or -1 (X_i - Y_i = +1 or -1); kind, a key of KINDS (0: impact, 1: stick,
+        the ball comes to rest on the wall, 2: release, it leaves the wall); state, (8,), just after the event.
+        """
         rows = self.rows
-        if continues(self.begin):  # the sticks of balls at rest on their walls are events of the run before
+        if continues(self.begin):  # balls at rest on a wall stuck in the previous run already
             again = [n for n in range(min(kernel.MOST_AT_ONCE, len(rows))) if rests_at_start.py_func(rows, n)]
             rows = np.delete(rows, again, axis=0)
         table = np.empty(len(rows), EVENT)
@@ -188,24 +203,41 @@ class Run(Representation):
 
     @property
     def tau0(self) -> float:
-        """Time of the start, as a float."""
+        """Time of the start, rounded to a float."""
         return float(self.begin)
 
     @property
     def end(self) -> Instant:
-        """Exact time of the final state; a run from there with tau0=run.end continues in the same forcing phase."""
+        """Exact time of the final state.
+
+        A run from `final` with tau0=run.end continues this one in the same forcing phase.
+        """
         return exactly(self.begin).later(self.cycles, self.system.Omega)
 
     @cached_property
     def jacobian(self) -> np.ndarray:
-        """Derivative of the final state by the initial one, shape (8, 8), through impacts, chatters and releases."""
+        """Derivative of the final state with respect to the initial state, shape (8, 8).
+
+        It passes through impacts, chatter, sticking and releases.
+        """
         jacobian = self.carry(np.eye(8))
         jacobian.flags.writeable = False
         return jacobian
 
     def carry(self, perturbations: np.ndarray) -> np.ndarray:
-        """Return perturbations (8, k) of the initial state carried to the final one, to first order."""
-        return carried(*self.trajectory, perturbations[INNER_ORDER])[PUBLIC_ORDER]
+        """Return perturbations (8, k) of the initial state, propagated to the final state to first order.
+
+        Parameters
+        ----------
+        perturbations : ndarray
+            Perturbations as columns, shape (8, k).
+
+        Returns
+        -------
+        ndarray
+            Perturbations of the final state, shape (8, k).
+        """
+        return propagate(*self.trajectory, perturbations[INNER_ORDER])[PUBLIC_ORDER]
 
     @cached_property
     def certificate(self) -> Certificate:
@@ -214,52 +246,72 @@ class Run(Representation):
 
     @cached_property
     def energy(self) -> Energy:
-        """Energy balance, over the run and in every cycle."""
+        """Energy balance over the run and in every cycle."""
         return Energy.of(self)
 
     def errors(self, times: ArrayLike) -> np.ndarray:
-        """Return estimated errors (n,) of the states at some times, as `certificate.error` is for the final one.
+        """Return estimated errors (n,) of the states at given times.
+
+        The estimate at the end of the run is `certificate.error`.
 
         Parameters
         ----------
         times : array_like
-            Ascending tau within the run.
+            Ascending times tau within the run, shape (n,).
+
+        Returns
+        -------
+        ndarray
+            Root mean square errors, shape (n,); inf beyond the horizon.
 
         Raises
         ------
         ValueError
-            If they are not.
+            If the times are not ascending or not within the run.
         """
         begin = self.tau0
         times = checked_times("times", times, begin, begin + self.cycles * self.system.period)
-        return errors_at(*self.trajectory, times - begin, KNOWN)
+        return errors_at(*self.trajectory, times - begin, HORIZON_ERROR)
 
     def to_frame(self):
-        """Return the events as a pandas DataFrame: tau, module, wall, kind in words, and the state after each."""
+        """Return the events as a pandas DataFrame: tau, module, wall, kind as text, and the state after each event."""
         return frames.of_run(self)
 
     def section(self, phase: float = 0.0) -> np.ndarray:
-        """Return states (n, 8) where the forcing phase Omega tau is `phase` [rad], one in each cycle.
+        """Return the states at a forcing phase, one per cycle (a stroboscopic Poincare section).
 
-        A stroboscopic Poincare section; the motion is computed once more.
+        The motion is computed again.
+
+        Parameters
+        ----------
+        phase : float, default 0.0
+            Forcing phase Omega tau [rad].
+
+        Returns
+        -------
+        ndarray
+            States, shape (n, 8).
         """
         system, phase = self.system, real("phase", phase)
         (wanted, part), (begin, tail) = phase_at(phase, 1.0), phase_at(self.begin, system.Omega)
         ahead = ((wanted - begin) + (part - tail)) % TWO_PI
-        # A start that is a float, or continues a run from one, may be meant as whole periods from tau = 0.
+        # A start given as a float may stand for whole periods from tau = 0.
         rounding = math.ulp(max(abs(phase), TWO_PI)) + system.Omega * math.ulp(self.tau0)
         at_start = min(ahead, TWO_PI - ahead) <= 2.0 * rounding
         cycles = np.arange(self.cycles + at_start)
         return self._sampled(system.period * cycles + (0.0 if at_start else ahead / system.Omega))
 
     def plot(self):
-        """Return a Matplotlib Figure of X_i and W_i = X_i - Y_i between its walls; the motion is computed again."""
+        """Return a Matplotlib Figure of X_i, and of W_i = X_i - Y_i between the walls.
+
+        The motion is computed again.
+        """
         since = frames.plot_times(self)
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
-        """Return the states at some times since the start, which lose no digits far from tau = 0."""
-        start = self.start.copy()  # for a read-only array the engine would be compiled anew
+        """Return the states at given times since the start; such times lose no digits far from tau = 0."""
+        start = self.start.copy()  # a read-only array would trigger another compilation
         return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
 
     @cached_property
@@ -277,39 +329,52 @@ def simulate(
     tau0: float | Fraction | Instant = 0.0,
     sample_times: ArrayLike | None = None,
 ) -> Run:
-    """Integrate the exact system over a number of forcing cycles, impacts, chatter, sticking and release included.
+    """Integrate the exact system over a number of forcing cycles.
+
+    Impacts, chatter, sticking and release are included. Between events the flow is evaluated in closed form, without
+    time steps.
 
     Parameters
     ----------
     system : System
-        Parameters.
+        Dimensionless parameters.
     state : array_like or mapping
-        (8,) start [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], dimensionless; or with these by name, in any order: a mapping,
-        or a row of a table as `to_frame` makes them.
+        Initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), dimensionless; or these components by name, as a
+        mapping or a row of a table from `to_frame`.
     cycles : int
-        Forcing periods to run, a whole number from 0 to ten million, since a run holds all its events; a longer motion
-        is a run from `run.final` with tau0=run.end.
+        Forcing periods to run, from 0 to ten million, since a run stores all its events. To continue a run, start from
+        `run.final` with tau0=run.end.
     tau0 : float, Fraction or Instant, default 0.0
-        Dimensionless time of the start, taken exactly (it sets the forcing phase): a real number, a fraction, or the
-        end of a run, `run.end`, which this run then continues: a ball at rest on a wall sticks there already, and this
-        is no event again. |tau0| and the end stay below 2**43, where floats still tell times apart.
+        Dimensionless initial time, which sets the forcing phase; taken exactly. With `run.end`, the run continues
+        another one: a ball at rest on a wall sticks already, without a new event. |tau0| and the end must stay below
+        2**43.
     sample_times : array_like, optional
-        Ascending tau in [tau0, tau0 + cycles * system.period]; none by default.
+        Ascending times tau in [tau0, tau0 + cycles * system.period] at which to record states.
 
     Returns
     -------
     Run
-        The Run: its events, samples and final state. `run.certificate`, `run.energy` and `run.jacobian`, the derivative
-        of the final state, are computed on first access. On a new machine the first run waits for the compilation of
-        the engine, with a notice; `python -m vibroimpact.compile` does that beforehand.
+        Events, samples and final state. `run.certificate`, `run.energy` and `run.jacobian`, the derivative of the final
+        state, are computed on first access.
 
     Raises
     ------
     ValueError
-        If an argument is malformed, the start has a ball beyond a wall (|X_i - Y_i| > 1), or names of other components.
+        If an argument is malformed, or if the initial state has a ball beyond a wall (|X_i - Y_i| > 1).
     ArithmeticError
-        If an invariant of the motion broke (a ball went through a wall, or time stood still), or there were too many
-        events (more than a million and ten thousand for every cycle) or exclusions (docs/engine.md).
+        If an invariant of the motion is violated (a ball passes through a wall, or time does not advance), or if there
+        are too many events (more than a million plus ten thousand per cycle) or exclusions (docs/engine.md).
+
+    Notes
+    -----
+    On a new machine the first run waits for the compilation of the engine, with a notice; run `python -m
+    vibroimpact.compile` in advance to avoid that.
+
+    Examples
+    --------
+    >>> run = vi.simulate(system, [0.0] * 8, cycles=100)
+    >>> run.final.shape
+    (8,)
     """
     instance("system", system, System)
     state = checked_state(state)
@@ -324,33 +389,43 @@ def simulate(
 def simulate_many(
     system: System, states: ArrayLike, cycles: int, tau0: float | Fraction | Instant = 0.0, progress: bool = False
 ) -> list[Run]:
-    """Simulate from many starts on all cores; every run equals its `simulate` bit by bit.
+    """Simulate from many initial states on all cores.
+
+    Every run equals its `simulate` bit by bit.
 
     Parameters
     ----------
     system : System
-        Parameters.
+        Dimensionless parameters.
     states : array_like
-        (n, 8) starts, each as for `simulate`, or a table with their columns by name.
+        Initial states, shape (n, 8), each as for `simulate`; or a table with their columns by name.
     cycles, tau0
         As for `simulate`.
     progress : bool, default False
-        Report on standard error, about once a second.
+        Report progress on standard error about once a second.
 
     Returns
     -------
     list of Run
-        One Run for each start, in their order.
+        One run per initial state, in order.
 
     Raises
     ------
     ValueError
-        If an argument is malformed or a start inadmissible (its row is named).
+        If an argument is malformed, or if an initial state is invalid (the message names its row).
     ArithmeticError
-        If an invariant broke in one of the runs.
+        If an invariant is violated in one of the runs.
+
+    Examples
+    --------
+    >>> runs = vi.simulate_many(system, np.zeros((4, 8)), cycles=10)
+    >>> len(runs)
+    4
     """
     instance("system", system, System)
-    states = np.ascontiguousarray(states_array("states", states))  # rows of another order would be compiled for anew
+    states = np.ascontiguousarray(
+        states_array("states", states)
+    )  # another memory order would trigger another compilation
     if states.ndim != 2 or states.shape[1] != 8:
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     for row, state in enumerate(states):
@@ -359,13 +434,16 @@ def simulate_many(
         except ValueError as error:
             raise ValueError(f"states[{row}]: {error}") from None
     begin, cycles = checked_window(system, cycles, tau0)
-    tables_of(system)  # built once, before the threads share it
+    tables_of(system)  # build the tables once, before the threads share them
     pieces = [(system, state, cycles, begin, NO_TIMES, 0.0) for state in states]
     return on_all_cores(_run, pieces, [1] * len(pieces), progress)
 
 
 def _run(system, state, cycles, begin, times, clock):
-    """Return one run from checked arguments; the sample times are on a clock that shows `clock` at the start."""
+    """Return one run from checked arguments.
+
+    Sample times are on a clock that shows `clock` at the start.
+    """
     status, run = attempt(system, state, cycles, begin, times, clock)
     if status != kernel.FINISHED:
         number, time = len(run.rows), run.rows[-1, 0] if len(run.rows) else 0.0
@@ -374,7 +452,7 @@ def _run(system, state, cycles, begin, times, clock):
 
 
 def attempt(system, state, cycles, begin, times, clock):
-    """Return (status, the run as far as it came) from checked arguments."""
+    """Return (status, the run up to its end or failure) from checked arguments."""
     samples, final = np.empty((len(times), 8)), np.empty(8)
     (rows, counters, checkpoint), pieces = kernel.memory(cycles), []
     given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, clock, times, samples, final

@@ -1,9 +1,9 @@
-"""Variational flow: small perturbations of the state along the flights and events of a run.
+"""Variational flow: propagate perturbations of the state along the flights and events of a run.
 
-Perturbations pass a flight by its linear flow, an impact by its saltation matrix, a release by continuity (the force
-vanishes there) or together with the impact that forces it, and a completed chatter by the derivative of its completion:
-the infinitely many saltations it stands for are never multiplied out. Inside, states are ordered [boxes, balls];
-PUBLIC_ORDER and INNER_ORDER are where both orders meet. `growth` counts sticking in the same pass.
+Perturbations pass a flight by its linear flow and an impact by its saltation matrix. They pass a release by continuity
+(the force vanishes there), or together with the impact that forces it. They pass a completed chatter by the derivative
+of its completion, without multiplying infinitely many saltation matrices. In this module states are ordered
+[boxes, balls]; PUBLIC_ORDER and INNER_ORDER convert. `growth` counts sticking in the same pass.
 """
 
 import math
@@ -13,22 +13,23 @@ import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined
 from vibroimpact.exact.engine.contact import impact
-from vibroimpact.exact.engine.flow import acceleration, along, inverse_masses
+from vibroimpact.exact.engine.flow import acceleration, evaluate, inverse_masses
 from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.exact.engine.motion import APPROACH, PHASE, mode_of
 from vibroimpact.exact.engine.replay import AFTER, BEFORE, LENGTH, WALLS, completes_chatter, start_of, walls_after
 from vibroimpact.system.state import IMPACT, STICK, takes_part
 
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
-"""Places in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+"""Indices in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
 INNER_ORDER = np.argsort(PUBLIC_ORDER)
 
 
 @compiled
-def carried(flow, flights, events, total):
-    """Return perturbations (8, k) of the initial state of a run carried to its end, in the order [boxes, balls].
+def propagate(flow, flights, events, total):
+    """Return perturbations (8, k) of the initial state, propagated to the end of a run.
 
-    From the run's flights (replayed) and its events (`motion`); what is given is overwritten.
+    The order is [boxes, balls]. The flights are those of `replayed`, the events rows of `motion`; the given array is
+    overwritten.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(total)
     for n in range(len(flights)):
@@ -45,7 +46,7 @@ def carried(flow, flights, events, total):
 
 @compiled
 def fill_product(matrix, vectors, product):
-    """Fill in the product with (8, k) vectors; BLAS takes longer to prepare at this size."""
+    """Write the product with (8, k) vectors; at this size BLAS has too much overhead."""
     for row in range(8):
         for column in range(vectors.shape[1]):
             total = 0.0
@@ -56,7 +57,7 @@ def fill_product(matrix, vectors, product):
 
 @compiled
 def fill_flight(flow, flight, matrix):
-    """Fill in the derivative (8, 8) of the state at the end of a flight by that at its start."""
+    """Write the derivative (8, 8) of the state at the end of a flight by the state at its start."""
     _, _, walls = start_of(flight)
     left = min(flight[LENGTH], flow.longest)
     _fill_free(flow, walls, left, matrix)
@@ -70,16 +71,16 @@ def fill_flight(flow, flight, matrix):
 
 @compiled
 def _fill_free(flow, walls, t, matrix):
-    """Fill in the derivative (8, 8) of the state after a flight of t <= flow.longest by that before."""
+    """Write the derivative (8, 8) of the state after a flight of t <= flow.longest by the state before."""
     mode = mode_of(walls)
     j = int(t * flow.density + 0.5)
     rest = t - j * flow.spacing
     matrix[:] = 0.0
-    for k in range(4):  # without the force a box's motion is linear in the state
+    for k in range(4):  # without the force, the motion of a box is linear in the state
         p = flow.series[mode, j, k]
-        matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = along((p[:ORDERS], p[ORDERS:]), rest)
+        matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = evaluate((p[:ORDERS], p[ORDERS:]), rest)
     for i in range(2):
-        if walls[i] != 0:  # the ball goes where its box goes
+        if walls[i] != 0:  # the ball moves with its box
             _copy(matrix[i : i + 1], matrix[4 + i : 5 + i])
             _copy(matrix[2 + i : 3 + i], matrix[6 + i : 7 + i])
         else:
@@ -97,13 +98,13 @@ def _copy(rows, to):
 
 @compiled
 def fill_event(q, flights, events, n, matrix):
-    """Fill in the derivative (8, 8) of the state after event n by that before it."""
+    """Write the derivative (8, 8) of the state after event n by the state before it."""
     i, wall, kind, phase = int(events[n, 1]) - 1, int(events[n, 2]), events[n, 3], events[n, PHASE]
     _, _, walls = start_of(flights[n])
     before = flights[n, AFTER:]
     if kind == IMPACT:
         after = flights[n + 1, BEFORE:AFTER]
-        _impact_matrix(q, i, before, after, walls, walls_after(events, n, walls), phase, matrix)
+        _saltation_matrix(q, i, before, after, walls, walls_after(events, n, walls), phase, matrix)
     elif kind == STICK:
         inward, push = 0.0, 0.0
         if completes_chatter(events, n):
@@ -117,7 +118,7 @@ def fill_event(q, flights, events, n, matrix):
 
 @compiled
 def fill_rate(q, walls, state, phase, field):
-    """Fill in the rate of change (8,) of a state (8,) in a contact state."""
+    """Write the rate of change (8,) of a state (8,) in a contact state."""
     i1, i2 = inverse_masses(q, mode_of(walls))
     force = math.sin(phase)
     a1, a2 = acceleration(q, (i1, i2), (state[0], state[1]), (state[2], state[3]), (q.f1 * force, q.f2 * force))
@@ -128,11 +129,12 @@ def fill_rate(q, walls, state, phase, field):
 
 
 @compiled
-def _impact_matrix(q, i, before, after, walls, walls_after, phase, matrix):
-    """Fill in the saltation matrix (8, 8) of an impact in module i (0, 1), from the states (8,) around it.
+def _saltation_matrix(q, i, before, after, walls, walls_after, phase, matrix):
+    """Write the saltation matrix (8, 8) of an impact in module i (0, 1), from the states (8,) around it.
 
-    S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004), R the impact law, n the
-    normal of the wall, f- and f+ the fields around it; walls_after differs from walls where the impact releases a ball.
+    S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004), where R is
+    the restitution matrix, n the normal of the wall, and f- and f+ the fields before and after. walls_after differs
+    from walls if the impact releases a ball.
     """
     box, ball = 2 + i, 6 + i
     through, outgoing = np.empty(8), np.empty(8)
@@ -158,11 +160,13 @@ def _fill_identity(matrix):
 
 @compiled
 def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
-    """Fill in the derivative (8, 8) of completing a chatter of ball i that starts with an inward speed under a push.
+    """Write the derivative (8, 8) of completing a chatter of ball i.
 
-    Box and ball keep their momentum and centre of mass. While the gap closes, springs and dampers act on the box where
-    it is and not where it will stick: the time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), that of its rate
-    the gap itself, and both are felt to first order in the perturbation.
+    The chatter starts with an inward speed under a push.
+
+    Box and ball keep their momentum and centre of mass. While the gap closes, springs and dampers act on the box at its
+    present position: the time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), that of its rate is the gap, and
+    both contribute to first order in the perturbation.
     """
     e = q.epsilon
     share = e / (1.0 + e)
@@ -194,9 +198,9 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 class Growth(NamedTuple):
     """Growth of an orthonormal frame of k perturbations in each of the n cycles of a run.
 
-    factors: (n, k) diagonals of R, in modulus; by rounding alone above 0 where a perturbation is lost.
-    impacts, stuck: (n,) impacts, and most balls that stick at one time.
-    frame: (8, k) what the frame has become, made orthonormal again.
+    factors: (n, k) moduli of the diagonal of R; where a perturbation is lost, they are above 0 by rounding only.
+    impacts, stuck: (n,) number of impacts, and largest number of balls that stick at one time. frame: (8, k) the final
+    frame, orthonormal again.
     """
 
     factors: np.ndarray
@@ -206,12 +210,12 @@ class Growth(NamedTuple):
 
 
 def growth(run, frame: np.ndarray) -> Growth:
-    """Carry an orthonormal frame (8, k) along a run, made orthonormal again after every cycle by QR.
+    """Propagate an orthonormal frame (8, k) along a run, with a QR decomposition after every cycle.
 
     Parameters
     ----------
-    run
-        A `Run`.
+    run : Run
+        A simulated motion.
     frame : ndarray
         Columns in the order of the public state, 0 in the components of a module that takes no part.
     """
@@ -224,10 +228,10 @@ def growth(run, frame: np.ndarray) -> Growth:
 
 @compiled
 def _carried_by_cycles(flow, flights, events, period, frame, places, factors, counts):
-    """Return the frame after the last cycle; fill in factors (n, k) and counts (n, 2), which are 0.
+    """Return the frame after the last cycle; write factors (n, k) and counts (n, 2), which are 0 initially.
 
-    The frame is 0 in all but some places of the state. Cuts flights at the ends of cycles: their derivative depends on
-    their length and the balls that stick alone.
+    The frame is 0 except at the given places of the state. Flights are cut at the ends of cycles: their derivative
+    depends only on their length and on the balls that stick.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(frame)
     cycle, elapsed = 0, 0.0
@@ -260,9 +264,9 @@ def _carried_by_cycles(flow, flights, events, period, frame, places, factors, co
 
 @compiled
 def _orthonormalize(a, places, sizes):
-    """Replace the rows of a (m, k) at some places by the Q of those rows = QR, and fill |diag R| into sizes (k,).
+    """Replace the rows of a (m, k) at the given places by Q of their QR decomposition.
 
-    Leave out the other rows, which are 0: QR would fill them with rounding errors.
+    |diag R| is written to sizes (k,). The other rows are 0; QR would fill them with rounding errors.
     """
     q, r = np.linalg.qr(a[places])
     for row in range(len(places)):

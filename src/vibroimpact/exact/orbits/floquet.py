@@ -27,7 +27,7 @@ def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
     return field
 
 
-def impact_matrix(system, module: np.ndarray) -> np.ndarray:
+def restitution_matrix(system, module: np.ndarray) -> np.ndarray:
     """Return the restitution matrix R, shape (..., 8, 8): state just before an impact to state just after.
 
     `module` is 1 or 2.
@@ -59,7 +59,7 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
     if (approach == 0).any():
         grazing = np.asarray(module)[approach == 0].flat[0]
         raise ValueError(f"before: the ball of module {grazing} touches the wall without relative velocity (grazing)")
-    restitution = impact_matrix(system, module)
+    restitution = restitution_matrix(system, module)
     after, carried = np.moveaxis(restitution @ np.stack([before, before_field], axis=-1), -1, 0)
     change = vector_field(system, after, tau) - carried
     return restitution + change[..., :, None] * (normal / approach[..., None])[..., None, :]
@@ -126,7 +126,7 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
     flights, pushes = free_flights(system, edges[:-1], np.diff(edges))
     before, after = np.empty((len(times), 8)), np.empty((len(times), 8))
     now = state
-    for k, impact in enumerate(impact_matrix(system, modules)):
+    for k, impact in enumerate(restitution_matrix(system, modules)):
         before[k] = flights[k] @ now + pushes[k]
         after[k] = now = impact @ before[k]
     jacobian = flights[0]

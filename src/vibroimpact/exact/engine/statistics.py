@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import in_place, inlined, inlined_source
-from vibroimpact.exact.engine.energy import add_potential_drops, add_potentials, held, lost
+from vibroimpact.exact.engine.energy import add_potential_drops, add_potentials, energy_stored, impact_loss
 from vibroimpact.exact.engine.flow import half_curvature, jet_at, slope, value
 from vibroimpact.exact.engine.motion import (
     APPROACH,
@@ -23,11 +23,12 @@ from vibroimpact.exact.engine.replay import next_departure
 from vibroimpact.system.state import IMPACT, STICK
 
 IMPACTS, STICKS, LARGEST, LOST, STORED, PATH, INTEGRALS, STATISTICS = 0, 2, 4, 6, 8, 9, 11, 18
-"""Places of the statistics of a run: for each module impacts and sticks, the largest |X_i| and the energy lost
-in impacts; the change of the stored energy; the length of each ball's path; integrals (`energy.OBSERVED`); number."""
+"""Indices of the statistics of a run: for each module impacts, sticks, the largest |X_i| and the energy lost in
+impacts; the change of the stored energy; the length of each ball's path; integrals (`energy.OBSERVED`); their
+number."""
 
-PIECE = 4  # spacings of the flow table: over so short a time a box turns once, but for 1e-5 of its path
-STEPS = 4  # of Newton's method for a turn
+PIECE = 4  # spacings of the flow table, over which a box turns at most once, except for 1e-5 of its path
+STEPS = 4  # Newton steps to find a turn
 NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggauss(8))
 
 
@@ -35,7 +36,8 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 def accumulate_statistics(flow, squares, departure, events, count, arrival, statistics):
     """Add the statistics of a piece of a run to statistics (STATISTICS,), without the potentials at its ends.
 
-    departure: its start (`replay.Departure`); events, count: its rows; arrival: boxes, time and phase of its end.
+    departure: start of the piece (`replay.Departure`); events, count: its rows; arrival: boxes, time and phase at its
+    end.
     """
     leaving, (final, time, phase) = departure, arrival
     early, last = (math.sin(leaving.phase), math.cos(leaving.phase)), (math.sin(phase), math.cos(phase))
@@ -57,7 +59,7 @@ def accumulate_statistics(flow, squares, departure, events, count, arrival, stat
 
 @inlined
 def rests_at_start(events, n):
-    """Return True if event n is the stick of a ball that the run starts with at rest on its wall."""
+    """Return True if event n is the stick of a ball at rest on its wall at the start of the run."""
     first = events[n, TIME] == 0.0 and events[n, KIND] == STICK
     for k in range(n):
         first = first and events[k, MODULE] != events[n, MODULE]
@@ -66,7 +68,7 @@ def rests_at_start(events, n):
 
 @inlined
 def discount_rests(events, count, statistics):
-    """Take back the sticks at the start of a run that continues another, in which they are counted."""
+    """Subtract the sticks at the start of a run that continues another one, which counted them already."""
     for n in range(count):
         if rests_at_start(events, n):
             statistics[STICKS + int(events[n, MODULE]) - 1] -= 1.0
@@ -74,10 +76,10 @@ def discount_rests(events, count, statistics):
 
 @inlined
 def open_or_close(flow, squares, motion, sign, statistics):
-    """Begin (sign -1) or end (+1) an observation: add what depends on its ends alone."""
+    """Begin (sign -1) or end (+1) an observation: add the terms that depend on its ends alone."""
     boxes, q = motion.boxes, flow.coefficients
     add_potentials(squares, mode_of(motion.walls), boxes, motion.sine, motion.cosine, sign, statistics[INTEGRALS:])
-    statistics[STORED] += sign * held(q.ground, -q.k12, q.epsilon, boxes, motion.balls)
+    statistics[STORED] += sign * energy_stored(q.ground, -q.k12, q.epsilon, boxes, motion.balls)
     for i in range(2):
         statistics[LARGEST + i] = max(statistics[LARGEST + i], abs(boxes[i]))
 
@@ -89,12 +91,12 @@ def _count(q, event, statistics):
         statistics[IMPACTS + module] += 1
     elif event[3] == STICK:
         statistics[STICKS + module] += 1
-    statistics[LOST + module] += lost(q.epsilon, q.kappa if event[3] == IMPACT else 0.0, event[APPROACH])
+    statistics[LOST + module] += impact_loss(q.epsilon, q.kappa if event[3] == IMPACT else 0.0, event[APPROACH])
 
 
 @inlined
 def _before(q, boxes, event):
-    """Return the boxes before an event, from those after it."""
+    """Return the boxes before an event, from the boxes after it."""
     if event[3] != IMPACT:
         return boxes
     i = int(event[1]) - 1
@@ -103,7 +105,7 @@ def _before(q, boxes, event):
 
 @inlined_source
 def _watch(flow, squares, motion, end, length, statistics):
-    """Add the statistics of a flight, but for potentials at its ends."""
+    """Add the statistics of a flight, except for the potentials at its ends."""
     mode = mode_of(motion.walls)
     for i in range(2):
         statistics[LARGEST + i] = max(statistics[LARGEST + i], abs(motion.boxes[i]), abs(end[i]))
@@ -125,8 +127,9 @@ def _watch(flow, squares, motion, end, length, statistics):
 
 @inlined
 def _add_piece(p, low, high, i, wall, squares, statistics):
-    """Add the turn of box i between two times of its Taylor polynomial p (8,), the path of a ball that sticks to it,
-    and the integral of X_i^2 where no potential gives it.
+    """Add the statistics of box i between two times of its Taylor polynomial p (8,).
+
+    These are its turn, the path of a ball that sticks to it, and the integral of X_i^2 if no potential gives it.
     """
     x, last, v, w = value(p, low), value(p, high), slope(p, low), slope(p, high)
     path = abs(last - x)
