@@ -1,1 +1,1 @@
-"""The chapter's analytical approach: saw-tooth, slow invariant manifold, slow flow, fixed points."""
+"""Analytical approach of the chapter: saw-tooth, slow invariant manifold, slow flow, fixed points."""

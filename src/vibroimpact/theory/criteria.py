@@ -1,9 +1,9 @@
-"""Stability criteria for a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
+"""Apply stability criteria to a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
 
-Each answers "stable", "unstable" or "undecided"; undecided only where its value is within its own error bound of the
-threshold. Both modules must be stable; C of a module that takes no part is NaN and is left out. A verdict has one name
-everywhere: fast (Masri's analysis, derived anew), slow (the slow flow), theory (both together) and exact (the Floquet
-multipliers of the exact orbit).
+Each returns "stable", "unstable" or "undecided" (the value is within its error bound of the threshold). Both modules
+must be stable; C of a module that takes no part is NaN and is ignored. The verdicts are named fast (Masri's analysis as
+derived in docs/stability.md), slow (the slow flow), theory (both together) and exact (the Floquet multipliers of the
+exact orbit).
 """
 
 import warnings
@@ -27,20 +27,23 @@ _ULPS = 16 * np.finfo(float).eps
 
 
 class Stability(NamedTuple):
-    """Verdicts on a motion, "stable", "unstable" or "undecided": of impacts at B and phi held, and of the slow flow."""
+    """Verdicts on a motion, "stable", "unstable" or "undecided".
+
+    fast: impacts at constant B and phi; slow: the slow flow.
+    """
 
     fast: str
     slow: str
 
     @property
     def theory(self) -> str:
-        """The verdict of both together."""
+        """Verdict of both together."""
         return all_stable(self)
 
     @property
     def both(self) -> str:
-        """The former name of `theory`."""
-        warnings.warn("Stability.both is now Stability.theory", DeprecationWarning, stacklevel=2)
+        """Former name of `theory`."""
+        warnings.warn("Stability.both is deprecated; use Stability.theory", DeprecationWarning, stacklevel=2)
         return self.theory
 
     def __str__(self) -> str:
@@ -48,7 +51,10 @@ class Stability(NamedTuple):
 
 
 def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
-    """Return (10.26) as printed, for C of both modules, shape (2,), known to within `error`."""
+    """Return the verdict of (10.26) as printed.
+
+    C of both modules, shape (2,), is known to within `error`.
+    """
     limit = printed_limit(rho(kappa))
     return all_stable(verdict(c - limit, error + _ULPS * max(1.0, abs(c))) for c in C if not np.isnan(c))
 
@@ -67,7 +73,7 @@ def slow_flow(system, psi, C, error: float = 0.0) -> str:
     The phases psi [rad] and the amplitudes C, each (2,), are known to within `error`.
 
     The error of each eigenvalue is of first order: rounding and the error of psi and C, through the left and right
-    eigenvectors. At the fold of the manifold, where an eigenvalue is infinite, nothing is decided.
+    eigenvectors. At the fold of the manifold, where an eigenvalue is infinite, the verdict is "undecided".
     """
     values, errors = _eigenvalues(system, np.asarray(psi, dtype=float), np.asarray(C, dtype=float), error)
     return all_stable(verdict(-value.real, bound) for value, bound in zip(values, errors, strict=True))
@@ -91,9 +97,10 @@ def of_orbit(orbit) -> dict[str, str]:
 
 
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
-    """Return (psi, C) of an exact orbit, each (2,): C_i is the amplitude of its saw-tooth, psi_i follows by (10.17).
+    """Return (psi, C) of an exact orbit, each (2,).
 
-    Where the flights from both walls differ, the mean of their impact phases is taken.
+    C_i is the amplitude of its saw-tooth; psi_i follows by (10.17). If the flights from the two walls differ, the mean
+    of their impact phases is used.
     """
     around = np.exp(2j * np.pi * orbit.impact_phases)
     phase = impact_phase(orbit.C, rho(orbit.system.kappa))
@@ -101,9 +108,9 @@ def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
 
 
 def fixed_point_error(system, point) -> float:
-    """Estimate of the largest error of psi and C of a computed fixed point: its Newton step and rounding.
+    """Estimate the largest error of psi and C of a computed fixed point, from its Newton step and rounding.
 
-    Infinite at a point where several fixed points coincide.
+    The error is infinite at a point where several fixed points coincide.
     """
     if point.multiple:
         return np.inf
@@ -120,7 +127,7 @@ def _of(system, psi, C, error):
 
 
 def _eigenvalues(system, psi, C, error):
-    """Return the eigenvalues of the slow flow and bounds on their errors, each (4,), of a single machine (2,)."""
+    """Return the eigenvalues of the slow flow and bounds on their errors, each (4,), or (2,) for a single machine."""
     J, M = linearisation(system, psi, C)
     values, left, right = eig(J, M, left=True, right=True)
     if not np.isfinite(values).all() or not np.isfinite(error):

@@ -1,11 +1,11 @@
-"""The slow invariant manifold (SIM) of a module in 1:1 resonance, (10.15)-(10.17) and (10.25), and its saw-tooth.
+"""Slow invariant manifold (SIM) of a module in 1:1 resonance, (10.15)-(10.17) and (10.25), and its saw-tooth.
 
-Everywhere B, C and rho, (10.15), are numbers or arrays that broadcast, dimensionless; angles are in radians.
+B, C and rho, (10.15), are dimensionless numbers or arrays that broadcast; angles are in radians.
 
-For which C the ball stays between the walls, |W_0| <= 1 with (10.10), is derived in docs/stability.md: at the time t
-after the impact with W = +1 and up to the next one, W_0 = cos t + C h(t) with h(t) = 1 - 2 t / pi - cos t + rho sin t,
-linear in C. So the admissible C form one interval. It begins at 0 and ends where the ball, on its way to the other
-wall, first grazes the wall that it has left.
+The admissible C, for which the ball stays between the walls, |W_0| <= 1 with (10.10), are derived in docs/stability.md:
+at the time t after the impact with W = +1 and up to the next one, W_0 = cos t + C h(t) with h(t) = 1 - 2 t / pi - cos t
++ rho sin t, linear in C. So the admissible C form one interval, from 0 to the C at which the ball, on its way to the
+other wall, first grazes the wall that it has left.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 def sawtooth(tau0, C, theta):
     """Return Z = (2 C / pi) arcsin cos(tau0 - theta), (10.11); arguments broadcast (dimensionless, radians).
 
-    Written as the triangle wave it is: arcsin loses half the digits at the peaks, where the impacts are.
+    It is computed as a triangle wave, since arcsin loses half of the digits at the peaks, where the impacts are.
     """
     from_peak = np.abs(np.remainder(np.asarray(tau0) - theta + np.pi, 2 * np.pi) - np.pi)
     return C * (1 - 2 * from_peak / np.pi)
@@ -47,7 +47,7 @@ def C_of_B(B, rho):
     B = np.asarray(B, dtype=float)
     above = B - B_min(rho)
     if not np.all(above >= 0):
-        raise ValueError(f"B: {np.min(B)} is not at least B_min = {B_min(rho)} for rho = {rho}")
+        raise ValueError(f"B: {np.min(B)} is below B_min = {B_min(rho)} for rho = {rho}")
     # Both differences are factored: exact at the fold, no cancellation on the lower arm near C = 0.
     root = np.sqrt((1 + rho**2) * above * (B + B_min(rho)))
     return (1 - B) * (1 + B) / (1 + root), (1 + root) / (1 + rho**2)
@@ -90,7 +90,7 @@ def overshoot(C, rho):
 def grazing_time(kappa: float) -> float:
     """Return the time t [rad] after an impact at which the ball grazes the same wall again when C = largest_C(kappa).
 
-    The root of p cot p = 1 / (1 + kappa), p = t / 2: the only one, as p cot p falls from 1 to 0 on (0, pi/2).
+    t / 2 is the only root of p cot p = 1 / (1 + kappa), since p cot p falls from 1 to 0 on (0, pi/2).
 
     Raises
     ------
@@ -105,7 +105,7 @@ def grazing_time(kappa: float) -> float:
 
 
 def _tangent_excess(p):
-    """Return tan(p) / p - 1, by its series where the difference would lose digits."""
+    """Return tan(p) / p - 1, by its series if the difference would lose digits."""
     return p**2 / 3 + 2 * p**4 / 15 + 17 * p**6 / 315 if p < 0.01 else np.tan(p) / p - 1
 
 
@@ -114,7 +114,7 @@ def largest_C(kappa: float) -> float:
 
     1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time / 2.
 
-    Grows with kappa from 1 at kappa = 0.
+    It grows with kappa from 1 at kappa = 0.
 
     Raises
     ------
@@ -126,7 +126,7 @@ def largest_C(kappa: float) -> float:
 
 
 def stays_within_walls(C: float, kappa: float) -> bool:
-    """Return True where |W_0| <= 1 all the time: exactly for 0 <= C <= largest_C(kappa).
+    """Return True if |W_0| <= 1 at all times, that is for 0 <= C <= largest_C(kappa).
 
     Raises
     ------

@@ -1,11 +1,12 @@
-"""Masri's perturbation analysis of two impacts per cycle, B and phi held: multipliers, limits, verdict.
+"""Masri's perturbation analysis of two impacts per cycle at constant B and phi: multipliers, limits, verdict.
 
-What the chapter prints of it, (10.26), does not agree: see `printed_limit`.
+The condition that the chapter prints, (10.26), differs: see `printed_limit`.
 
-Derived in docs/stability.md. Perturbations of impact time and ball speed pass from each impact to the next by a map
-with determinant kappa^2 and trace 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), seen mirrored. A multiplier leaves the
-unit circle through +1 at C_min, where the two arms of the manifold merge, and through -1 at pi^2 / (pi^2 - 4), where
-the symmetric motion gives way to two asymmetric ones; nothing else can happen, because the determinant is below 1.
+The derivation is in docs/stability.md. A map takes perturbations of impact time and ball speed from one impact to the
+mirror image of the next; its determinant is kappa^2 and its trace 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C). A
+multiplier leaves the unit circle through +1 at C_min, where the two arms of the manifold merge, and through -1 at pi^2
+/ (pi^2 - 4), where two asymmetric motions branch off the symmetric one. There is no other case, since the determinant
+is below 1.
 """
 
 import numpy as np
@@ -14,15 +15,15 @@ from vibroimpact.system.verdict import verdict
 from vibroimpact.theory.manifold import C_min, rho
 
 ROUNDING = 16 * np.finfo(float).eps
-# Above this C symmetric motions lose stability to asymmetric ones, whatever kappa (docs/stability.md).
+# Above this C symmetric motions lose stability to asymmetric ones, for every kappa (docs/stability.md).
 SYMMETRY_BREAKING_C = np.pi**2 / (np.pi**2 - 4)
 
 
 def impact_multipliers(C, kappa) -> np.ndarray:
-    """Return the multipliers, shape (2,), of the map from one impact to the next on the manifold, B and phi held.
+    """Return the multipliers, shape (2,), of the map from one impact to the next at constant B and phi.
 
-    Small changes of impact time and ball speed, seen mirrored from impact to impact; stable where both moduli are
-    below 1, that is for C_min < C < SYMMETRY_BREAKING_C. Their product is kappa^2, their sum
+    The map applies to perturbations of impact time and ball speed, mirrored from impact to impact. It is stable if both
+    moduli are below 1, that is for C_min < C < SYMMETRY_BREAKING_C. Their product is kappa^2, their sum
     2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C).
 
     Raises
@@ -31,7 +32,7 @@ def impact_multipliers(C, kappa) -> np.ndarray:
         If C is 0 (grazing).
     """
     if C == 0:
-        raise ValueError("C: 0.0 is a grazing motion, which has no linearised impact map")
+        raise ValueError("C: must not be 0 (a grazing motion has no linearised impact map)")
     slope = 2 / np.pi + rho(kappa)
     time_by_speed = np.pi / (C * slope)
     speed_by_time = (1 + kappa) * (1 - C)
@@ -40,9 +41,10 @@ def impact_multipliers(C, kappa) -> np.ndarray:
 
 
 def multipliers(C: float, kappa: float) -> np.ndarray:
-    """Return the multipliers, shape (2,), of small perturbations over one cycle (two impacts), B and phi held.
+    """Return the multipliers, shape (2,), of perturbations over one cycle (two impacts) at constant B and phi.
 
-    The squares of `impact_multipliers`: half a cycle and mirroring, done twice, is a cycle. Their product is kappa^4.
+    They are the squares of `impact_multipliers`, since a cycle is twice half a cycle with mirroring. Their product is
+    kappa^4.
 
     Raises
     ------
@@ -53,7 +55,7 @@ def multipliers(C: float, kappa: float) -> np.ndarray:
 
 
 def lower_limit(kappa):
-    """Return C below which a multiplier is above +1: the fold C_min of the manifold, (10.25), for every kappa."""
+    """Return the C below which a multiplier is above +1: the fold C_min of the manifold, (10.25)."""
     return C_min(rho(kappa))
 
 
@@ -66,10 +68,14 @@ def upper_limit(kappa):
 
 
 def stable(C: float, kappa: float, error: float = 0.0) -> str:
-    """Return the verdict "stable", "unstable" or "undecided": stable with C between both limits.
+    """Return the verdict "stable", "unstable" or "undecided": stable if C is between both limits.
 
     Parameters
     ----------
+    C : float
+        Saw-tooth amplitude.
+    kappa : float
+        Restitution coefficient.
     error : float, default 0.0
         Bound on the error of C; rounding is added to it.
     """
@@ -86,5 +92,8 @@ def printed_limit(rho):
 
 
 def limit_with_squares(rho):
-    """Return (10.26) if its squares were lost in print: 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2))."""
+    """Return the limit of (10.26) if its squares were lost in print.
+
+    It is 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2)).
+    """
     return 4 / (4 + (np.pi * rho) ** 2)

@@ -1,4 +1,4 @@
-"""The leading-order steady-state response of a fixed point, (10.9)-(10.10), and its power balance.
+"""Leading-order steady-state response of a fixed point, (10.9)-(10.10), and its power balance.
 
 The power balance is derived in docs/derivation.md, section 6.
 """
@@ -15,9 +15,12 @@ from vibroimpact.theory.slow_flow import FIRST_HARMONIC
 class Response:
     """Coordinates of both modules over time, each shape (n, 2), dimensionless.
 
-    Attributes:
-        U, X: coordinate U_i = X_i + epsilon Y_i and displacement of the boxes.
-        W, Y: relative displacement W_i = X_i - Y_i and displacement of the balls.
+    Attributes
+    ----------
+    U, X : ndarray
+        Coordinate U_i = X_i + epsilon Y_i, and displacement of the boxes.
+    W, Y : ndarray
+        Relative displacement W_i = X_i - Y_i, and displacement of the balls.
     """
 
     U: np.ndarray
@@ -27,9 +30,9 @@ class Response:
 
 
 def leading_order(system, point, tau) -> Response:
-    """Return U_i0 and W_i0 of (10.9), (10.10) at a fixed point, and X_i, Y_i that belong to them.
+    """Return U_i0 and W_i0 of (10.9), (10.10) at a fixed point, and the corresponding X_i, Y_i.
 
-    A module that takes no part is at rest, all of them 0.
+    All coordinates of a module that takes no part are 0.
 
     Parameters
     ----------
@@ -51,7 +54,7 @@ def impact_times(system, point) -> np.ndarray:
 
     Each ball meets the wall W = -1 half a period later.
 
-    NaN of a module that takes no part.
+    The time is NaN for a module that takes no part.
 
     Parameters
     ----------
@@ -66,9 +69,10 @@ def impact_times(system, point) -> np.ndarray:
 class MeanPower:
     """Mean power balance over a cycle, per unit of tau and in units of M L^2 omega_10^2.
 
-    Relative errors are of the order epsilon. The names are those of `Run.energy`, which is this times the period.
+    Relative errors are of the order epsilon. The names are those of `Run.energy`, whose values are these times the
+    period.
 
-    work: (2,), of the forces. ground: (2,), of the dampers to ground; coupling: of the one between the boxes.
+    work: (2,), of the forces. ground: (2,), of the dampers to ground. coupling: of the damper between the boxes.
     impacts: (2,). At a fixed point work = ground + coupling + impacts, all summed.
     """
 
@@ -84,15 +88,17 @@ class MeanPower:
 
 
 def mean_power(system, point) -> MeanPower:
-    """Return the power balance at a fixed point of (10.23): the imaginary part of the complex balance times conj(b_i).
+    """Return the power balance at a fixed point of (10.23).
+
+    It is the imaginary part of the complex balance times conj(b_i).
 
     A module that takes no part has no power.
 
     Parameters
     ----------
     point
-        A FixedPoint of the system, or what else has the slow variables B, psi, C (2,) of a motion on the manifold,
-        where what is not dissipated is stored.
+        A FixedPoint of the system, or another object with the slow variables B, psi, C (2,) of a motion on the
+        manifold; power that is not dissipated is stored.
     """
     half = system.epsilon / 2
     B, psi, C = (np.where(np.isin([1, 2], system.modules), of, 0.0) for of in (point.B, point.psi, point.C))

@@ -1,4 +1,4 @@
-"""The slow flow on the manifold, (10.22), and its linearisation. Derived in docs/derivation.md."""
+"""Slow flow on the manifold, (10.22), and its linearisation, as derived in docs/derivation.md."""
 
 import numpy as np
 from scipy.linalg import eigvals
@@ -8,15 +8,15 @@ from vibroimpact.theory.manifold import B_of_C, rho, slope
 # Amplitude of the first harmonic of the saw-tooth with C = 1, (10.19).
 FIRST_HARMONIC = 8 / np.pi**2
 MODULES = np.array([1, 1, 2, 2])
-"""Modules to which the slow variables (C_1, psi_1, C_2, psi_2) belong, and the equations of their rates."""
+"""Modules of the slow variables (C_1, psi_1, C_2, psi_2) and of the equations of their rates."""
 _ONE = np.eye(2)
 
 
 def impedances(system) -> tuple[np.ndarray, complex]:
-    """Return the slow impedances (e_1, e_2), shape (2,), of the uncoupled boxes without balls, and K of the coupling.
+    """Return the slow impedances (e_1, e_2), shape (2,), of the uncoupled boxes without balls, and K.
 
-    With b_i = B_i exp(-i psi_i) the slow flow reads
-    2i D_1 b_i = f_i - (e_i + N(C_i)) b_i - K (b_i - b_j), where N is the describing function of the ball.
+    K is the impedance of the coupling. With b_i = B_i exp(-i psi_i) the slow flow is 2i D_1 b_i = f_i - (e_i + N(C_i))
+    b_i - K (b_i - b_j), where N is the describing function of the ball.
     """
     detuning = np.array([0, system.sigma20_hat]) - 2 * system.sigma_e_hat
     damping = np.array([system.gamma1_hat, system.gamma2_hat])
@@ -24,7 +24,7 @@ def impedances(system) -> tuple[np.ndarray, complex]:
 
 
 def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return (D_1 B_i, D_1 psi_i), each shape (2,), by (10.22); where both vanish, (10.23), is a fixed point.
+    """Return (D_1 B_i, D_1 psi_i), each shape (2,), by (10.22); both vanish at a fixed point, (10.23).
 
     Parameters
     ----------
@@ -35,7 +35,10 @@ def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rates_from_phasors(system, B, cosine, sine, C):
-    """Return `rates` as rational functions of B, cos psi, sin psi and C, each shape (2,): open to computer algebra."""
+    """Return `rates` as rational functions of B, cos psi, sin psi and C, each shape (2,).
+
+    This form is suitable for computer algebra.
+    """
     forcing = np.array([system.f10_hat, system.f20_hat])
     damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat
     stiffness = np.array([0, system.sigma20_hat]) + system.alpha12_hat - 2 * system.sigma_e_hat
@@ -56,7 +59,7 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
     The derivative is with respect to (C_1, psi_1, C_2, psi_2).
 
-    Of a single machine, those of its module: (2,) and (2, 2).
+    For a single machine the shapes are (2,) and (2, 2).
 
     Parameters
     ----------
@@ -69,10 +72,10 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return the matrices (J, M), each (..., 4, 4), of M d/dtau_1 = J for small changes of (C_1, psi_1, C_2, psi_2).
+    """Return matrices (J, M), each (..., 4, 4): M d/dtau_1 = J for perturbations of (C_1, psi_1, C_2, psi_2).
 
     Both stay finite at the fold C_min, where M (the slope of the manifold) is singular because C cannot
-    follow B; the usual Jacobian in (B, psi) is infinite there. Of a single machine both are (..., 2, 2).
+    follow B; the usual Jacobian in (B, psi) is infinite there. For a single machine both are (..., 2, 2).
 
     Parameters
     ----------
@@ -124,13 +127,18 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _taking_part(system):
-    """Return the rows (4,) of the modules that take part; all of a system at rest, for motions that die out."""
+    """Return the rows (4,) of the modules that take part.
+
+    For a system at rest these are all rows, since motions die out.
+    """
     part = system.modules or (1, 2)
     return np.array([module in part for module in MODULES])
 
 
 def jacobian(system, psi, C) -> np.ndarray:
-    """Return the Jacobian (4, 4) of (10.22) in (B_1, psi_1, B_2, psi_2), C following B on its arm of the manifold.
+    """Return the Jacobian (4, 4) of (10.22) in (B_1, psi_1, B_2, psi_2).
+
+    C follows B on its arm of the manifold.
 
     Parameters
     ----------
@@ -150,7 +158,7 @@ def jacobian(system, psi, C) -> np.ndarray:
 
 
 def slow_eigenvalues(system, psi, C) -> np.ndarray:
-    """Return the eigenvalues, complex, per unit of tau_1, sorted by descending real part; infinite at the fold.
+    """Return the complex eigenvalues, per unit of tau_1, by descending real part; infinite at the fold.
 
     There are two for each module that takes part.
 

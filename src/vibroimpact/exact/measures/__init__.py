@@ -1,1 +1,1 @@
-"""Measures of a simulated motion: period, symmetry, impacts per cycle, slow variables, bursts."""
+"""Measure period, symmetry, impacts per cycle, slow variables and bursts of a simulated motion."""

@@ -1,4 +1,4 @@
-"""Measures of a modulated response: amplitudes cycle by cycle, their variation, bursts of resonance."""
+"""Measure modulated responses: amplitudes per cycle, their variation, bursts of resonance."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.system.state import IMPACT, STICK
 
 PER_CYCLE = 24
-"""Samples in a forcing period that amplitudes are taken from."""
+"""Samples per forcing period used for amplitudes."""
 
 
 def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
@@ -24,7 +24,7 @@ def variation(amplitudes) -> float:
 
     It is 0 for a steady response and d / sqrt(2) for a beat 1 + d cos.
 
-    It tends to a limit with the length of the window, which the depth from largest and smallest amplitude does not.
+    It converges with the length of the window, unlike the depth from the largest and smallest amplitude.
     """
     mean = np.mean(amplitudes)
     return float(np.std(amplitudes) / mean) if mean > 0 else 0.0
@@ -44,7 +44,7 @@ def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
 
     A swell begins where the amplitude rises above `high` of its range after it was below `low`.
 
-    The two thresholds (parts of the range between smallest and largest amplitude) keep ripples from counting.
+    Two thresholds (fractions of the range between smallest and largest amplitude) exclude ripples.
     Returns indices into the amplitudes (n,), shape (s,): their distances are the modulation periods. Empty for a
     steady response.
     """
@@ -62,10 +62,10 @@ def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
 
 
 def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
-    """Return the resonant bursts of one ball: start and end time of each, shape (b, 2), from its impacts in order.
+    """Return the resonant bursts of one ball, from its impacts in order: start and end times, shape (b, 2).
 
     A flight is resonant if it leads to the opposite wall and lasts between a quarter and three quarters of the forcing
-    period; a burst is an unbroken sequence of at least so many resonant flights.
+    period; a burst is an unbroken sequence of at least `least` resonant flights.
 
     Parameters
     ----------
@@ -88,17 +88,19 @@ def bursts_in(run: Run, module: int) -> np.ndarray:
 
 
 def sampled(system, state, cycles: int) -> Run:
-    """Return a run over so many cycles from a state at a cycle's start, with PER_CYCLE samples in each and one at the
-    end.
+    """Return a run over `cycles` forcing cycles from a state at the start of a cycle.
+
+    It has PER_CYCLE samples in each cycle and one at the end.
     """
     return simulate(system, state, cycles, sample_times=np.arange(cycles * PER_CYCLE + 1) * (system.period / PER_CYCLE))
 
 
 def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
-    """Return measures of a modulated motion by (quantity, module), over so many cycles from a state at a cycle's start.
+    """Return measures of a modulated motion by (quantity, module), over `cycles` forcing cycles.
 
-    amplitude variation: of the box cycle by cycle (see `variation`). impacts per cycle; sticks per 1000 cycles.
-    resonant share: part of the time within bursts (see `bursts`). burst length [cycles]: mean, nan if there are none.
+    The state is that at the start of a cycle. amplitude variation: of the box, cycle by cycle (see `variation`).
+    impacts per cycle; sticks per 1000 cycles. resonant share: fraction of the time within bursts (see `bursts`). burst
+    length [cycles]: mean, nan without bursts.
     """
     run = sampled(system, state, cycles)
     found = {}

@@ -1,7 +1,7 @@
-"""Recognition of the motion that a run has settled on: period, symmetry, number of impacts.
+"""Recognise the motion that a run has settled on: period, symmetry, number of impacts.
 
-Everything here works on displacements (X1, Y1, X2, Y2) sampled evenly, a whole number of times per forcing period.
-Velocities are left out: they jump at impacts, and a sample next to an impact would compare the two sides of the jump.
+All functions use displacements (X1, Y1, X2, Y2), evenly sampled with an integer number of samples per forcing period.
+Velocities are not used, since they jump at impacts.
 """
 
 import numpy as np
@@ -41,18 +41,18 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
     Raises
     ------
     ValueError
-        If so many periods are not within the window.
+        If the window is shorter than `cycles` periods.
     """
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
-        raise ValueError(f"cycles: {cycles} periods are not within the window of {len(displacements) / per_cycle:g}")
+        raise ValueError(f"cycles: {cycles} periods exceed the window of {len(displacements) / per_cycle:g}")
     return float(np.max(np.abs(displacements[lag:] - displacements[:-lag])))
 
 
 def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None:
     """Return the smallest number of forcing periods after which the motion repeats within a tolerance, or None.
 
-    Only numbers up to half the window are tried, so that every claimed repetition was seen at least twice.
+    Only numbers up to half of the window are tried, so that every repetition is observed at least twice.
 
     Parameters
     ----------
@@ -62,14 +62,16 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
     displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
     later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
-    back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)  # at the start at least
+    back = 1 + np.flatnonzero(
+        np.abs(later - displacements[0]).max(axis=1) <= tolerance
+    )  # candidates, which repeat at least at the start
     return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 
 def mirror_distance(displacements, per_cycle: int) -> float:
     """Return the largest |x(tau + T/2) + x(tau)| over the window: 0 for a motion that is its own mirror image.
 
-    The equations of motion turn into themselves under state to minus state and half a period later.
+    The equations of motion are invariant under a change of sign of the state and a shift by half a period.
 
     Raises
     ------
@@ -88,7 +90,7 @@ def impacts_per_cycle(tau, module, wall, start: float, period: float, cycles: in
     Parameters
     ----------
     tau, module, wall
-        Of each impact, shape (m,).
+        Time, module and wall of each impact, shape (m,).
     start : float
         Time at which the first of the periods begins.
     """

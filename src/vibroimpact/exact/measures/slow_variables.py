@@ -17,7 +17,7 @@ def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray
     tau
         Evenly spaced times that cover whole forcing periods, the end left out, shape (n,).
     values
-        Shape (n, k), U_1 and U_2 say.
+        Shape (n, k), for example U_1 and U_2.
 
     Returns
     -------
@@ -41,12 +41,16 @@ def mean_phase(phases) -> float:
 
 @dataclass(frozen=True, eq=False)
 class SlowVariables:
-    """The slow variables of a sampled motion.
+    """Slow variables of a sampled motion.
 
-    Attributes:
-        B, psi: amplitude and lag [rad] of the first harmonic of U_i, each shape (2,).
-        C: from the mean path of the ball from wall to wall, shape (2,).
-        impact_phases: mean phase in the cycle, [module, wall +1 / wall -1], shape (2, 2), fractions in [0, 1).
+    Attributes
+    ----------
+    B, psi : ndarray
+        Amplitude and lag [rad] of the first harmonic of U_i, each shape (2,).
+    C : ndarray
+        Saw-tooth amplitude from the mean path of the ball from wall to wall, shape (2,).
+    impact_phases : ndarray
+        Mean phase in the cycle, [module, wall +1 / wall -1], shape (2, 2), fractions in [0, 1).
     """
 
     B: np.ndarray
@@ -55,7 +59,7 @@ class SlowVariables:
     impact_phases: np.ndarray
 
     def distance(self, point) -> float:
-        """Return the distance to a fixed point: of the phasors B_i exp(-i psi_i) of both modules together."""
+        """Return the distance of the phasors B_i exp(-i psi_i) of both modules from those of a fixed point."""
         return float(np.linalg.norm(self.B * np.exp(-1j * self.psi) - point.B * np.exp(-1j * np.asarray(point.psi))))
 
 
@@ -84,7 +88,7 @@ def measure(system, tau, displacements, impacts) -> SlowVariables:
         for column, side in enumerate(WALLS):
             here = (module == i) & (wall == side)
             if not here.any():
-                raise ValueError(f"impacts: none of module {i} at the wall {side:+d}")
+                raise ValueError(f"impacts: module {i} has no impact at the wall {side:+d}")
             phases[i - 1, column] = mean_phase(phase[here])
             ends[column] = ball[here].mean()
         C[i - 1] = sawtooth_amplitude(system.epsilon, ends[1] - ends[0])

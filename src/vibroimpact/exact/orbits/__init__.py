@@ -1,1 +1,1 @@
-"""Exact 1:1 orbits, two impacts per cycle and module: all of them, with their Floquet multipliers."""
+"""Find all exact 1:1 orbits, with two impacts per cycle and module, and their Floquet multipliers."""

@@ -1,9 +1,9 @@
-"""Asymmetric 1:1 responses (unequal flight times), by Newton's method from many starts.
+"""Find asymmetric 1:1 responses (unequal flight times) by Newton's method from many starts.
 
 Module i meets wall +1 at p_i and wall -1 at q_i = p_i + u_i T. At each impact its ball's velocity changes by I_i and
--I_i in turn, so the flight from wall +1 has the velocity I_i (1 - u_i), the one back -I_i u_i, and each crosses
-I_i u_i (1 - u_i) T. Box i is kicked by -epsilon I_i at p_i and +epsilon I_i at q_i. Superposing the forced response and
-all kicks gives per module two conditions of restitution and one of distance,
+-I_i in turn, so the flight from wall +1 has the velocity I_i (1 - u_i), the flight back -I_i u_i, and each covers
+I_i u_i (1 - u_i) T. Box i receives the velocity changes -epsilon I_i at p_i and +epsilon I_i at q_i. The superposition
+of the forced response and of all impulses gives, per module, two conditions of restitution and one of distance,
 
     (1 + kappa) X_i'(p_i-) = I_i (1 - u_i - kappa u_i + epsilon),
     (1 + kappa) X_i'(q_i-) = I_i (kappa (1 - u_i) - u_i - epsilon),
@@ -13,7 +13,7 @@ six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots 
 takes no part has p_i = q_i = I_i = 0.
 
 The starts cover the flight fractions and the lag p_2 - p_1 evenly; for each of them the equations are linear in I and
-in the forcing phase, so the other unknowns start at their least-squares values. Nothing proves the list complete.
+in the forcing phase, so the other unknowns start at their least-squares values. The list is not proved complete.
 """
 
 import numpy as np
@@ -23,24 +23,24 @@ from vibroimpact.exact.orbits.newton import newton
 from vibroimpact.exact.orbits.symmetric import distinct, wrapped
 
 STARTS = 1024
-_SHORTEST = 1e-6  # fraction of the period: roots with a shorter flight are the spurious ones of a vanishing flight
+_SHORTEST = 1e-6  # fraction of the period; roots with a shorter flight are spurious
 _UNEQUAL = 1e-7
 _BOXES = np.array([0, 0, 1, 1])
 _KICKS = np.array([-1.0, 1.0, -1.0, 1.0])
 MODULES = np.array([1, 1, 2, 2, 1, 2])
-"""Modules to which the unknowns (p_1, q_1, p_2, q_2, I_1, I_2) belong, and the conditions."""
+"""Modules of the unknowns (p_1, q_1, p_2, q_2, I_1, I_2) and of the conditions."""
 _MODULES = np.eye(2)[MODULES - 1]
-_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # of the flights that they are about, by the impact times
-_PLASTIC = 1.2207440846057596  # root of x^4 = x + 1: the additive sequence of its powers fills the cube evenly
+_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # derivatives of the flight times by the impact times
+_PLASTIC = 1.2207440846057596  # root of x^4 = x + 1; its powers give a low-discrepancy sequence
 
 
 class AsymmetricConditions:
-    """The equations above for one system.
+    """Equations of the module docstring for one system.
 
     Raises
     ------
     ValueError
-        If undamped boxes in resonance with the impacts (see ImpulseResponse).
+        If undamped boxes are in resonance with the impacts (see ImpulseResponse).
     """
 
     def __init__(self, system):
@@ -74,7 +74,7 @@ class AsymmetricConditions:
         return np.concatenate([self._linear(times)[0], by_phase], axis=2)
 
     def _forced(self, forced):
-        """Return the six conditions' terms in the forced response, (n, 6), from its complex value at the impacts."""
+        """Return the terms of the six conditions in the forced response, (n, 6), from its complex value at impacts."""
         velocity = (1 + self.system.kappa) * self.system.Omega * forced.real
         distance = forced.imag[:, 0::2] - forced.imag[:, 1::2]
         return np.concatenate([velocity, distance], axis=1)
@@ -94,7 +94,7 @@ class AsymmetricConditions:
         return wrapped(times[:, 1::2] - times[:, 0::2], self.system.period) / self.system.period
 
     def _moved(self, forced, responses, strengths, times):
-        """Return the derivatives (n, 6, 4) by the impact times."""
+        """Return the derivatives (n, 6, 4) with respect to the impact times."""
         system = self.system
         others = 1 - np.eye(4)
         v, a = (r * others * strengths[:, None, _BOXES] for r in responses)
@@ -108,16 +108,14 @@ class AsymmetricConditions:
 
 
 def asymmetric_solutions(system, starts: int = STARTS):
-    """Return the roots (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6), and how many starts led to each, (n,).
+    """Return the roots (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6), and the number of starts that led to each.
 
-    Times are in [0, T).
-
-    Mirror images are roots of their own; each is credited with the starts that led to the other.
+    Times are in [0, T). Mirror images are separate roots; each is credited with the starts that led to the other.
 
     Raises
     ------
     ValueError
-        If undamped boxes in resonance with the impacts (see ImpulseResponse).
+        If undamped boxes are in resonance with the impacts (see ImpulseResponse).
     """
     if not system.modules:
         return np.empty((0, 6)), np.empty(0, dtype=int)
@@ -148,6 +146,6 @@ def _starts(system, conditions, count):
 
 
 def _mirrored(roots, period):
-    """Return the images under state(tau) -> -state(tau + T/2): the walls change roles."""
+    """Return the images under state(tau) -> -state(tau + T/2), which exchanges the walls."""
     times = wrapped(roots[:, [1, 0, 3, 2]] + period / 2, period)
     return np.concatenate([times, roots[:, 4:]], axis=1)

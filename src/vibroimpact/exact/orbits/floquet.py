@@ -1,4 +1,4 @@
-"""Monodromy matrix and Floquet multipliers of a motion with known impacts, and what they say of an orbit."""
+"""Compute the monodromy matrix and the Floquet multipliers of a motion with known impacts."""
 
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ _ROUNDING = 100 * np.finfo(float).eps
 
 
 def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    """Return d state / d tau in free flight for states (..., 8) at times tau (...), shape (..., 8), from (10.2)."""
+    """Return d state / d tau in free flight, (10.2), for states (..., 8) at times tau (...)."""
     phase = system.Omega * np.asarray(tau)[..., None]
     field = np.zeros(state.shape)
     boxes = np.concatenate([state[..., BOXES], np.sin(phase), np.cos(phase)], axis=-1)
@@ -28,9 +28,9 @@ def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
 
 
 def restitution_matrix(system, module: np.ndarray) -> np.ndarray:
-    """Return the restitution matrix R, shape (..., 8, 8): state just before an impact to state just after.
+    """Return the restitution matrix R, shape (..., 8, 8), of an impact in `module` (1 or 2).
 
-    `module` is 1 or 2.
+    R maps the state just before the impact to the state just after.
     """
     matrices = np.stack([np.eye(8)] * 2)
     for matrix, velocities in zip(matrices, ([4, 5], [6, 7]), strict=True):
@@ -44,9 +44,9 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
     Both perturbations are taken at the time tau of the impact.
 
     before: states (..., 8) just before impacts of `module` (1 or 2) at times tau, both (...). The perturbed motion
-    meets the wall n . x = const earlier or later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n . f-)
-    (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters through f- and f+ alone: wall and
-    impact law do not depend on time. det S = kappa^2.
+    meets the wall n . x = const later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n . f-) (Aizerman
+    and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through f- and f+, since wall and impact law
+    do not depend on time. det S = kappa^2.
 
     Raises
     ------
@@ -66,10 +66,10 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
 
 
 class Passage(NamedTuple):
-    """A motion followed through its impacts.
+    """Motion followed through its impacts.
 
-    first (8,), final (8,): states at tau = 0 and at the end; times (n,): of the impacts; before (n, 8), after (n, 8):
-    states around each; end: time of the end; jacobian (8, 8): derivative of the final state by the first one.
+    first (8,), final (8,): states at tau = 0 and at the end. times (n,): of the impacts. before (n, 8), after (n, 8):
+    states around each impact. end: time of the end. jacobian (8, 8): derivative of the final state by the first one.
     """
 
     first: np.ndarray
@@ -81,7 +81,7 @@ class Passage(NamedTuple):
     jacobian: np.ndarray
 
     def flights(self):
-        """Return all free flights: states at the start (n, 8), times of the start and durations, both (n,)."""
+        """Return all free flights: initial states (n, 8), initial times (n,) and durations (n,)."""
         edges = np.array([0.0, *self.times, self.end])
         return np.vstack([self.first, self.after]), edges[:-1], np.diff(edges)
 
@@ -91,7 +91,8 @@ def impact_sequence(times: np.ndarray, period: float):
 
     The times given, (2, 2) [module, wall +1 / wall -1], are in [0, T).
 
-    One at 0 comes last, at T: the state at tau = 0 is the one after it. A module whose times are NaN has no impacts.
+    An impact at 0 comes last, at T, since the state at tau = 0 is the one after it. A module with NaN times has no
+    impacts.
     """
     within = np.where(times == 0, period, times).ravel()
     order = np.argsort(within, kind="stable")[: np.isfinite(within).sum()]
@@ -111,16 +112,15 @@ def free_flights(system, begins: np.ndarray, durations: np.ndarray):
 
 
 def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, end: float) -> Passage:
-    """Follow the motion from `state` (8,) at tau = 0 to tau = end, through impacts of `modules` (1, 2) at given times.
+    """Follow the motion from `state` (8,) at tau = 0 to tau = end, through impacts at given times.
 
-    times: ascending in [0, end], one for each entry of modules.
-
-    The impacts are taken as given: that a ball is at its wall at that time is the caller's business.
+    times: ascending in [0, end]; modules: 1 or 2 for each time. The caller ensures that the ball is at its wall at
+    these times.
 
     Raises
     ------
     ValueError
-        If an impact without relative velocity (see impact_saltation).
+        If an impact has no relative velocity (see impact_saltation).
     """
     edges = np.array([0.0, *times, end])
     flights, pushes = free_flights(system, edges[:-1], np.diff(edges))
@@ -136,7 +136,7 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
 
 
 def of_modules(system, jacobian: np.ndarray) -> np.ndarray:
-    """Return a monodromy matrix (8, 8), or of a single machine the part (4, 4) of the module that takes part."""
+    """Return a monodromy matrix (8, 8), or the part (4, 4) of the module of a single machine."""
     part = np.isin(MODULES, system.modules)
     return jacobian[part][:, part]
 
@@ -153,9 +153,9 @@ def multipliers(jacobian: np.ndarray) -> np.ndarray:
 def floquet(orbit) -> str:
     """Return "stable" if all multipliers are inside the unit circle, "unstable" if one is outside, else "undecided".
 
-    A multiplier decides where its modulus differs from 1 by more than its own error, estimated to first order: the
-    condition number of the eigenvalue times the error of the monodromy matrix. That is rounding and the error of the
-    orbit (its residual over the distance of the nearest multiplier from +1), relative to the norm of the matrix.
+    A multiplier decides if its modulus differs from 1 by more than its error, estimated to first order: the condition
+    number of the eigenvalue times the error of the monodromy matrix. The latter is due to rounding and to the error of
+    the orbit (its residual over the distance of the nearest multiplier from +1), relative to the norm of the matrix.
     """
     jacobian = of_modules(orbit.system, orbit.passage.jacobian)
     values, left, right = eig(jacobian, left=True, right=True)

@@ -1,4 +1,4 @@
-"""Steady response of the boxes to the forcing and to trains of unit impulses, in closed form."""
+"""Compute steady responses of the boxes to the forcing and to trains of unit impulses, in closed form."""
 
 import math
 from functools import lru_cache
@@ -15,12 +15,12 @@ _UNIT_IMPULSES = np.eye(4)[:, 2:]
 
 
 def forced_amplitude(system) -> np.ndarray:
-    """Return the complex amplitude a, shape (2,): the boxes without balls move as Im(a exp(i Omega tau)).
+    """Return the complex amplitude a, shape (2,), of the boxes without balls: they move as Im(a exp(i Omega tau)).
 
     Raises
     ------
     ValueError
-        If the undamped boxes are at a resonance, so that they have such motions of any amplitude.
+        If the undamped boxes are at a resonance, where the amplitude is not unique.
     """
     try:
         return np.linalg.solve(dynamic_stiffness(system.with_idle_damped()), system.forcing.astype(complex))
@@ -29,17 +29,17 @@ def forced_amplitude(system) -> np.ndarray:
 
 
 def _resonance(system, harmonic):
-    """Return the message on undamped boxes in resonance with a harmonic of the forcing."""
+    """Return the error message for undamped boxes in resonance with a harmonic of the forcing."""
     return (
-        f"system: the undamped boxes are in resonance with {harmonic}Omega = {system.Omega}, so impacts in every cycle "
-        "excite no bounded motion; add damping"
+        f"system: the undamped boxes are in resonance with {harmonic}Omega = {system.Omega}, so that impacts in every "
+        "cycle excite no bounded motion; add damping"
     )
 
 
 class ImpulseResponse:
     """Motion [X1, X2, X1', X2'] of the unforced boxes under a steady train of unit impulses on one box.
 
-    sign = +1: equal impulses, one a period T. sign = -1: alternating impulses, one every T / 2.
+    sign = +1: equal impulses, one per period T. sign = -1: alternating impulses, one every T / 2.
 
     Raises
     ------
@@ -58,7 +58,8 @@ class ImpulseResponse:
         start = np.linalg.solve(closure, _UNIT_IMPULSES)
         nodes = math.ceil(self.interval * np.linalg.norm(self._rate, 2) * _NODES_PER_RADIAN)
         self._spacing = self.interval / nodes
-        # A table of every node would grow as 1/Omega: Taylor series at the first ones, and the way from there.
+        # A table of all nodes would grow as 1/Omega: store Taylor series at the first nodes, and propagators from
+        # there.
         self._fine = max(_FINE_NODES, math.isqrt(nodes))
         at_nodes = powers(expm(self._rate * self._spacing), min(nodes + 1, self._fine)) @ start
         self._onward = powers(expm(self._rate * self._spacing * self._fine), nodes // self._fine + 1)
@@ -71,7 +72,7 @@ class ImpulseResponse:
 
         s is any real array; column j belongs to a train of impulses on box j.
 
-        At an impulse it is the value just after.
+        At an impulse, the value is that just after it.
         """
         return self.of_trains(np.asarray(s)[..., None], np.arange(2)).swapaxes(-1, -2)
 
@@ -93,10 +94,10 @@ class ImpulseResponse:
         return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None] % 2))
 
     def between(self, times: np.ndarray, boxes: np.ndarray):
-        """Return `ImpulseResponse.between`: displacement, velocity and acceleration, each (*times.shape, n).
+        """Return displacement, velocity and acceleration just before impulses, each (*times.shape, n).
 
-        Train k has an impulse on box boxes[k] at times[..., k]; entry [..., m, k] is what train k does to box boxes[m]
-        just before the impulse of train m.
+        Train k has an impulse on box boxes[k] at times[..., k]. Entry [..., m, k] is the response of box boxes[m] to
+        train k just before the impulse of train m.
         """
         motion = self.of_trains(times[..., :, None] - times[..., None, :], boxes)
         own = np.arange(len(boxes))
@@ -105,9 +106,10 @@ class ImpulseResponse:
 
 
 def _singular(matrices, scale):
-    """Return True for matrices (..., n, n) that are singular to rounding; scale: of the terms that may cancel in them.
+    """Return True for matrices (..., n, n) that are singular to rounding.
 
-    At a resonance of both boxes a matrix vanishes as a whole, and its condition number says nothing.
+    scale: that of the terms that may cancel in them. At a resonance of both boxes the whole matrix vanishes, so that
+    its condition number is meaningless.
     """
     return np.linalg.svd(matrices, compute_uv=False)[..., -1] <= 1e-12 * scale
 
@@ -121,7 +123,7 @@ def powers(matrix: np.ndarray, count: int) -> np.ndarray:
 
 
 def impulse_response(system, sign: int) -> ImpulseResponse:
-    """Return the impulse response of a system, kept for reuse: it is the same under all forces."""
+    """Return the impulse response of a system from a cache; it does not depend on the forces."""
     return _kept(system.with_idle_damped().with_(f10_hat=0.0, f20_hat=0.0), sign)
 
 

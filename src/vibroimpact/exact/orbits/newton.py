@@ -1,9 +1,9 @@
-"""Newton's method from many starts at once."""
+"""Apply Newton's method to many starts at once."""
 
 import numpy as np
 
 _STEPS = 30
-_SETTLED, _STALLED = 1e-12, 1e-8  # the second, the root of rounding, near a double root where all steps are used up
+_SETTLED, _STALLED = 1e-12, 1e-8  # the second, the root of rounding, applies near a double root after all steps
 
 
 def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
@@ -13,7 +13,7 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
     `reach` in every component. A start has converged once its step is below 1e-12 (1 + |x|), or, if all steps are used
     up, below 1e-8 (1 + |x|). Starts that meet a singular Jacobian or do not converge give no root.
 
-    What starts have beyond the d unknowns stays as it is, for the equations to use.
+    Columns of `starts` beyond the d unknowns are passed to the equations unchanged.
     """
     x = np.array(starts, dtype=float)
     found = [np.empty((0, x.shape[1]))]

@@ -1,4 +1,4 @@
-"""All 1:1 responses of the exact system (10.2) with two impacts per forcing cycle and module, one at each wall."""
+"""Find all 1:1 responses of (10.2) with two impacts per forcing cycle and module, one at each wall."""
 
 import math
 from dataclasses import dataclass, replace
@@ -19,7 +19,7 @@ from vibroimpact.system.state import BALLS, BOXES, MODULES
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
-_SAMPLES = 4096  # of each flight at a time, so that memory does not grow with the period
+_SAMPLES = 4096  # samples of each flight at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
 _MOST_STARTS = 2**20
 _SIDES = "1_plus", "1_minus", "2_plus", "2_minus"
@@ -33,23 +33,43 @@ COLUMNS = (
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Orbit(Representation):
-    """A periodic response with two impacts per forcing cycle and module; dimensionless, [module, wall +1 / wall -1].
+    """A periodic response with two impacts per forcing cycle and module.
 
-    Of a single machine (`PhysicalSystem.single`) it is that of the module that takes part, with two impacts: what
-    belongs to the other is NaN, in the state 0.
+    All quantities are dimensionless; indices are [module, wall +1 / wall -1]. For a single machine
+    (`PhysicalSystem.single`), entries of the other module are NaN, in the state 0.
 
-    system: the system it belongs to.
-    symmetric: whether state(tau + T/2) = -state(tau).
-    impact_phases: (2, 2), impact times as fractions of the period in [0, 1).
-    ball_speeds: (2, 2), speed of the flight that starts at this wall; negative for a root that is no motion.
-    multipliers: (8,), of a single machine (4,), complex, by descending modulus. Where both modules impact in the same
-        instant and gamma12 is not 0 they belong to perturbations that let module 1 impact first.
-    state: (8,) at tau = 0, just after the impact if there is one.
-    passage: the motion followed once round, from `state` through all its impacts.
-    excursion: the largest |W_i| at its extrema between impacts, at a wall 1; 0 if no flight has an extremum.
-    admissible: all speeds are positive, so that every ball meets its wall from inside, and |W_i| <= 1 all the time.
-    residual: largest of | |W_i| - 1 | at the impacts and |state(T) - state(0)|, following the motion once round.
-    proof: what is proved of it, see `with_proof`; None so far.
+    Attributes
+    ----------
+    system : System
+        System of the orbit.
+    symmetric : bool
+        True if state(tau + T/2) = -state(tau).
+    impact_phases : ndarray
+        Impact times as fractions of the period in [0, 1), shape (2, 2).
+    ball_speeds : ndarray
+        Speed of the flight that starts at this wall, shape (2, 2); negative for an inadmissible root.
+    multipliers : ndarray
+        Floquet multipliers, complex, by descending modulus, shape (8,), or (4,) for a single machine. If both modules
+        impact at the same instant and gamma12 is not 0, they apply to perturbations that let module 1 impact first.
+    state : ndarray
+        State at tau = 0, just after the impact if there is one, shape (8,).
+    passage : Passage
+        The motion over one period, from `state` through all its impacts.
+    excursion : float
+        Largest |W_i| at its extrema between impacts (a wall is at 1); 0 if no flight has an extremum.
+    admissible : bool
+        True if the orbit is a motion of the system: all speeds are positive, so that every ball meets its wall from
+        inside, and |W_i| <= 1 at all times.
+    residual : float
+        Largest of | |W_i| - 1 | at the impacts and |state(T) - state(0)|, over one period.
+    proof : OrbitProof, optional
+        Result of `with_proof`; None before.
+
+    Examples
+    --------
+    >>> orbit = vi.orbits(system)[0]
+    >>> orbit.multipliers.shape
+    (8,)
     """
 
     system: System
@@ -66,7 +86,7 @@ class Orbit(Representation):
 
     @property
     def stability(self) -> str:
-        """ "stable", "unstable" or "undecided": as proved, else by the computed multipliers and their errors."""
+        """ "stable", "unstable" or "undecided", as proved or else by the computed multipliers and their errors."""
         return self.proof.stability if self.proved else floquet(self)
 
     @property
@@ -80,17 +100,22 @@ class Orbit(Representation):
         return self.proof is not None and self.proof.stability in (STABLE, UNSTABLE)
 
     def with_proof(self) -> "Orbit":
-        """Return the same orbit with `proof` of its existence, its motion between the walls and its stability.
+        """Return the same orbit with the `proof` of its existence, its motion between the walls and its stability.
+
+        Returns
+        -------
+        Orbit
+            A copy with the attribute `proof`.
 
         Raises
         ------
         ModuleNotFoundError
-            If python-flint is missing; the extra `reference` brings it.
+            If python-flint is missing; the extra `reference` installs it.
         """
         return replace(self, proof=prove(self))
 
     def row(self) -> dict:
-        """Return the numbers and verdicts by name, as `to_frame` tells them: phases in periods, at wall +1 and -1."""
+        """Return the numbers and verdicts by name, as in `to_frame`: phases in periods, at wall +1 and -1."""
         numbers = np.ravel([self.impact_phases, self.ball_speeds]).tolist()
         largest = float(abs(self.multipliers[0]))
         verdicts = largest, self.residual, self.stability, self.proved
@@ -107,9 +132,9 @@ class Orbit(Representation):
 
     @property
     def C(self) -> np.ndarray:
-        """Amplitudes of the saw-teeth, C_i of (10.11), shape (2,); negative for a root that is no motion."""
+        """Amplitudes C_i of the saw-teeth, (10.11), shape (2,); negative for an inadmissible root."""
         plus, minus = self.ball_speeds.T
-        # Both flights cover the same path in one period: plus t = minus (T - t).
+        # Both flights cover the same path in a period: plus t = minus (T - t).
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
         return sawtooth_amplitude(self.system.epsilon, path)
 
@@ -118,11 +143,15 @@ class Orbit(Representation):
 class OrbitSearch:
     """Orbits found by a search, and the effort spent.
 
-    orbits: the list of Orbit. The symmetric ones are complete up to rounding (see exact.orbits.symmetric and
-        exact.orbits.certify).
-    starts: Newton starts spent on the asymmetric ones, which may be incomplete.
-    fewest_hits: how many of these starts led to the asymmetric orbit (mirror images counted as one) that was hit least,
-        0 if there is none. A small number warns that others may have been missed.
+    Attributes
+    ----------
+    orbits : list of Orbit
+        The symmetric ones are complete up to rounding (see `exact.orbits.symmetric`).
+    starts : int
+        Newton starts spent on the asymmetric ones, which may be incomplete.
+    fewest_hits : int
+        Smallest number of these starts that led to one asymmetric orbit (mirror images counted as one), or 0 without
+        any. A small number warns that others may have been missed.
     """
 
     orbits: list[Orbit]
@@ -131,30 +160,43 @@ class OrbitSearch:
 
 
 def orbits(system: System) -> list[Orbit]:
-    """Return all 1:1 responses of (10.2) with one impact per cycle at each wall of each module: exact, at any epsilon.
+    """Return all 1:1 responses of (10.2) with one impact per cycle at each wall of each module.
+
+    The orbits are exact at any epsilon. Asymmetric ones are found by Newton's method from many starts and may be
+    incomplete.
+
+    Parameters
+    ----------
+    system : System
+        Dimensionless parameters.
 
     Returns
     -------
     list of Orbit
-        A list of Orbit. Roots that are no motions of the system (see Orbit.admissible) are in it too, marked. Order:
-        symmetric ones first, then by ascending sum of the two ball speeds of module 1, of module 2, then by phases; an
-        asymmetric orbit and its mirror image are neighbours.
+        Orbits, including roots that are not motions of the system (see Orbit.admissible). Symmetric ones come first;
+        then the order is by ascending sum of the two ball speeds of module 1, of module 2, then by phases. An
+        asymmetric orbit is next to its mirror image.
 
     Raises
     ------
     ValueError
-        If system is not a System, or its undamped boxes are in resonance with a harmonic of the impacts.
+        If system is not a System, or if its undamped boxes are in resonance with a harmonic of the impacts.
+
+    Examples
+    --------
+    >>> orbits = vi.orbits(system)
+    >>> [orbit.stability for orbit in orbits if orbit.admissible]  # doctest: +SKIP
     """
     return Found(search(system).orbits, COLUMNS)
 
 
 def search(system: System, starts: int = STARTS) -> OrbitSearch:
-    """Return orbits(system) with the effort spent on asymmetric ones, which tells how likely one was missed.
+    """Return orbits(system) with the effort spent on asymmetric ones, which shows how likely one was missed.
 
     Raises
     ------
     ValueError
-        As orbits; starts is not a whole number from 1 to 2**20.
+        As for `orbits`, or if starts is not an integer from 1 to 2**20.
     """
     instance("system", system, System)
     starts = whole("starts", starts, 1, _MOST_STARTS)
@@ -166,14 +208,32 @@ def search(system: System, starts: int = STARTS) -> OrbitSearch:
 
 
 def prove(orbit: Orbit):
-    """Prove an orbit in interval arithmetic: existence, motion between the walls, multipliers.
+    """Prove an orbit in interval arithmetic: existence, motion between the walls and multipliers.
+
+    Parameters
+    ----------
+    orbit : Orbit
+        An orbit from `orbits`.
+
+    Returns
+    -------
+    OrbitProof
+        Radius of uniqueness, error bounds and verdicts.
 
     Raises
     ------
     ValueError
-        If orbit is no Orbit; undamped boxes in resonance with the impacts.
+        If orbit is not an Orbit, or if undamped boxes are in resonance with the impacts.
     ModuleNotFoundError
-        If python-flint is missing; the extra `reference` brings it.
+        If python-flint is missing; the extra `reference` installs it.
+
+    References
+    ----------
+    Krawczyk 1969; Neumaier 1990 (existence); Rump 2010 (eigenvalues).
+
+    Examples
+    --------
+    >>> vi.prove(vi.orbits(system)[0]).stability  # doctest: +SKIP
     """
     from vibroimpact.exact.orbits.proof import orbit as proofs
 
@@ -185,7 +245,7 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
 
     Their squares are the multipliers of the orbit.
 
-    They tell apart what the full ones do not: +1 is a fold, -1 is symmetry breaking.
+    They distinguish a fold (+1) from symmetry breaking (-1).
 
     Raises
     ------
@@ -193,7 +253,7 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
         If the orbit is not symmetric.
     """
     if not orbit.symmetric:
-        raise ValueError("orbit: it is not symmetric, so half a period does not map it to its mirror image")
+        raise ValueError("orbit: the orbit is not symmetric, so half a period does not map it to its mirror image")
     system = orbit.system
     times, modules, _ = impact_sequence(orbit.impact_phases * system.period, system.period)
     first = slice(len(times) // 2)
@@ -202,7 +262,7 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
 
 
 def _order(orbit):
-    """Return the sorting key; phases break ties between modules that do not feel each other."""
+    """Return the sorting key; phases break ties between uncoupled modules."""
     numbers = [*orbit.ball_speeds.sum(axis=1), *orbit.impact_phases.ravel()]
     return (not orbit.symmetric, *np.nan_to_num(numbers).round(9))
 
@@ -242,7 +302,7 @@ def _orbit(system, times, changes, fractions, sign):
 
     The flight fractions (2,) are those of the flights from wall +1.
 
-    sign: -1 if it is symmetric, so that each module's kicks are one alternating train; +1 if they are two trains.
+    sign: -1 for a symmetric orbit, where the impulses of a module form one alternating train; +1 for two trains.
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
     state = _state(system, times, changes, speeds, sign)
@@ -298,7 +358,10 @@ def _state(system, times, changes, speeds, sign):
 
 
 def extremes(system, passage: Passage) -> np.ndarray:
-    """Return |W_i| at its extrema inside the free flights of a motion; it is 1 at the impacts themselves."""
+    """Return |W_i| at its extrema inside the free flights of a motion.
+
+    At the impacts themselves |W_i| is 1.
+    """
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     count = 1 + math.ceil(durations.max() * fastest / _STEP)
@@ -333,5 +396,5 @@ def _turning_values(W, V):
     """
     turns = V[:, :-1] * V[:, 1:] < 0
     w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
-    s = v0 / (v0 - v1)  # where the velocity vanishes, up to O(spacing^2), which W does not feel there
+    s = v0 / (v0 - v1)  # zero of the velocity up to O(spacing^2), which does not affect W to this order
     return w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)

@@ -1,16 +1,17 @@
-"""All symmetric 1:1 responses, state(tau + T/2) = -state(tau), as the roots of one function of one variable.
+"""Find all symmetric 1:1 responses, state(tau + T/2) = -state(tau), as roots of a function of one variable.
 
 Module i meets wall +1 at tau_i and wall -1 half a period later. With C_i = 1 - U_i(tau_i), as in (10.12), the ball
-flies 2 C_i / (1 + epsilon) in half a period: its speed is V_i = 4 C_i / ((1 + epsilon) T). Each impact turns it round,
-which kicks box i by -2 epsilon V_i and +2 epsilon V_i in turn. Superposing the forced response and both trains of
-kicks, the conditions on module i (it meets the wall; Newton's rule) are the imaginary and the real part of
+flies 2 C_i / (1 + epsilon) in half a period: its speed is V_i = 4 C_i / ((1 + epsilon) T). Each impact reverses it,
+which changes the velocity of box i by -2 epsilon V_i and +2 epsilon V_i in turn. With the superposition of the forced
+response and both trains of impulses, the conditions on module i (the ball meets the wall; Newton's rule) are the
+imaginary and the real part of
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
 with a complex 2 x 2 matrix P and the forced amplitudes a. For a given delta these four real equations are linear in
 C_1, C_2, c = cos(Omega tau_1), s = sin(Omega tau_1), and c^2 + s^2 = 1 is one equation for delta alone. Multiplied
-through by the determinant of the linear system it is analytic and without poles, apart from kinks at delta = 0 and T/2,
-so a Chebyshev interpolant between the kinks has all its roots, to rounding. A module that takes no part has
+by the determinant of the linear system, it is analytic without poles, except for kinks at delta = 0 and T/2, so that a
+Chebyshev interpolant between the kinks has all its roots to rounding. A module that takes no part has
 tau_i = C_i = 0.
 """
 
@@ -28,25 +29,25 @@ _DEGREE = 32
 _PIECES_AT_ONCE = 256  # so that memory does not grow with the period
 _RADIANS_PER_PIECE = 1.0  # of the fastest oscillation; the interpolant of degree 32 is then exact to rounding
 _NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are rounding
-_NEAR = 1e-3  # a double root may come out of the eigenvalue solver as a pair off the real axis
+_NEAR = 1e-3  # the eigenvalue solver may return a double root as a pair off the real axis
 _SAME = 1e-8
 _BOXES = np.array([0, 1])
 MODULES = np.array([1, 2, 1, 2])
-"""Modules to which the unknowns (tau_1, tau_2, C_1, C_2) belong, and the conditions."""
+"""Modules of the unknowns (tau_1, tau_2, C_1, C_2) and of the conditions."""
 
 
 class SymmetricConditions:
-    """The equations above for one system, or for it under several forces.
+    """Equations of the module docstring for one system, or for it under several forces.
 
     Parameters
     ----------
-    forced
-        The boxes' forced amplitudes under each of the forces, (m, 2) complex; else under those of the system.
+    forced : ndarray, optional
+        Forced amplitudes of the boxes under each of the forces, (m, 2) complex; those of the system by default.
 
     Raises
     ------
     ValueError
-        If undamped boxes in resonance with the impacts (see ImpulseResponse).
+        If undamped boxes are in resonance with the impacts (see ImpulseResponse).
     """
 
     def __init__(self, system, forced=None):
@@ -54,7 +55,7 @@ class SymmetricConditions:
         self._idle = ~np.isin(MODULES, system.modules)
         self.amplitudes = forced_amplitude(system)[None] if forced is None else forced
         self._response = impulse_response(system, sign=-1)
-        self._place = -1 / (1 + system.epsilon)  # of the ball at wall +1, per C
+        self._place = -1 / (1 + system.epsilon)  # position of the ball at wall +1, per C
         speed = path_of(system.epsilon, 1.0) / (system.period / 2)
         self._kick = 2 * system.epsilon * speed
         self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
@@ -71,9 +72,9 @@ class SymmetricConditions:
         return matrix, change
 
     def __call__(self, unknowns: np.ndarray):
-        """Return the residual (n, 4) and Jacobian (n, 4, 4) for unknowns (tau_1, tau_2, C_1, C_2), shape (n, 4).
+        """Return the residual (n, 4) and Jacobian (n, 4, 4) for unknowns (tau_1, tau_2, C_1, C_2), (n, 4).
 
-        A fifth column, if there is one, numbers the forces.
+        An optional fifth column is the index of the force.
         """
         times, C = unknowns[:, :2], unknowns[:, 2:4]
         amplitudes = self.amplitudes[unknowns[:, 4].astype(int)] if unknowns.shape[1] > 4 else self.amplitudes
@@ -90,7 +91,7 @@ class SymmetricConditions:
     def linear_system(self, delta: np.ndarray, force: np.ndarray):
         """Return the matrix (..., 4, 4) and right-hand side (4,) for (C_1, C_2, c, s) at each delta (...).
 
-        force: the numbers of the forces, (...).
+        force: indices of the forces, (...).
         """
         times = np.stack([np.zeros_like(delta), delta], axis=-1)
         forced = (self.amplitudes[force] * np.exp(1j * self.omega * times))[..., None]
@@ -106,24 +107,24 @@ def symmetric_solutions(system) -> np.ndarray:
     Raises
     ------
     ValueError
-        If undamped boxes in resonance with the impacts (see ImpulseResponse).
+        If undamped boxes are in resonance with the impacts (see ImpulseResponse).
     """
     return _solutions(system, [system])[0]
 
 
 def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
-    """Return `symmetric_solutions` of the system under each of some forces (f10_hat, f20_hat), shape (n, 2).
+    """Return `symmetric_solutions` of the system under each of the forces (f10_hat, f20_hat), shape (n, 2).
 
     Raises
     ------
     ValueError
-        As `symmetric_solutions`; or there is no system under one of the forces.
+        As for `symmetric_solutions`, or if a force does not give a valid system.
     """
     return _solutions(system, [system.with_(f10_hat=one, f20_hat=other) for one, other in forces])
 
 
 def _solutions(system, systems):
-    """Return the roots of each of some systems that differ from one in their forces alone."""
+    """Return the roots of each of several systems that differ only in their forces."""
     found = [np.empty((0, 4))] * len(systems)
     for modules in {one.modules for one in systems} - {()}:
         alike = [k for k, one in enumerate(systems) if one.modules == modules]
@@ -139,7 +140,10 @@ def _solutions(system, systems):
 
 
 def _uncoupled_starts(conditions, modules):
-    """Return each module alone: |P_ii C_i + i| = |a_i| is quadratic in C_i. All pairs of its roots."""
+    """Return all pairs of the roots of the modules without coupling.
+
+    For each module, |P_ii C_i + i| = |a_i| is quadratic in C_i.
+    """
     diagonal = np.diagonal(conditions.matrix(np.zeros((1, 2)))[0][0])
     starts = []
     for force, amplitudes in enumerate(conditions.amplitudes):
@@ -186,10 +190,10 @@ def _roots_of_condition(system, conditions):
 
 
 def _condition(conditions, delta, force):
-    """Return N_c^2 + N_s^2 - D^2 with Cramer's determinants of the linear system for (C_1, C_2, c, s), c = N_c / D.
+    """Return N_c^2 + N_s^2 - D^2 up to a factor, with c = N_c / D and s = N_s / D.
 
-    Up to a factor for each piece, delta (pieces, n) under one force (pieces, 1), chosen so that no force is too weak or
-    too strong to be squared.
+    These are Cramer's determinants of the linear system for (C_1, C_2, c, s). delta (pieces, n) is under one force
+    (pieces, 1); the factor of each piece keeps the squares within the range of floats.
     """
     matrices, constant = conditions.linear_system(delta, force)
     size = np.abs(matrices).max(axis=2).mean(axis=1)  # one scale per unknown: keeps the determinants of order one
@@ -208,9 +212,9 @@ def _circle_points(matrices, constant):
 
     The points lie on c^2 + s^2 = 1 or nearest to it.
 
-    Where the matrix is singular (identical modules in step, say) the solution set is a line and meets the circle twice;
-    near such a matrix both points are needed as starts, so the line through the weakest direction is always taken. No
-    numbers where there are no such points.
+    If the matrix is singular (for identical modules in phase, for example), the solution set is a line that meets the
+    circle twice. Near such a matrix both points are needed as starts, so that the line through the weakest direction
+    is always used. Missing points are nan.
     """
     u, values, v = np.linalg.svd(matrices)
     parts = constant @ u

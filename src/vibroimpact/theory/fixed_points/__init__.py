@@ -1,1 +1,1 @@
-"""All fixed points of the slow flow: the search, the balance of harmonics and its real zeros."""
+"""Find all fixed points of the slow flow: search, balance of harmonics, and its real zeros."""

@@ -1,9 +1,9 @@
-"""The fixed-point conditions (10.23) as polynomials in C_1 and C_2, free of phases: roots of (10.24) without its poles.
+"""Fixed-point conditions (10.23) as polynomials in C_1 and C_2: the roots of (10.24) without its poles.
 
 On the manifold b_i = B_i exp(-i psi_i) = z_i u_i with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. With this (10.23) is
 linear in the phasors u_i, and its coefficients are linear in C_i (docs/derivation.md, section 5):
     q_i u_i + K (z_i u_i - z_j u_j) = f_i,    q_i = e_i z_i + mu C_i.
-The singular points of (10.24) itself are here too (docs/derivation.md, section 8).
+This module also computes the singular points of (10.24) (docs/derivation.md, section 8).
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,10 @@ _ROUNDING = 100 * np.finfo(float).eps
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """The linear functions of C_i in the balance, constant first: z (shape (2,)), q (shape (2, 2)); K; forcing (2,)."""
+    """Linear functions of C_i in the balance, constant first.
+
+    z: shape (2,). q: shape (2, 2). K: coupling. forcing: (2,).
+    """
 
     z: np.ndarray
     q: np.ndarray
@@ -50,7 +53,7 @@ class Balance:
         return -np.angle(self.at(C)[0] * numerators / denominator)
 
     def of_module(self, i) -> tuple[np.ndarray, np.ndarray, bool]:
-        """Return C (n,) and psi (n,) at which module i alone is balanced, and if two are one to rounding.
+        """Return C (n,) and psi (n,) at which module i alone is balanced, and True if two are one to rounding.
 
         i is 0 or 1; the module is uncoupled.
 
@@ -67,11 +70,10 @@ class Balance:
         return C, -np.angle((self.z[0] + self.z[1] * C) * f / (q0 + q1 * C)), bool(multiple)
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return two polynomials equivalent to (10.24), |u_1| = |u_2| = 1 without denominators, and their moduli, each
-        (2, 3, 3).
+        """Return two polynomials equivalent to (10.24), and the same with moduli, each (2, 3, 3).
 
-        |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2, where u_i = n_i / Delta: n_1 depends on C_2 alone and n_2 on C_1
-        alone. Entry [:, j, k] belongs to C_1^j C_2^k.
+        The polynomials are |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2, that is |u_1| = |u_2| = 1 without denominators,
+        where u_i = n_i / Delta. n_1 depends on C_2 alone and n_2 on C_1 alone. Entry [:, j, k] belongs to C_1^j C_2^k.
         """
         parts = self.z, self.q, self.K, self.forcing
         delta, one, two = map(_modulus_squared, _solution(*parts))
@@ -98,11 +100,12 @@ def _modulus_squared(polynomial):
 
 
 def determinant(system, C) -> float:
-    """Return Im(p_1 p_2 conj(z_1 z_2 K^2)): the common denominator of h_1 and h_2 in (10.24), up to a factor 4 f-free.
+    """Return Im(p_1 p_2 conj(z_1 z_2 K^2)), the common denominator of h_1 and h_2 in (10.24).
 
-    sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two equations linear in cos and sin of psi_2 - psi_1; four times
-    this is their determinant. Zero for all C when the modules are uncoupled, and else not: as a quadratic in C_1 it
-    vanishes identically only with p_2 = 0, and a ball that dissipates keeps p_2 from 0.
+    The factor 4 and factors free of f are left out. sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two equations
+    linear in cos and sin of psi_2 - psi_1; four times this value is their determinant. It vanishes for all C only if
+    the modules are uncoupled: as a quadratic in C_1 it vanishes identically only with p_2 = 0, which a dissipative ball
+    excludes.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)
@@ -115,15 +118,15 @@ def singular_points(system, point, module) -> np.ndarray:
     Parameters
     ----------
     point
-        The fixed point at which the other module is held.
+        The fixed point at which the other module is held constant.
     module
-        1 or 2, the module whose plane is asked for.
+        1 or 2, the module of the plane.
 
     Returns
     -------
     ndarray
-        (C, B) of each point with C >= 0, shape (n, 2), ascending in C; n is 0, 1 or 2. Uncoupled modules have none
-        isolated: the whole manifold is singular.
+        (C, B) of each point with C >= 0, shape (n, 2), ascending in C; n is 0, 1 or 2. For uncoupled modules the
+        whole manifold is singular, so that no point is isolated.
 
     Raises
     ------
@@ -144,7 +147,7 @@ def singular_points(system, point, module) -> np.ndarray:
 
 
 def _real_roots(coefficients):
-    """Return the real roots of c + b x + a x^2; a pair that rounding cannot tell from a double root counts as one."""
+    """Return the real roots of c + b x + a x^2; a pair equal within rounding counts as one."""
     c, b, a = coefficients
     discriminant = b * b - 4 * a * c
     if abs(discriminant) <= 8 * np.finfo(float).eps * (b * b + abs(4 * a * c)):

@@ -1,7 +1,7 @@
-"""All real common zeros, in a square, of two polynomials of degree 2 in each of two variables: by their resultant.
+"""Find all real common zeros, in a square, of two polynomials of degree 2 in each of two variables.
 
-Eliminating y leaves a polynomial of degree 8 in x. Its roots are starts for Newton's method in both variables, so that
-the digits lost in forming it do not matter. Zeros that rounding cannot separate come back as one, marked multiple.
+The resultant eliminates y and has degree 8 in x. Its roots are starts for Newton's method in both variables, so that
+digits lost in forming it do not matter. Zeros that are equal within rounding are returned as one, marked multiple.
 (Resultants: Cox, Little and O'Shea 2015, Ideals, Varieties, and Algorithms, section 3.6.)
 """
 
@@ -9,17 +9,18 @@ import numpy as np
 from numpy.polynomial import polynomial as poly
 
 _ROUNDING = 100 * np.finfo(float).eps
-"""Rounding of a value, relative to the sum of the moduli of its terms: far above the some 20 operations it takes."""
+"""Bound on the rounding of a value, relative to the sum of the moduli of its terms (about 20 operations)."""
 _RESOLUTION = 1e-8
 _BOXES = _RESOLUTION, 1e-6, 1e-4
-"""Half-widths, relative to max(1, |zero|), of boxes in one of which Newton's method contracts about a simple zero."""
+"""Half-widths, relative to max(1, |zero|), of boxes in which to test if Newton's method contracts about a simple
+zero."""
 _NEARLY_REAL = 1e-2
-"""Largest imaginary part, relative to the modulus, of a root that may stand for real zeros."""
+"""Largest imaginary part, relative to the modulus, of a root treated as real."""
 _CLOSE = 0.03
 """Largest value of a polynomial at a start, relative to the sum of the moduli of its terms."""
 _STEPS = 30
 _SAME = 1e-5
-"""Distance, relative to max(1, |zero|), within which multiple zeros are taken for one."""
+"""Distance, relative to max(1, |zero|), within which multiple zeros count as one."""
 
 
 def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray]:
@@ -30,19 +31,19 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
     coefficients
         Shape (2, 3, 3), of x^j y^k.
     magnitudes
-        Shape (2, 3, 3), the coefficients formed with moduli throughout: the scale of their rounding.
+        Shape (2, 3, 3), the coefficients computed with moduli: the scale of their rounding.
 
     Returns
     -------
     tuple[ndarray, ndarray]
-        Zeros, shape (n, 2), in ascending order of x, and for each whether it is multiple (shape (n,), bool).
+        Zeros, shape (n, 2), in ascending order of x, and flags for multiple zeros, shape (n,), bool.
 
     Raises
     ------
     ArithmeticError
         If the zeros are not isolated.
     """
-    scale = np.multiply.outer(radius ** np.arange(3.0), radius ** np.arange(3.0))  # the square becomes [-1, 1]^2
+    scale = np.multiply.outer(radius ** np.arange(3.0), radius ** np.arange(3.0))  # maps the square to [-1, 1]^2
     scaled, size = coefficients * scale, magnitudes * scale
     heights = size.max(axis=(1, 2), keepdims=True)
     scaled, size = scaled / heights, size / heights
@@ -91,7 +92,7 @@ def _resultant(one, other, sign=-1):
 
 
 def _roots(coefficients):
-    """Return the real parts of the nearly real roots; of a pair that is nearly real, both sides of its middle."""
+    """Return the real parts of the nearly real roots; for a nearly real pair, both sides of its middle."""
     nonzero = np.flatnonzero(np.abs(coefficients) > np.finfo(float).tiny)
     roots = poly.polyroots(coefficients[: nonzero[-1] + 1])
     roots = roots[np.abs(roots.imag) <= _NEARLY_REAL * np.abs(roots) + _RESOLUTION]
@@ -108,8 +109,9 @@ def _quadratic(polynomial, x):
 
 
 def _newton(pair, size, points):
-    """Return the points to which Newton's method leads from points (n, 2) and where both polynomials vanish within
-    rounding.
+    """Return the points to which Newton's method converges from points (n, 2).
+
+    Both polynomials vanish there within rounding.
     """
     found = [np.empty((0, 2))]
     for _ in range(_STEPS):
@@ -117,7 +119,7 @@ def _newton(pair, size, points):
         with np.errstate(all="ignore"):
             step = (_adjugate(gradient) @ value[..., None])[..., 0] / np.linalg.det(gradient)[:, None]
         there, later = (np.abs(value) <= noise).all(axis=1), points - np.nan_to_num(step)
-        last = np.abs(step).max(axis=1) < np.sqrt(_ROUNDING)  # of a simple zero: to the last digits
+        last = np.abs(step).max(axis=1) < np.sqrt(_ROUNDING)  # the last step of a simple zero reaches the last digits
         found.append(np.where(last[:, None], later, points)[there])
         points = later[~there & (np.abs(later) < 2).all(axis=1)]
         if not len(points):
@@ -126,7 +128,7 @@ def _newton(pair, size, points):
 
 
 def _expanded(pair, size, points):
-    """Return the values (n, 2), Jacobians (n, 2, 2) of the pair at points (n, 2), and the rounding of the values."""
+    """Return values (n, 2) and Jacobians (n, 2, 2) of the pair at points (n, 2), and the rounding of the values."""
     value, by_x, by_y = (_at(points, one) for one in (pair, *_derivatives(pair)))
     return value, np.stack([by_x, by_y], -1), _ROUNDING * _at(np.abs(points), size)
 
@@ -149,8 +151,8 @@ def _adjugate(matrix):
 def _contract(pair, size, points):
     """Return True (n,) for each point about which Newton's method contracts in one of the boxes: a simple zero.
 
-    Kantorovich: the shift of the zero by rounding, and the change of the Newton step over the box by twice its second
-    derivatives, stay within it.
+    By Kantorovich's theorem: the shift of the zero by rounding, and the change of the Newton step over the box by twice
+    its second derivatives, stay within the box.
     """
     _, gradient, noise = _expanded(pair, size, points)
     by_x, by_y = _derivatives(pair)
@@ -164,7 +166,7 @@ def _contract(pair, size, points):
 
 
 def _distinct(points, apart):
-    """Return the first of each group of points that lie near each other."""
+    """Return the first point of each group of points within a distance."""
     found = []
     for point in points:
         if not any(_near(point, known, apart) for known in found):

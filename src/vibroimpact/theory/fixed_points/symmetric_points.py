@@ -1,9 +1,9 @@
-"""All fixed points of the slow flow: the real solutions of (10.16), (10.23).
+"""Find all fixed points of the slow flow, the real solutions of (10.16), (10.23).
 
-The zeros of the polynomials in C_1, C_2 are refined in amplitudes and phases at once, which restores the digits lost by
-squaring. Without dissipation the slow flow is reversible: to a fixed point belongs another with the same C and mirrored
-phases, and Delta of the balance vanishes there. Close to this limit two well separated fixed points have amplitudes
-that rounding cannot tell apart; their phases tell them apart.
+The zeros of the polynomials in C_1, C_2 are refined in amplitudes and phases together, which restores the digits lost
+by squaring. Without dissipation the slow flow is reversible: each fixed point has a partner with the same C and
+mirrored phases, and Delta of the balance vanishes there. Close to this limit, two well separated fixed points have
+amplitudes that are equal within rounding; their phases distinguish them.
 """
 
 from dataclasses import dataclass, replace
@@ -23,10 +23,10 @@ from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, equations, slow_eigenvalues
 
 _STEPS = 30
-_SETTLED = 1e-12  # a Newton step this small leaves the state exact to rounding
+_SETTLED = 1e-12  # after such a Newton step the state is exact to rounding
 _SAME = 1e-9
-_NEAR = 1e-3  # a fixed point this far from where the search left off belongs to another zero
-_OPEN = 1e-3  # by this share of its perimeter a triangle stays open at every C that rounding confuses with a zero
+_NEAR = 1e-3  # a fixed point farther from the result of the search belongs to another zero
+_OPEN = 1e-3  # fraction of its perimeter by which a triangle stays open near a zero that is due to rounding
 _REGULAR = 1e5  # condition number up to which Newton's method proves a fixed point to be a simple one
 _AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
 COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
@@ -37,18 +37,30 @@ COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
 class FixedPoint(Representation):
     """A periodic response with two impacts per cycle and module, (10.23).
 
-    Of a single machine (`PhysicalSystem.single`) it is that of the module that takes part: C, B and psi of the other,
-    which stays at rest, are NaN.
+    For a single machine (`PhysicalSystem.single`), C, B and psi of the other module, which stays at rest, are NaN.
 
-    Attributes:
-        system: the system it belongs to.
-        C, B: saw-tooth and box amplitudes of the modules, each shape (2,), dimensionless.
-        psi: phases [rad] behind the forcing, in (-pi, pi], shape (2,); U_i0 = B_i sin(Omega tau - psi_i).
-        slow_eigenvalues: of the slow flow, per unit of tau_1, shape (4,), of a single machine (2,), complex; infinite
-            at a fold of the manifold.
-        multiple: rounding leaves open whether several fixed points coincide here (a fold or branch point in the
-            parameters); C and psi are then known to about the square root of rounding.
-        label: "a", "b", ... as in the figures (see `labels`); "" outside a list of all fixed points with C >= 0.
+    Attributes
+    ----------
+    system : System
+        System of the fixed point.
+    C, B : ndarray
+        Saw-tooth and box amplitudes of the modules, each shape (2,), dimensionless.
+    psi : ndarray
+        Phases [rad] behind the forcing, in (-pi, pi], shape (2,); U_i0 = B_i sin(Omega tau - psi_i).
+    slow_eigenvalues : ndarray
+        Eigenvalues of the slow flow, per unit of tau_1, complex, shape (4,), or (2,) for a single machine; infinite at
+        a fold of the manifold.
+    multiple : bool
+        True if several fixed points may coincide within rounding (a fold or branch point in the parameters). C and psi
+        are then known to about the square root of rounding.
+    label : str
+        "a", "b", ... as in the figures (see `labels`); "" outside a list of all fixed points with C >= 0.
+
+    Examples
+    --------
+    >>> point = vi.fixed_points(system)[0]
+    >>> point.C.shape
+    (2,)
     """
 
     system: System
@@ -61,12 +73,12 @@ class FixedPoint(Representation):
 
     @property
     def stability(self) -> Stability:
-        """Verdicts of the theory: fast (Masri's analysis, derived anew), slow (the slow flow), and both together."""
+        """Verdicts of the theory: fast (Masri's analysis), slow (the slow flow), and both together (theory)."""
         verdicts = of_fixed_point(self.system, self)
         return Stability(verdicts[FAST], verdicts[SLOW])
 
     def row(self) -> dict:
-        """Return the numbers and verdicts by name, the columns of `to_frame`."""
+        """Return the numbers and verdicts by column name of `to_frame`."""
         numbers = np.ravel([self.C, self.B, self.psi]).tolist()
         fast, slow = stability = self.stability
         growth = float(self.slow_eigenvalues.real.max())
@@ -80,7 +92,10 @@ class FixedPoint(Representation):
 
 
 class FixedPointSearch(NamedTuple):
-    """Every real solution: `points` with C_1, C_2 >= 0, `outside` with some C_i < 0, both ascending in C_1."""
+    """All real solutions.
+
+    points: those with C_1, C_2 >= 0; outside: those with some C_i < 0. Both ascend in C_1.
+    """
 
     points: list[FixedPoint]
     outside: list[FixedPoint]
@@ -89,16 +104,25 @@ class FixedPointSearch(NamedTuple):
 def fixed_points(system: System) -> list[FixedPoint]:
     """Return all fixed points of the slow flow with C_1, C_2 >= 0, (10.23).
 
+    Parameters
+    ----------
+    system : System
+        Dimensionless parameters.
+
     Returns
     -------
     list of FixedPoint
-        A list of FixedPoint, ascending in C_1 (of a single machine in the C of its module), which is not the order of
-        their labels. `theory.completeness_proof` proves that none is missing.
+        Fixed points, ascending in C_1 (for a single machine, in the C of its module); this is not the order of their
+        labels. `vibroimpact.studies.completeness.points` proves that none is missing.
 
     Raises
     ------
     ValueError
-        If system is not a System; else as `search`.
+        If system is not a System, or if its fixed points need not be isolated (see `search`).
+
+    Examples
+    --------
+    >>> [point.label for point in vi.fixed_points(system)]  # doctest: +SKIP
     """
     return Found(search(system).points, COLUMNS)
 
@@ -109,15 +133,15 @@ def search(system: System) -> FixedPointSearch:
     Raises
     ------
     ValueError
-        If system is not a System, or its undamped slow flow without balls is at a resonance that the forces do not
-        load: a free motion of any phase may then touch the walls, and fixed points need not be isolated.
+        If system is not a System, or if its undamped slow flow without balls is at a resonance that the forces do not
+        excite. A free motion of any phase may then touch the walls, and fixed points need not be isolated.
     """
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
     if system.modules == (1, 2):
         zeros, multiple = real_zeros(*balance.polynomials(), search_radius(system))
         solutions = _solutions(system, balance, zeros, multiple)
-    else:  # none at rest: what the ball dissipates would leave it no fixed point
+    else:  # no point at rest, since the ball dissipates energy
         solutions = [solution for module in system.modules for solution in _of_one_module(balance, module - 1)]
     points = [_fixed_point(system, *solution) for solution in solutions]
     points.sort(key=lambda point: tuple(np.nan_to_num(point.C)))
@@ -132,8 +156,8 @@ def search_radius(system) -> float:
 
     It depends on f and rho alone (docs/derivation.md, section 6).
 
-    What the balls dissipate, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed what the forces supply,
-    |f_1| B_1 + |f_2| B_2, and B_i <= 1 + sqrt(1 + rho^2) |C_i|.
+    The dissipation of the balls, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed the supply by the forces,
+    |f_1| B_1 + |f_2| B_2, where B_i <= 1 + sqrt(1 + rho^2) |C_i|.
     """
     r = rho(system.kappa)
     f = np.abs([system.f10_hat, system.f20_hat])
@@ -147,9 +171,9 @@ def labels(system, points) -> list[str]:
 
     The chapter gives the labels in its figures only.
 
-    First the points that (10.26) calls unstable, then by falling growth rate of the slow flow (largest real part of its
-    eigenvalues). Of the orders one could think of, it is the one under which most sentences of section 10.4 hold,
-    that on Figs. 10.7 and 10.8 included; docs/errata.md lists sentence by sentence.
+    Points that are unstable by (10.26) come first; then the order is by descending growth rate of the slow flow
+    (largest real part of its eigenvalues). Of the plausible orders, most sentences of section 10.4 hold under this one,
+    including that on Figs. 10.7 and 10.8; docs/errata.md lists them.
     """
     limit = printed_limit(rho(system.kappa))
     keys = [(bool(np.nanmin(point.C) > limit), -point.slow_eigenvalues.real.max()) for point in points]
@@ -158,14 +182,8 @@ def labels(system, points) -> list[str]:
 
 
 def refuse_free_motion(system) -> None:
-    """Refuse a system whose fixed points need not be isolated.
-
-    Raises
-    ------
-    ValueError
-        As `search`.
-    """
-    if len(system.modules) == 1:  # its force loads the only resonance that matters
+    """Raise ValueError for a system whose fixed points need not be isolated (see `search`)."""
+    if len(system.modules) == 1:  # its force excites the only relevant resonance
         return
     balance = Balance.of(system)
     numerators, denominator = balance.solve((0.0, 0.0))
@@ -174,7 +192,7 @@ def refuse_free_motion(system) -> None:
     if abs(denominator) <= 1e-12 * scale * own and np.abs(numerators).max() <= 1e-12 * scale * force:
         raise ValueError(
             f"sigma_e_hat: {system.sigma_e_hat} drives the undamped slow flow at a resonance that the forces do not "
-            "load, so that fixed points need not be isolated; add damping or change the frequency"
+            "excite, so that fixed points need not be isolated; add damping or change the frequency"
         )
 
 
@@ -196,17 +214,17 @@ def _solutions(system, balance, zeros, multiple):
     unresolved = []
     for C in zeros[multiple]:
         pair = _mirrored_pair(system, balance, C)
-        # Two zeros that rounding blurs can lead to the same pair.
+        # Two zeros that are equal within rounding can lead to the same pair.
         simple += [solution for solution in pair if not any(_same(solution, known) for known in simple)]
         unresolved += [(C, balance.phases(C))] if not pair and _may_close(balance, C) else []
     return [(*solution, False) for solution in simple] + [(*solution, True) for solution in unresolved]
 
 
 def _mirrored_pair(system, balance, C):
-    """Return (C, psi) of the two regular fixed points with amplitudes close to C; empty where there is no such pair.
+    """Return (C, psi) of the two regular fixed points with amplitudes close to C, or an empty list.
 
-    C: a zero of the polynomials, known to the square root of rounding at best. The starts are both pairs of unit
-    phasors with p_1 u_1 - K z_2 u_2 = f_1, for sides that allow a triangle.
+    C: a zero of the polynomials, known at best to the square root of rounding. The starts are both pairs of unit
+    phasors with p_1 u_1 - K z_2 u_2 = f_1, if the sides form a triangle.
     """
     z, q = balance.at(C)
     p, k, f = q[0] + balance.K * z[0], balance.K * z[1], balance.forcing[0]
@@ -221,7 +239,7 @@ def _mirrored_pair(system, balance, C):
 
 
 def _may_close(balance, C):
-    """Return False where no phases balance the forces anywhere near C, so that the zero is one of its squares alone.
+    """Return False if no phases balance the forces near C, so that the zero is due to the squaring alone.
 
     Without dissipation Delta, n_1 and n_2 vanish at once at such a place. Phases need f_i = p_i u_i - K z_j u_j, a
     triangle with the sides |f_i|, |p_i|, |K z_j|, of both modules.
@@ -232,7 +250,7 @@ def _may_close(balance, C):
 
 
 def _refined(system, C, psi):
-    """Return (C, psi) after Newton's method in both at once; None unless it ends at a regular fixed point near C."""
+    """Return (C, psi) after Newton's method in both, or None unless it ends at a regular fixed point near C."""
     state = np.column_stack([C, psi])
     for _ in range(_STEPS):
         residual, J = equations(system, state[:, 1], state[:, 0])

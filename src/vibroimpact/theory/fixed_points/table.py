@@ -1,4 +1,4 @@
-"""Fixed points as the pipeline's table holds them, one row per point: label, C1, C2, B1, B2, psi1, psi2, multiple."""
+"""Tabulate fixed points, one row per point: label, C1, C2, B1, B2, psi1, psi2, multiple."""
 
 from dataclasses import dataclass
 
@@ -12,14 +12,17 @@ from vibroimpact.theory.masri import printed_limit
 
 need("figures", "pandas")
 
-import pandas as pd  # noqa: E402 (after the word on what is missing)
+import pandas as pd  # noqa: E402 (after the dependency check)
 
 COLUMNS = ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2", "multiple"]
 
 
 @dataclass(frozen=True, eq=False)
 class LabelledPoint:
-    """A fixed point of the slow flow under its label: C, B and psi [rad], each (2,), and whether it is multiple."""
+    """A fixed point of the slow flow with its label.
+
+    C, B and psi [rad] have shape (2,); multiple is as in FixedPoint.
+    """
 
     label: str
     C: np.ndarray
@@ -29,7 +32,10 @@ class LabelledPoint:
 
 
 def fixed_point_table(case: str, system) -> pd.DataFrame:
-    """Return all fixed points of a system, a row each, by label; columns COLUMNS, the case under the name given."""
+    """Return all fixed points of a system, one row each, by label.
+
+    The columns are COLUMNS; `case` is the name in the first one.
+    """
     points = fixed_points(system)
     rows = [
         [case, label, *point.C, *point.B, *point.psi, point.multiple]
@@ -39,7 +45,7 @@ def fixed_point_table(case: str, system) -> pd.DataFrame:
 
 
 def labelled_points(table: pd.DataFrame) -> list[LabelledPoint]:
-    """Return the points of a table, in its order."""
+    """Return the points of a table in order."""
     return [
         LabelledPoint(
             row["label"],
@@ -51,7 +57,7 @@ def labelled_points(table: pd.DataFrame) -> list[LabelledPoint]:
 
 
 def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
-    """Return the point of a table that bears a label.
+    """Return the point of a table with a given label.
 
     Raises
     ------
@@ -62,15 +68,15 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
     if label not in points:
         case = f" {table['case'].iloc[0]!r}" if "case" in table and len(table) else ""
         known = ", ".join(points) or "none"
-        raise ValueError(f"fixed_point: the case{case} has no fixed point {label!r}, it has {known}")
+        raise ValueError(f"fixed_point: the case{case} has no fixed point {label!r}; it has {known}")
     return points[label]
 
 
 def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
-    """Return the place of each fixed point on the manifold: one row per point and module that takes part.
+    """Return the position of each fixed point on the manifold, one row per point and module that takes part.
 
     Columns label, module, C, B, arm ("left" or "right" of C_min, (10.25)), branch ("stable" or "unstable", (10.26)),
-    overshoot (how far W leaves the walls at leading order, 0 where |W| <= 1).
+    overshoot (distance by which W leaves the walls at leading order, 0 if |W| <= 1).
     """
     r = rho(system.kappa)
     rows = [

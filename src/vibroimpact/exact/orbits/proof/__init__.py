@@ -1,4 +1,4 @@
-"""Proofs on single orbits in interval arithmetic (python-flint): existence, motion between the walls, multipliers."""
+"""Prove single orbits in interval arithmetic (python-flint): existence, motion between the walls, multipliers."""
 
 from vibroimpact.system.extras import need
 

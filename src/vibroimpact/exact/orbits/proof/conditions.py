@@ -1,7 +1,7 @@
-"""The conditions of asymmetric.py on impact times and velocity changes of the balls, in interval arithmetic.
+"""Evaluate the conditions of asymmetric.py on impact times and velocity changes in interval arithmetic.
 
-They are six smooth equations for p_1, q_1, p_2, q_2, I_1, I_2 as long as no two impacts change their order. Orbits of
-both kinds are roots; a symmetric one is its own mirror image. Between impacts the boxes move steadily under forcing and
+They are six smooth equations for p_1, q_1, p_2, q_2, I_1, I_2 as long as the order of the impacts stays the same.
+Orbits of both kinds are roots; a symmetric one is its own mirror image. The boxes move steadily under forcing and
 trains of impulses. A module that takes no part has p_i = q_i = I_i = 0.
 """
 
@@ -19,16 +19,16 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 
 
 class SteadyBoxes:
-    """The boxes of a system whose matrices and forcing are the float64 numbers that the code holds, [X1, X2, X1', X2'].
+    """Boxes [X1, X2, X1', X2'] of a system, with its float64 matrices and forcing taken as exact.
 
-    omega, period: of the forcing; rate (4, 4): of the free motion; start (4, 2): state just after an impulse, column j
-    for a train on box j (sign +1: equal impulses, one a period; -1: alternating ones, one every half period);
+    omega, period: of the forcing. rate (4, 4): of the free motion. start (4, 2): state just after an impulse, column j
+    for a train on box j (sign +1: equal impulses, one per period; -1: alternating ones, one every half period).
     amplitude (4, 1) complex: without impulses the state is Im(amplitude exp(i omega tau)).
 
     Raises
     ------
     ValueError
-        If undamped boxes in resonance with the train or the forcing.
+        If undamped boxes are in resonance with the train or the forcing.
     """
 
     def __init__(self, system, sign: int):
@@ -42,14 +42,14 @@ class SteadyBoxes:
             receptance = acb_mat(identity(4)) * acb(0, self.omega) - acb_mat(self.rate)
             self.amplitude = receptance.solve(acb_mat([[acb(f)] for f in rate[:4, 4].tolist()]))
         except ZeroDivisionError:
-            raise ValueError("system: its undamped boxes are in resonance with the impacts; add damping") from None
+            raise ValueError("system: the undamped boxes are in resonance with the impacts; add damping") from None
 
     def free(self, duration) -> arb_mat:
         """Return exp(rate duration) (4, 4) for a time or an interval of times."""
         return (self.rate * duration).exp()
 
     def forced(self, tau) -> acb_mat:
-        """Return the state (4, 1) as a complex number without impulses, whose imaginary part it is."""
+        """Return the complex state (4, 1) without impulses, whose imaginary part is the state."""
         return self.amplitude * (acb(0, 1) * self.omega * tau).exp()
 
 
@@ -59,12 +59,12 @@ def identity(size: int) -> arb_mat:
 
 
 class EnclosedConditions:
-    """The equations for one system whose matrices and forcing are the float64 numbers that the code holds.
+    """The equations for one system, with its float64 matrices and forcing taken as exact.
 
     Raises
     ------
     ValueError
-        If undamped boxes in resonance with the impacts.
+        If undamped boxes are in resonance with the impacts.
     """
 
     def __init__(self, system):
@@ -112,11 +112,11 @@ class EnclosedConditions:
         return lags
 
     def fraction(self, i, lags):
-        """Return the flight of ball i from wall +1, of the period."""
+        """Return the flight time of ball i from wall +1, over the period."""
         return lags[2 * i + 1, 2 * i] / self.period
 
     def before(self, m, unknowns, lags):
-        """Return the state (4,) of the boxes just before impact m with its derivatives by the unknowns, (4, 7)."""
+        """Return the state (4,) of the boxes just before impact m and its derivatives by the unknowns, (4, 7)."""
         forced = self.boxes.forced(unknowns[m])
         state = np.full((4, 1 + _UNKNOWNS), arb(0))
         state[:, 0] = [entry.imag for entry in forced.entries()]
@@ -135,7 +135,7 @@ class EnclosedConditions:
 
 
 def _jet(value, unknown=None):
-    """Return a number with its derivatives by the unknowns, (7,): a constant, or an unknown itself."""
+    """Return a number with its derivatives by the unknowns, (7,), from a constant or an unknown."""
     return np.array([value, *(arb(int(k == unknown)) for k in range(_UNKNOWNS))])
 
 

@@ -1,9 +1,9 @@
-"""Proofs on single orbits in interval arithmetic: existence, motion between the walls, multipliers.
+"""Prove existence, motion between the walls and multipliers of single orbits in interval arithmetic.
 
-Krawczyk's test (Krawczyk 1969; Neumaier 1990) on the six conditions of asymmetric.py shows that near the listed numbers
-there is one root and no other. It is symmetric if its mirror image is as near, so that both must be the same;
-asymmetric if a flight fraction is not 1/2. From its enclosure follow those of the state at the impacts, of the
-monodromy matrix and of its eigenvalues (flint's acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017).
+Krawczyk's test (Krawczyk 1969; Neumaier 1990) on the six conditions of asymmetric.py proves that exactly one root lies
+near the listed numbers. The root is symmetric if its mirror image is as near, so that both must be the same; it is
+asymmetric if a flight fraction is not 1/2. Its enclosure gives enclosures of the state at the impacts, of the monodromy
+matrix and of its eigenvalues (flint's acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017).
 """
 
 import math
@@ -17,24 +17,31 @@ from vibroimpact.exact.orbits.proof.passage import NOT_PROVED, EnclosedPassage, 
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _BITS = 128
-_WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths that are tried
+_WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths to try
 _TIGHT = 2.0**-90
 _SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
-"""A listed state or multiplier this far from the proved one, relative to its size where that is above 1, belongs to
-another orbit; computed ones are off by rounding, double multipliers by its root."""
-_STEPS = 20  # at most, to narrow a box: quadratic, but for the first ones
+"""Distances of a listed state and of a listed multiplier from the proved ones (relative to its size where that is above
+1) beyond which they belong to another orbit. Computed ones differ by rounding, double multipliers by its root."""
+_STEPS = 20  # largest number of steps to narrow a box; convergence is quadratic after the first ones
 
 
 @dataclass(frozen=True)
 class OrbitProof:
-    """Proof of an orbit of a system with exactly these float64 matrices and forcing.
+    """Proof of an orbit of a system, with its float64 matrices and forcing taken as exact.
 
-    radius: half-width of a box around the listed impact times and changes of ball velocity with exactly one root, of
-        the listed kind (symmetric or not); 0 where nothing is proved.
-    error: bound on the distance of the listed impact times and speeds from those of the root; inf without one.
-    motion: "legal", "not legal" or "not proved": every ball meets its walls from inside and |W_i| < 1 between.
-    multipliers: enclosures, eight acb, of a single machine four, by descending modulus, or none.
-    moduli_error: bound on the error of the listed moduli; inf without enclosures.
+    Attributes
+    ----------
+    radius : float
+        Half-width of a box around the listed impact times and changes of ball velocity with exactly one root, of the
+        listed kind (symmetric or not); 0 if nothing is proved.
+    error : float
+        Bound on the distance of the listed impact times and speeds from those of the root; inf without a root.
+    motion : str
+        "legal" if every ball meets its walls from inside and |W_i| < 1 in between; else "not legal" or "not proved".
+    multipliers : tuple of acb
+        Enclosures by descending modulus, eight or, for a single machine, four; empty if they fail.
+    moduli_error : float
+        Bound on the error of the listed moduli; inf without enclosures.
     """
 
     radius: float
@@ -45,7 +52,7 @@ class OrbitProof:
 
     @property
     def stability(self) -> str:
-        """ "stable" or "unstable" where the enclosures prove it, else "not proved"."""
+        """ "stable" or "unstable" if the enclosures prove it, else "not proved"."""
         moduli = [abs(value) for value in self.multipliers]
         if any(modulus > 1 for modulus in moduli):
             return UNSTABLE
@@ -56,12 +63,12 @@ _NOTHING = OrbitProof(0.0, math.inf, NOT_PROVED, (), math.inf)
 
 
 def prove(orbit) -> OrbitProof:
-    """Prove what can be proved of an Orbit from its listed numbers.
+    """Prove as much as possible of an Orbit from its listed numbers.
 
     Raises
     ------
     ValueError
-        If undamped boxes in resonance with the impacts.
+        If undamped boxes are in resonance with the impacts.
     """
     with ctx.workprec(_BITS):
         conditions = EnclosedConditions(orbit.system)
@@ -85,7 +92,7 @@ def prove(orbit) -> OrbitProof:
 
 
 def _multipliers(monodromy) -> tuple[acb, ...]:
-    """Return the enclosures of the eigenvalues of an interval matrix, by descending modulus; none where that fails."""
+    """Return enclosures of the eigenvalues of an interval matrix, by descending modulus, or none on failure."""
     try:
         values = acb_mat(monodromy).eig(multiple=True)
     except ValueError:
@@ -103,13 +110,13 @@ def _of_kind(symmetric, conditions, root, listed, radius):
 
 
 def _has_state(orbit, passage):
-    """Return True if the listed state is next to the proved one."""
+    """Return True if the listed state is close to the proved one."""
     listed = orbit.state.tolist()
     return any(all(map(_near, listed, proved.entries()[:8], [_SPOILT_STATE] * 8)) for proved in passage.states())
 
 
 def _has_multipliers(orbit, proved):
-    """Return True if every listed multiplier is next to a proved one and every proved one next to a listed one."""
+    """Return True if every listed multiplier is close to a proved one, and vice versa."""
     near = np.array(
         [[_near(one, other, _SPOILT_MULTIPLIER) for other in proved] for one in map(acb, orbit.multipliers.tolist())]
     )
@@ -121,7 +128,7 @@ def _near(listed, proved, spoilt):
 
 
 def _distance(enclosures, listed):
-    """Return the upper bound, rounded up, of the distance of numbers from those enclosed."""
+    """Return an upper bound, rounded up, on the distance of numbers from their enclosures."""
     gaps = [abs(value - number).upper() for value, number in zip(enclosures, listed, strict=True)]
     return max(math.nextafter(float(gap), math.inf) for gap in gaps)
 
@@ -131,9 +138,9 @@ def krawczyk(equations, approximate: np.ndarray):
 
     No other root lies within the half-width. The result is (None, 0.0) if the test fails.
 
-    By Krawczyk's interval form of Newton's method. equations(x) returns residual (n, 1) and Jacobian (n, n) over
-    intervals x, a list of n numbers, or None where it is
-    not defined on all of them. The widest box that the test accepts is kept, its image narrowed to working precision.
+    equations(x) returns residual (n, 1) and Jacobian (n, n) over intervals x, a list of n numbers, or None if they are
+    not defined on all of x. The widest box that passes Krawczyk's test is kept, and its image is narrowed to working
+    precision.
     """
     centre = [arb(value) for value in approximate.tolist()]
     for exponent in range(_WIDEST, _NARROWEST, -1):
@@ -146,7 +153,7 @@ def krawczyk(equations, approximate: np.ndarray):
 
 
 def _image(equations, box):
-    """Return Krawczyk's operator: every root in the box is in its image."""
+    """Return the image of a box under Krawczyk's operator; it contains every root in the box."""
     found, at = equations(box), equations([value.mid() for value in box])
     if found is None or at is None:
         return None

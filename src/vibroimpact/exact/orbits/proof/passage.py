@@ -1,8 +1,8 @@
-"""An orbit followed once round in interval arithmetic: its flights, its monodromy matrix, its balls and their walls.
+"""Follow an orbit over one period in interval arithmetic: flights, monodromy matrix, distances from the walls.
 
-The state is carried with sin(Omega tau) and cos(Omega tau) in places 8 and 9, so that free flight is one linear map,
-the exponential of a rate matrix A (10, 10). With R the map of an impact and n its normal, the saltation matrix of
-floquet.py is then R + (A R - R A) z n^T / (n . A z) for the state z before the impact.
+The state includes sin(Omega tau) and cos(Omega tau) at indices 8 and 9, so that free flight is a linear map, the
+exponential of a rate matrix A (10, 10). With the map R of an impact and its normal n, the saltation matrix of
+floquet.py is R + (A R - R A) z n^T / (n . A z) for the state z before the impact.
 """
 
 import functools
@@ -20,14 +20,14 @@ GAPS = arb_mat([[1, -1] + [0] * 8, [0, 0, 1, -1] + [0] * 6])
 """W_1 and W_2 of a state (10, 1)."""
 LEGAL, ILLEGAL, NOT_PROVED = "legal", "not legal", "not proved"
 _NEAR = 1e-9
-_MOST = 2000  # pieces of a flight to look at
+_MOST = 2000  # largest number of pieces of a flight
 
 
 class EnclosedPassage:
     """The motion of a root of `EnclosedConditions`, given by intervals around the six unknowns.
 
-    rate (10, 10): rate matrix of free flight; phases, speeds: of the impacts, in forcing periods, and of the flights
-    that start with them, each by the number of the impact, module by module, wall +1 first.
+    rate (10, 10): rate matrix of free flight. phases [forcing periods] of the impacts, speeds of the flights that start
+    with them; both by the number of the impact, module by module, wall +1 first.
     """
 
     def __init__(self, system, conditions, unknowns):
@@ -60,8 +60,8 @@ class EnclosedPassage:
 
         It maps perturbations just before the first impact to those one period later.
 
-        Of a single machine it is that of the state (4,) of the module that takes part. Entries are not finite where an
-        impact may be without relative velocity.
+        For a single machine it is that of the state (4,) of the module that takes part. Entries are not finite if an
+        impact may have no relative velocity.
         """
         maps = [(self.rate * duration).exp() * self._saltation(m) for m, _, _, duration in self.flights()]
         whole = functools.reduce(lambda so_far, next_one: next_one * so_far, maps)
@@ -113,11 +113,11 @@ def _impact(i, conditions):
 
 
 def between_walls(passage) -> str:
-    """Return LEGAL or ILLEGAL where an EnclosedPassage proves it, else NOT_PROVED.
+    """Return LEGAL or ILLEGAL if an EnclosedPassage proves it, else NOT_PROVED.
 
-    A motion keeps each ball between its walls but for the impacts, which it meets at speed. Flights are halved until on
-    each piece |W_i| < 1, or, next to an impact, W_i leaves the wall or nears it throughout. W_i is expanded to first
-    order about the centre of a piece, the second order enclosed over it.
+    A legal motion keeps each ball between its walls except at the impacts, which have a positive speed. Flights are
+    halved until on each piece |W_i| < 1 or, next to an impact, W_i leaves or approaches the wall monotonically. W_i is
+    expanded to first order about the centre of a piece, with an enclosure of the second order.
     """
     verdicts = {_of_flight(passage.rate, *flight) for flight in passage.flights()}
     return next(verdict for verdict in (ILLEGAL, NOT_PROVED, LEGAL) if verdict in verdicts)
@@ -152,8 +152,9 @@ def _ranges(rate, state, duration, low, high):
 
 
 def _inside(i, W, V, leaving, nearing):
-    """Return True if ball i stays inside on a piece between the impacts `leaving` and `nearing`, of which one may be
-    None.
+    """Return True if ball i stays inside on a piece between the impacts `leaving` and `nearing`.
+
+    One of the two may be None.
     """
     touched = {WALLS[k]: sign for k, sign in ((leaving, -1), (nearing, 1)) if k is not None and k // 2 == i}
     return all(touched[wall] * wall * V > 0 if wall in touched else wall * W < 1 for wall in (1, -1))

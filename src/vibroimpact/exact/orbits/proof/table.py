@@ -1,4 +1,4 @@
-"""Proofs by interval arithmetic for every exact orbit of a case; verdict_table.py has the verdicts by floats."""
+"""Tabulate proofs by interval arithmetic for every exact orbit of a case."""
 
 import pandas as pd
 
@@ -7,10 +7,10 @@ from vibroimpact.exact.orbits.proof.passage import NOT_PROVED
 
 
 def proof_rows(orbits) -> pd.DataFrame:
-    """Return a row per exact orbit, in order: an `OrbitProof`.
+    """Return a row per exact orbit, in order, from its `OrbitProof`.
 
-    Columns box_radius, orbit_error, moduli_error (as there), motion_proved ("legal", "not legal", "not proved"),
-    floquet_proved ("stable", "unstable", "not proved").
+    Columns box_radius, orbit_error, moduli_error (as in `OrbitProof`), motion_proved ("legal", "not legal", "not
+    proved"), floquet_proved ("stable", "unstable", "not proved").
     """
     proofs = [prove(orbit) for orbit in orbits]
     rows = [(p.radius, p.error, p.moduli_error, p.motion, p.stability) for p in proofs]
@@ -21,7 +21,7 @@ def proof_rows(orbits) -> pd.DataFrame:
 def counts(table: pd.DataFrame) -> dict:
     """Count the orbits of a table, and those whose existence, motion and verdict are proved.
 
-    Stable ones count if their motion is proved legal too.
+    Stable ones count only if their motion is proved legal too.
     """
     legal, stability = table["motion_proved"] == "legal", table["floquet_proved"]
     found = {
