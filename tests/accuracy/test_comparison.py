@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from vibroimpact.accuracy.comparison import choices, compare
+from vibroimpact.accuracy.comparison import choices, methods_table
 
 RUN = {"missed": 0, "spurious": 0, "outcome": "finished", "family": "f"}
 
@@ -28,7 +28,7 @@ def test_the_cost_is_that_of_the_fastest_good_run_on_the_worst_problem():
     stress_tests = pd.DataFrame([(method, one) for method, all_ in verdicts.items() for one in all_]).set_axis(
         ["method", "verdict"], axis=1
     )
-    found = compare(pd.DataFrame(runs), stress_tests).set_index("method")
+    found = methods_table(pd.DataFrame(runs), stress_tests).set_index("method")
     assert found.index.tolist() == ["a", "b", "c", "d"]
     assert found["problems"].tolist() == [2, 2, 1, 0]
     np.testing.assert_array_equal(found["times"], [1.0, 4.0, np.nan, np.nan])

@@ -84,7 +84,7 @@ def test_a_point_without_an_exact_orbit_has_no_such_motion():
     """Further from every orbit than any is from its point."""
     system = SYSTEMS["weak"]
     table = fixed_point_table("weak", system).assign(C1=9.0)
-    with pytest.raises(ValueError, match=r"\Amodel: there is no exact_orbit next to fixed point 'a'"):
+    with pytest.raises(ValueError, match=r"\Amodel: fixed point 'a' has no exact_orbit next to it"):
         motion(system, table, "a", "exact_orbit")
     assert motion(system, table, "a", "slow_flow").point.C[0] == 9.0
 

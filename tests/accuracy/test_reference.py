@@ -140,7 +140,7 @@ def test_grazing_is_told_from_contact(exponent):
 
 
 def test_exact_grazing_is_undecidable():
-    with pytest.raises(Undecidable, match="not told from a contact"):
+    with pytest.raises(Undecidable, match="cannot be distinguished from a contact"):
         reference_run(BARE, [0, 0, 0, 0, 1, 0, 0, 0], "0.45", 40)
 
 

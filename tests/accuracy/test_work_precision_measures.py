@@ -6,7 +6,7 @@ from mpmath import mp, mpf
 
 from chapter import PARAMETERS
 from vibroimpact.accuracy import benchmark
-from vibroimpact.accuracy.errors import compare
+from vibroimpact.accuracy.errors import run_errors
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.work_precision import Problem, fitted_order, measure
 from vibroimpact.integrators.protocol import IMPACT, REFUSED, Method, MethodRun, failed
@@ -43,7 +43,7 @@ def impacts(*times, speed=1.0):
     ],
 )
 def test_impacts_are_paired_in_order(found, times, missed, spurious):
-    errors = compare(MethodRun(np.zeros(8), impacts(*found), 1), Reference((1.0, 2.0, 3.0), 1.0), period=1.0)
+    errors = run_errors(MethodRun(np.zeros(8), impacts(*found), 1), Reference((1.0, 2.0, 3.0), 1.0), period=1.0)
     assert (errors.missed, errors.spurious) == (missed, spurious)
     assert errors.times == pytest.approx(times)
 
@@ -51,16 +51,16 @@ def test_impacts_are_paired_in_order(found, times, missed, spurious):
 def test_the_tail_of_a_chatter_need_not_be_followed_to_the_end():
     reference = Reference((1.0, 1.1, 1.101), (0.5, 5e-4, 5e-5))
     for found in (impacts(1.0), impacts(1.0, 1.1), impacts(1.0, 1.1, 1.1005, 1.1008)):
-        errors = compare(MethodRun(np.zeros(8), found, 1), reference, period=1.0)
+        errors = run_errors(MethodRun(np.zeros(8), found, 1), reference, period=1.0)
         assert (errors.missed, errors.spurious) == (0, 0)
-    strict = compare(MethodRun(np.zeros(8), impacts(1.0), 1), reference, period=1.0, faint=0.0)
+    strict = run_errors(MethodRun(np.zeros(8), impacts(1.0), 1), reference, period=1.0, faint=0.0)
     assert strict.missed == 2
 
 
 def test_other_module_or_wall_is_another_impact():
     found = impacts(1.0)
     found["wall"] = -1
-    errors = compare(MethodRun(np.zeros(8), found, 1), Reference((1.0,), 1.0), period=1.0)
+    errors = run_errors(MethodRun(np.zeros(8), found, 1), Reference((1.0,), 1.0), period=1.0)
     assert (errors.missed, errors.spurious) == (1, 1)
 
 

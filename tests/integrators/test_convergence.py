@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroimpact.accuracy.errors import compare
+from vibroimpact.accuracy.errors import run_errors
 from vibroimpact.accuracy.work_precision import fitted_order
 
 # name, settings from coarse to fine, error of the final state at the finest in the periodic motion
@@ -28,7 +28,7 @@ def errors(method, motion, setting):
     system, state, cycles, reference = motion
     run = method.run(system, state, cycles, 0.0, setting)
     assert run.failure is None
-    return compare(run, reference, system.period)
+    return run_errors(run, reference, system.period)
 
 
 @pytest.mark.parametrize(("name", "settings", "finest"), SETTINGS)
@@ -50,7 +50,7 @@ def test_order_of_convergence(name, method, motion):
     points = []
     for setting in rival.settings:
         run = rival.run(system, state, cycles, 0.0, setting)
-        points.append((rival.scale(setting, run), compare(run, reference, system.period).final))
+        points.append((rival.scale(setting, run), run_errors(run, reference, system.period).final))
     assert fitted_order(points) == pytest.approx(rival.order, rel=0.2)
 
 

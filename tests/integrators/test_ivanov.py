@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vibroimpact.accuracy.errors import compare
+from vibroimpact.accuracy.errors import run_errors
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.integrators.ivanov import folded, unfolded
 from vibroimpact.integrators.protocol import UNFINISHED
@@ -39,7 +39,7 @@ def test_jumps_that_are_not_located_make_it_of_first_order(method, motion):
     errors = []
     for steps in (100, 1_000, 10_000):
         runs = [method("Ivanov").run(system, state, cycles, 0.0, steps + n * steps // 100) for n in range(20)]
-        finals = [compare(run, reference, system.period).final for run in runs]
+        finals = [run_errors(run, reference, system.period).final for run in runs]
         errors.append(np.sqrt(np.mean(np.square(finals))))
     slopes = -np.diff(np.log10(errors))
     assert slopes == pytest.approx(1.0, abs=0.25)
@@ -52,7 +52,7 @@ def test_a_small_kappa_alone_costs_nothing(method, motion):
         inelastic = system.with_(kappa=kappa)
         reference = proven_run(inelastic, (0.0,) * 8, 1).run
         run = method("Ivanov, events").run(inelastic, (0.0,) * 8, 1, 0.0, 100)
-        errors.append(compare(run, reference, system.period).final)
+        errors.append(run_errors(run, reference, system.period).final)
     assert errors == pytest.approx([errors[0]] * 2, rel=0.5)
 
 

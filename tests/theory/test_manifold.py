@@ -73,7 +73,7 @@ def test_the_fold_is_the_minimum(kappa):
 
 
 def test_below_the_fold_there_is_no_manifold():
-    with pytest.raises(ValueError, match=r"^B: 0\.1 is not at least B_min = 0\.13"):
+    with pytest.raises(ValueError, match=r"^B: 0\.1 is below B_min = 0\.13"):
         manifold.C_of_B([0.5, 0.1], manifold.rho(0.65))
 
 

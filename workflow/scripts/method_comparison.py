@@ -3,10 +3,10 @@
 from vibroimpact_pipeline.jobs import running
 
 from vibroimpact import tables
-from vibroimpact.accuracy.comparison import choices, compare
+from vibroimpact.accuracy.comparison import choices, methods_table
 
 with running(snakemake) as out:
     work_precision = tables.read(snakemake.input.work_precision)
-    compared = compare(work_precision, tables.read(snakemake.input.stress_tests))
+    compared = methods_table(work_precision, tables.read(snakemake.input.stress_tests))
     tables.write(compared, out.csv)
     tables.write(choices(work_precision, compared), out.choices)

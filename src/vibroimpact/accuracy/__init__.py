@@ -1,1 +1,1 @@
-"""Reference solutions, and error and cost of each method against them."""
+"""Reference solutions, and error and cost of each method relative to them."""

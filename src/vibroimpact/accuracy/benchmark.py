@@ -1,4 +1,4 @@
-"""Speed as ratios in one run: time per impact of every method on the same motion, with its error."""
+"""Compare the time per impact of every method on the same motion, as ratios, with its error."""
 
 from fractions import Fraction
 from string import ascii_lowercase
@@ -12,20 +12,22 @@ from vibroimpact.accuracy.work_precision import measure as work_precision
 DIGITS = 40
 OURS, CERTIFIED, MODAL, TAYLOR = "this engine", "this engine, certified", "modal scan", "heyoka"
 RUNGE_KUTTA, SCIPY = "RK4, compiled", "DOP853"
-COARSE = 1e-6
-"""The error at which methods of general purpose are compared."""
+GENERAL_PURPOSE_ERROR = 1e-6
+"""Error at which general-purpose methods are compared."""
 ACCURATE, USEFUL = 1e-6, 1e-3
 """Errors at which heyoka is compared in every panel."""
 SHOWN = "method", "setting", "us_per_impact", "error_state", "error_time", "missed", "spurious", "reason"
 
 
 def measure(problem: Problem, methods, seconds: float) -> list[dict]:
-    """Return one row per method and setting: time per impact [us], ratio to ours, errors, over one motion on one core.
+    """Return one row per method and setting for one motion on one core.
+
+    Columns include the time per impact [us], its ratio to this engine, and errors.
 
     Parameters
     ----------
     seconds : float
-        How long each setting is repeated, as in `work_precision.measure`.
+        Time over which each setting is repeated, as in `work_precision.measure`.
     """
     impacts = len(reference_run(problem.system, problem.state, problem.cycles, DIGITS, exact_floats=False).events)
     rows = [row for row in work_precision(problem, methods, seconds) if row["outcome"] != "unavailable"]
@@ -35,10 +37,10 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
 
 
 def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
-    """Return the error that rounding the state to float64 once per forcing cycle causes, all else being exact.
+    """Return the error caused by rounding the state to float64 once per forcing cycle, all else being exact.
 
-    The largest difference of a coordinate, at any whole cycle, between the motion and the one whose state is rounded
-    there: what no method can avoid whose states are float64 numbers, the conditioning of the motion included.
+    It is the largest difference of a coordinate, at any whole cycle, between the motion and the motion with rounded
+    states. No method with float64 states can avoid it; it includes the conditioning of the motion.
     """
     exact = rounded = [Fraction(repr(float(value))) for value in problem.state]
     largest = Fraction(0)
@@ -50,20 +52,20 @@ def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
 
 
 def _after_one_cycle(system, state, digits):
-    """Return the state (8,) a forcing period later, as rational numbers good to the digits."""
+    """Return the state (8,) one forcing period later, as rational numbers accurate to `digits`."""
     return [Fraction(text) for text in reference_run(system, state, 1, digits, exact_floats=False).final_text]
 
 
 def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
-    """Return the rows of `measure` in a few numbers, by name; those of integrators that are not there are left out."""
+    """Return a summary of the rows of `measure`, by name; missing integrators are omitted."""
     ours = _fastest(rows, OURS, np.inf)
     times = {
         "with its certificate": _fastest(rows, CERTIFIED, np.inf),
-        "modal closed form, scan and Newton": _fastest(rows, MODAL, COARSE),
-        f"RK4 and Newton, compiled, at {COARSE:g}": _fastest(rows, RUNGE_KUTTA, COARSE),
-        f"heyoka at {COARSE:g}": _fastest(rows, TAYLOR, COARSE),
+        "modal closed form, scan and Newton": _fastest(rows, MODAL, GENERAL_PURPOSE_ERROR),
+        f"RK4 and Newton, compiled, at {GENERAL_PURPOSE_ERROR:g}": _fastest(rows, RUNGE_KUTTA, GENERAL_PURPOSE_ERROR),
+        f"heyoka at {GENERAL_PURPOSE_ERROR:g}": _fastest(rows, TAYLOR, GENERAL_PURPOSE_ERROR),
         "heyoka at its most accurate": min(_of(rows, TAYLOR), key=lambda row: row["error_state"], default=None),
-        f"SciPy's DOP853 at {COARSE:g}, in Python": _fastest(rows, SCIPY, COARSE),
+        f"SciPy's DOP853 at {GENERAL_PURPOSE_ERROR:g}, in Python": _fastest(rows, SCIPY, GENERAL_PURPOSE_ERROR),
     }
     return {
         "us per impact": ours["us_per_impact"],
@@ -73,10 +75,11 @@ def comparison(rows: list[dict], unavoidable: float) -> dict[str, float]:
 
 
 def panels(rows: list[dict]) -> list[dict]:
-    """Return the ratio of heyoka's time to ours in every panel of the chart, from the rows of `work_precision.measure`.
+    """Return the ratio of heyoka's time to this engine's time in every panel of the chart.
 
-    heyoka at the coarsest tolerance whose error of the final state is at most ACCURATE, and at its fastest one with an
-    error below USEFUL; nan, and why in "reason", where there is none.
+    The rows are those of `work_precision.measure`. heyoka runs at the coarsest tolerance whose error of the final state
+    is at most ACCURATE, and at its fastest one with an error below USEFUL. Without such a run the ratio is nan, and
+    "reason" explains it.
     """
     problems = dict.fromkeys(row["problem"] for row in rows)
     return [
@@ -86,7 +89,7 @@ def panels(rows: list[dict]) -> list[dict]:
 
 
 def _against_taylor(rows):
-    """Return the ratios of one panel, and the tolerances that they are for."""
+    """Return the ratios of one panel and their tolerances."""
     (ours,) = (row for row in rows if row["method"] == OURS)
     others = [row for row in rows if row["method"] == TAYLOR]
     finished = [row for row in others if row["outcome"] == "finished"]

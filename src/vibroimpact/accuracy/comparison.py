@@ -1,27 +1,27 @@
-"""What an error costs each method, how it fares in the stress tests, and which methods to choose."""
+"""Compare methods by cost and stress tests, and choose the best for each problem and error."""
 
 from vibroimpact.accuracy.stress_tests import ENDLESS, ERROR, RIGHT, SILENTLY_WRONG
 from vibroimpact.system.extras import need
 
 need("figures", "pandas")
 
-import pandas as pd  # noqa: E402 (after the word on what is missing)
+import pandas as pd  # noqa: E402 (after the dependency check)
 
 GOAL, GOALS = 1e-6, (1e-6, 1e-12)
 OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDLESS]}
 
 
-def compare(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
-    """Return methods in the order of the chart, with their cost relative to the first and their stress tests.
+def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
+    """Return methods in the order of the chart, with their relative cost and the results of their stress tests.
+
+    Columns method, family, problems (test problems solved with an error of at most 1e-6 and without missed or spurious
+    impacts), times (run time of its fastest such runs relative to those of the first method, for the worst problem;
+    blank unless it solves all), right, wrong (silently), stopped (by an error, or not finished), tests.
 
     Parameters
     ----------
     work_precision, stress_tests : DataFrame
-        The tables of the same names.
-
-    Columns method, family, problems (test problems that it solves with an error of at most 1e-6, without an impact
-    missed or spurious), times (run time of its fastest such runs over those of the first method, the worst problem;
-    blank unless it solves all), right, wrong (silently), stopped (by an error, or not finished), tests.
+        The tables of these names.
     """
     good = _good(work_precision, GOAL)
     cost = good.pivot_table("seconds_per_cycle", "method", "problem", aggfunc="min")
@@ -37,13 +37,10 @@ def compare(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.Data
 
 
 def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
-    """Return the cheapest and the second cheapest of the stress-tested methods for each problem and error.
+    """Return the two cheapest stress-tested methods for each problem and error, from two tables: `methods_table` and its input.
 
-    Args:
-        work_precision: the table of that name. compared: what `compare` returns of it.
-
-    Columns problem, error (largest allowed, no impact missed or spurious), choice (1, 2), method, setting,
-    seconds_per_cycle, wrong (stress tests that the method gets silently wrong), tests.
+    Columns problem, error (largest allowed, without missed or spurious impacts), choice (1, 2), method, setting,
+    seconds_per_cycle, wrong (stress tests with a silently wrong result), tests.
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]
@@ -58,7 +55,7 @@ def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFram
 
 
 def _cheapest(runs, goal):
-    """Return the runs, as tuples, of the two methods that reach `goal` at the least cost."""
+    """Return the runs, as tuples, of the two methods that reach `goal` at the lowest cost."""
     by_cost = _good(runs, goal).sort_values("seconds_per_cycle", kind="stable")
     return by_cost.drop_duplicates("method").head(2).itertuples()
 

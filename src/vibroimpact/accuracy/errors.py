@@ -1,4 +1,4 @@
-"""The distance between a method's run and the reference: final state and impact times, missed and spurious impacts."""
+"""Measure the errors of a run against the reference: final state, impact times, missed and spurious impacts."""
 
 from dataclasses import dataclass
 
@@ -7,16 +7,20 @@ import numpy as np
 from vibroimpact.system.state import IMPACT
 
 FAINT = 1e-3
-"""Rebound speed |W'| at and below which an impact belongs to the tail of a chatter, which every method cuts short
-somewhere: such impacts are neither required nor counted as spurious."""
+"""Rebound speed |W'| up to which an impact belongs to the tail of a chatter, which every method truncates. Such impacts
+are neither required nor counted as spurious."""
 WINDOW = 0.05
-"""Largest distance in time, in forcing periods, of two impacts that count as the same one."""
+"""Largest distance in time, in forcing periods, of impacts that count as the same one."""
 
 
 @dataclass(frozen=True)
 class Errors:
-    """final: largest difference of a coordinate of the final state (inf without one); times: largest difference of the
-    times [tau] of impacts that both have (0 if there are none); missed, spurious: impacts that only one of them has."""
+    """Errors of a run.
+
+    final: largest difference of a coordinate of the final state (inf without one). times: largest difference of the
+    times [tau] of matching impacts (0 without any). missed, spurious: numbers of unmatched impacts of the reference and
+    of the run.
+    """
 
     final: float
     times: float
@@ -24,12 +28,12 @@ class Errors:
     spurious: int
 
     def columns(self) -> dict[str, float]:
-        """Return the errors under the names that tables give them."""
+        """Return the errors by the names of table columns."""
         names = "error_state", "error_time", "missed", "spurious"
         return dict(zip(names, (self.final, self.times, self.missed, self.spurious), strict=True))
 
 
-def compare(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
+def run_errors(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
     """Return the errors of a MethodRun against a reference run of the same motion.
 
     The reference has `events` and `final` as a run of `vibroimpact.simulate`.
@@ -37,11 +41,11 @@ def compare(run, reference, period: float, faint: float = FAINT, events: bool = 
     Parameters
     ----------
     period : float
-        Of the forcing, in units of tau.
+        Forcing period, in units of tau.
     faint : float, default FAINT
         Rebound speed at and below which an impact need not be found.
     events : bool, default True
-        False where the reference covers the same final state but not all the events before it.
+        False if the reference has the same final state but not all events before it.
     """
     if run.final is None:
         return Errors(np.inf, np.inf, 0, 0)
@@ -69,13 +73,16 @@ def rebound_speeds(events) -> np.ndarray:
 
 
 def _near(times, others, window) -> np.ndarray:
-    """Return True for each time with another one within the window."""
+    """Return True for each time with another time within the window."""
     apart = np.abs(np.subtract.outer(np.asarray(times, dtype=float), others))
     return apart.min(axis=1, initial=np.inf) <= window
 
 
 def _align(expected, found, window):
-    """Pair two ascending sequences in order: (largest distance in a pair, expected and found without a pair)."""
+    """Pair two ascending sequences in order.
+
+    Returns (largest distance in a pair, number of expected and list of found without a pair).
+    """
     apart, lost, extra = 0.0, 0, []
     i = j = 0
     while i < len(expected) and j < len(found):

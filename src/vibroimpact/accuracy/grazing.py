@@ -1,4 +1,4 @@
-"""Starts whose ball comes to within a given distance of a wall, computed with many digits from the exact parameters."""
+"""Compute initial states whose ball comes within a given distance of a wall, in high precision."""
 
 from fractions import Fraction
 
@@ -7,32 +7,32 @@ from vibroimpact.system.extras import need
 
 need("reference", "flint")
 
-from flint import arb, arb_mat, ctx  # noqa: E402 (after the word on what is missing)
+from flint import arb, arb_mat, ctx  # noqa: E402 (after the dependency check)
 
 BITS = 256
 NEWTON_STEPS = 12
 
 
 def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float, ...]:
-    """Return a start (8,) at tau = 0 from which ball 1 clears the wall +1 by `clearance` at its first near approach.
+    """Return an initial state (8,) from which ball 1 clears the wall +1 by `clearance` at its first approach.
 
-    Before the first impact the boxes do not feel the ball, so W_1 = X_1 - Y_1 is stationary where X_1' is the velocity
-    of the ball, and its value there is moved by moving the ball's start. A negative clearance is the depth to which it
-    would go beyond the wall if there were none. Rounding to float64 changes it by up to 1e-16.
+    Before the first impact the boxes do not depend on the ball, so that W_1 = X_1 - Y_1 is stationary where X_1' equals
+    the velocity of the ball; the initial position of the ball sets the value there. A negative clearance is the depth
+    that the ball would reach beyond the wall. Rounding to float64 changes it by up to 1e-16.
 
     Parameters
     ----------
     boxes
-        X_1, X_2, X_1', X_2' at the start, as decimals; ball 2 starts in the middle of its box, with its velocity.
+        Initial X_1, X_2, X_1', X_2', as decimals; ball 2 starts in the middle of its box with the same velocity.
     ball_velocity
-        Of ball 1.
+        Initial velocity of ball 1.
     guess
-        Tau near which W_1 is at its maximum.
+        Time tau near the maximum of W_1.
 
     Raises
     ------
     ValueError
-        If W_1 has no maximum there.
+        If W_1 has no maximum near the guess.
     """
     rates = rate_matrix(ExactSystem.of(system), (False, False))
     with ctx.workprec(BITS):

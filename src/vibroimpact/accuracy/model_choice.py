@@ -1,4 +1,4 @@
-"""The models that a figure of the chapter can be computed with, and the periodic motion of a fixed point by each."""
+"""Models with which a figure of the chapter can be computed, and the motion of a fixed point by each of them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -28,27 +28,28 @@ MODELS = {
     "float64": "simulation in double precision",
     "reference": "simulation in the reference arithmetic, confirmed with twice the digits",
 }
-"""Every model by its name in the config, in words.
+"""Description of every model by its name in the config, by ascending cost.
 
-By rising cost: the slow flow solves (10.23), the exact orbit the symmetric conditions as well, the second term these at
-three values of epsilon; a reference run repeats a run of float64 twice, with more digits.
+The slow flow solves (10.23); the exact orbit also solves the symmetric conditions; the second term solves these at
+three values of epsilon; a reference run repeats a float64 run twice, with more digits.
 """
 CHOICES = {
     "fixed_points": ("slow_flow", "exact_orbit"),
     "theoretical_response": ("slow_flow", "exact_orbit", "second_term"),
     "simulation": ARITHMETICS,
 }
-"""The models of a figure by its notebook, by rising cost."""
+"""Models of a figure by its notebook, by ascending cost."""
 SAMPLES = 400
-"""Of a period, for the first harmonic of U, whose higher harmonics fall like 1/n^3."""
+"""Samples of a period for the first harmonic of U, whose higher harmonics fall like 1/n^3."""
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """The symmetric motion of a fixed point by one model.
+    """Symmetric motion of a fixed point by one model.
 
-    point: its label, C, B and psi. impacts: time tau >= 0 at which each ball meets the wall W = +1, (2,); half a period
-    later it is at -1; NaN of a module that takes no part. response: gives U, X, W, Y at times tau (n,).
+    point: its label, C, B and psi. impacts: time tau >= 0 at which each ball meets the wall W = +1, (2,); it meets the
+    wall -1 half a period later; NaN for a module that takes no part. response: function that returns U, X, W, Y at
+    times tau (n,).
     """
 
     point: LabelledPoint
@@ -57,19 +58,21 @@ class Motion:
 
 
 def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
-    """Return the motion of each fixed point of a system by a model; by the exact orbits those that have one.
+    """Return the motion of each fixed point of a system by a model.
+
+    By the exact orbits, only points next to an orbit have a motion.
 
     Parameters
     ----------
     points : list of LabelledPoint
-        All fixed points of the system, as an orbit belongs to the nearest one.
+        All fixed points of the system, since an orbit belongs to the nearest one.
     model : str
         slow_flow, exact_orbit or second_term.
 
     Raises
     ------
     ValueError
-        If another model; or no orbit continues a fixed point to small epsilon.
+        If the model is unknown, or if no orbit continues a fixed point to small epsilon.
     """
     if model == "slow_flow":
         return [
@@ -86,17 +89,17 @@ def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
 
 
 def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
-    """Return the motion of the fixed point of that label in a table of all of them; see `motions`.
+    """Return the motion of one fixed point, by its label in a table of all of them; see `motions`.
 
     Raises
     ------
     ValueError
-        As `motions`; or the table has no such point, or there is no exact orbit next to it.
+        As for `motions`, or if the table has no such point, or if there is no exact orbit next to it.
     """
     labelled_point(points, label)
     found = {one.point.label: one for one in motions(system, labelled_points(points), model)}
     if label not in found:
-        raise ValueError(f"model: there is no {model} next to fixed point {label!r}, it has slow_flow")
+        raise ValueError(f"model: fixed point {label!r} has no {model} next to it; use slow_flow")
     return found[label]
 
 
@@ -127,7 +130,10 @@ def _second_term(system, point) -> Motion:
 
 
 def _motion(system, point, C, impacts, U) -> Motion:
-    """Return the motion of a saw-tooth and of U, a function of tau; B and psi are those of the first harmonic of U."""
+    """Return the motion of a saw-tooth and of U, a function of tau.
+
+    B and psi are those of the first harmonic of U.
+    """
 
     def response(tau):
         boxes, Z = U(tau), _sawtooth(system, C, impacts, tau)
@@ -145,5 +151,5 @@ def _exact_U(system, root, tau):
 
 
 def _sawtooth(system, C, impacts, tau):
-    """Return Z_i, shape (n, 2), 0 of a module that takes no part."""
+    """Return Z_i, shape (n, 2), which is 0 for a module that takes no part."""
     return np.nan_to_num(sawtooth(system.Omega * (tau[:, None] - impacts), C, 0.0))

@@ -1,6 +1,6 @@
-"""The second term of (10.7): the derivative by epsilon at 0 of the solution of the exact conditions of an orbit.
+"""Second term of (10.7): derivative by epsilon, at 0, of the solution of the exact conditions of an orbit.
 
-An asymptotic series is unique: that is the term which multiple scales give.
+Since an asymptotic series is unique, this is the term that the method of multiple scales gives.
 """
 
 import numpy as np
@@ -11,22 +11,22 @@ from vibroimpact.system import System
 from vibroimpact.theory.response import impact_times
 
 STEP = 2e-4
-"""Smallest epsilon of the derivatives: two terms are then known to 1e-8."""
+"""Smallest epsilon of the finite differences; the result with two terms is then accurate to 1e-8."""
 
 
 class NoOrbit(ValueError):
-    """There is no symmetric orbit to compare a fixed point with."""
+    """Raised if there is no symmetric orbit to compare a fixed point with."""
 
 
 def first_order(system, point) -> np.ndarray:
     """Return the second term of (10.7) at a fixed point, per epsilon: of C and of the impact phases [rad], (2, 2).
 
-    NaN of a module that takes no part.
+    A module that takes no part has NaN.
 
     Raises
     ------
     NoOrbit
-        If no orbit is reached.
+        If Newton's method reaches no orbit.
     """
 
     def slope(epsilon):
@@ -57,7 +57,7 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
     start = np.nan_to_num(np.concatenate([impact_times(here, point), point.C]))
     roots = newton(SymmetricConditions(here), start[None])
     if not len(roots):
-        raise NoOrbit("system: no symmetric 1:1 orbit is reached from the fixed point")
+        raise NoOrbit("system: Newton's method reaches no symmetric 1:1 orbit from the fixed point")
     return here, roots[0]
 
 

@@ -1,11 +1,11 @@
-"""Stress tests, problems that are hard for a known reason, and the verdict on every method in each of them.
+"""Stress tests: problems that are hard for a known reason, and the verdict on every method.
 
-To add one, add a few lines to `stress_tests`.
+Add a stress test in the function `stress_tests`.
 """
 
 from dataclasses import dataclass
 
-from vibroimpact.accuracy.errors import FAINT, compare
+from vibroimpact.accuracy.errors import FAINT, run_errors
 from vibroimpact.accuracy.grazing import grazing_start
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED
@@ -13,10 +13,10 @@ from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES, PARAMETERS
 
 VISIBLE = 1e-2
-"""Error of the final state that a reader of a figure would see: half a percent of the gap."""
+"""Error of the final state that is visible in a figure: half a percent of the gap."""
 
 SETTLED_CHANGE = 1e-6
-"""A motion has settled if one more cycle changes it by less, far below what is visible."""
+"""A motion has settled if one more cycle changes it by less than this."""
 
 RIGHT, UNDECIDABLE, ERROR, ENDLESS, SILENTLY_WRONG, UNAVAILABLE = (
     "right",
@@ -33,11 +33,10 @@ CHAPTER = PARAMETERS | CASES["equal"]
 
 @dataclass(frozen=True)
 class StressTest:
-    """A test problem: group (what is hard), name, system, start (8,) at tau = 0, forcing cycles.
+    """A test problem: group (the difficulty), name, system, initial state (8,) at tau = 0, forcing cycles.
 
-    faint: impacts with a slower rebound need not be found (0: every one counts); reference_cycles: how many of the
-    cycles the reference computes, where the motion is known to have settled by then (see settled); quick: in the
-    reduced set.
+    faint: impacts with a slower rebound need not be found (0: every impact counts). reference_cycles: number of cycles
+    that the reference computes, if the motion is known to have settled by then. quick: in the reduced set.
     """
 
     group: str
@@ -55,8 +54,8 @@ SETTLED = (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869
 MODULATED = (0.0647, 0.5421, -0.1898, 0.0, -0.2101, -0.6997, 0.0459, 0.0)
 PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 just before a soft impact, its box pushing
 RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 at rest on its wall, its box pushing
-TOGETHER = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)  # both modules do the same
-MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # what module 1 does, module 2 does the other way
+TOGETHER = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)  # both modules move in the same way
+MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # module 2 mirrors module 1
 FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # on the manifold at C = C_min, (10.25)
 
 
@@ -90,7 +89,7 @@ def stress_tests() -> list[StressTest]:
 
 
 def judge(test: StressTest, methods) -> list[dict]:
-    """Return one row per method: the verdict on its careful setting for this problem, and the numbers behind it."""
+    """Return one row per method: the verdict on its careful setting for this problem, with the errors."""
     reference = reference_of(test)
     return [_row(test, method, reference) for method in methods]
 
@@ -101,14 +100,14 @@ def reference_of(test: StressTest):
     Raises
     ------
     ArithmeticError
-        If the motion was claimed to have settled after reference_cycles, but changes in the last of them.
+        If the motion has not settled after reference_cycles, as the test states.
     """
     if test.reference_cycles is None:
         return proven_run(test.system, test.state, test.cycles, exact_floats=False).run
     before = test.reference_cycles - 1
     period = test.system.period
     times = [before * period]
-    # an attracting motion loses no digits, so that the doubling may start from few
+    # an attracting motion loses no digits, so that the doubling can start from few digits
     run = proven_run(
         test.system, test.state, test.reference_cycles, digits=40, sample_times=times, exact_floats=False
     ).run
@@ -129,7 +128,7 @@ def _row(test, method, reference):
     if run.failure:
         return {**row, "verdict": FAILURES[run.failure.kind], "reason": run.failure.reason}
     whole = test.reference_cycles is None
-    errors = compare(run, reference, test.system.period, test.faint, events=whole)
+    errors = run_errors(run, reference, test.system.period, test.faint, events=whole)
     doubt = run.doubt()
     wrong = not errors.final <= VISIBLE or errors.missed or errors.spurious
     return {
@@ -141,7 +140,7 @@ def _row(test, method, reference):
 
 
 def grazing(system: System, side: int, digits: int) -> StressTest:
-    """Return the test in which ball 1 clears its wall (side 1) or would go beyond it (side -1) by 1e-digits.
+    """Return the test in which ball 1 clears its wall (side 1) or hits it (side -1) by 1e-digits.
 
     Every impact counts.
     """
@@ -151,5 +150,8 @@ def grazing(system: System, side: int, digits: int) -> StressTest:
 
 
 def _crossing(system, periods):
-    """Return the ball 1 meets its wall after so many periods (to rounding), box at rest; ball 2 stays in the middle."""
+    """Return a state from which ball 1 meets its wall after `periods` periods, to rounding.
+
+    The box is at rest; ball 2 stays in the middle.
+    """
     return (0.0, 0.0, 0.0, 0.0, 0.0, -1.0 / (periods * system.period), 0.0, 0.0)

@@ -1,5 +1,7 @@
-"""Speed of many runs in the scenes that the project runs: ensembles beside single runs, a closed form without proof and
-heyoka's batches, timed in turn, with the share of runs that have the events of single runs and the errors.
+"""Measure the speed of many runs in typical scenes of the project.
+
+Ensembles, single runs, a closed form without proof and heyoka's batches are timed in turn. The share of runs with the
+events of single runs, and the errors, are reported as well.
 """
 
 from functools import partial
@@ -18,13 +20,13 @@ from vibroimpact.system import System
 from vibroimpact.system.state import BALLS, BOXES, IMPACT
 
 LONG = 4000
-"""Cycles of the single long run, whose time per impact is the unit of all others."""
+"""Cycles of the single long run, whose time per impact is the unit of all times."""
 SAMPLE, SHORT = 8, 10
-"""Runs of a scene that other methods repeat, and their cycles; errors are those after so many cycles."""
+"""Number of runs of a scene that other methods repeat, and their cycles; errors are those after these cycles."""
 CHECKED = 64
-"""Runs of a scene whose events and final states are compared with single runs."""
+"""Number of runs of a scene whose events and final states are compared with single runs."""
 LOOKS, TOLERANCES = 32, (1e-6, 1e-12)
-"""Looks per cycle of the closed form, at which it misses hardly an impact; tolerances of heyoka."""
+"""Samples per cycle of the closed form, at which it misses very few impacts; tolerances of heyoka."""
 BEFORE = {
     "64 starts within 1e-2 of a settled motion, 100 cycles": (100, 212),
     "16 such starts": (232, 324),
@@ -35,20 +37,20 @@ BEFORE = {
     "300 systems x 2 starts, 250 cycles": (609, 831),
     "300 systems x 5 starts, 250 cycles": (509, 623),
 }
-"""ns per impact of lanes filled by runs of one system (commit cf93e77), final state only and observed, on a machine
-where a single long run took BEFORE_UNIT."""
+"""Earlier results: ns per impact of lanes filled by runs of one system (commit cf93e77), final state only and observed,
+on a machine where a single long run took BEFORE_UNIT."""
 BEFORE_UNIT = 222
 
 
 class Scene(NamedTuple):
-    """Systems and starts, as `ensemble` takes them, and cycles."""
+    """Systems and initial states, as for `ensemble`, and cycles."""
 
     systems: System | np.ndarray
     states: np.ndarray
     cycles: int
 
     def runs(self, count):
-        """Return the systems and starts of so many runs, spread over the scene."""
+        """Return the systems and initial states of `count` runs, spread over the scene."""
         systems = np.asarray(self.systems, dtype=object)
         shape = np.broadcast_shapes(systems.shape, self.states.shape[:-1])
         places = np.unique(np.linspace(0, np.prod(shape) - 1, count).astype(int))
@@ -58,7 +60,10 @@ class Scene(NamedTuple):
 
 
 def scenes(equal: System, weak: System, settled) -> dict[str, Scene]:
-    """Return the scenes of BEFORE; settled: state (8,) of a motion of `equal` without sticking."""
+    """Return the scenes of BEFORE.
+
+    settled: state (8,) of a motion of `equal` without sticking.
+    """
     sweep = [
         [equal.with_(sigma_e_hat=detuning, f10_hat=force, f20_hat=force)]
         for detuning in np.linspace(-0.5, 1.0, 20)
@@ -102,7 +107,7 @@ def throughput(equal: System, weak: System, settled, seconds: float) -> list[dic
     settled
         State (8,) of a motion of `equal` without sticking.
     seconds : float
-        How long each is repeated.
+        Time over which each method is repeated.
     """
     with at_most(1):
         return [

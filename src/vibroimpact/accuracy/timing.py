@@ -1,4 +1,4 @@
-"""Timing by repetition: the minimum is the time without the disturbances of a shared machine."""
+"""Time functions by repetition; the minimum excludes disturbances of a shared machine."""
 
 import platform
 import time
@@ -8,11 +8,10 @@ PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
 
 
 def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
-    """Call each of several functions again and again, in turn, so that a disturbance of the machine meets all of them.
+    """Call several functions repeatedly, in turn, so that a disturbance of the machine affects all of them.
 
-    Each is called as often as fits in `seconds`, at least once and at most `most` times. Whatever is done only once
-    (compilation, tables) must have been done by a call before. Returns for each what it gives, and the seconds of its
-    fastest call.
+    Each is called as often as fits in `seconds`, at least once and at most `most` times. One-time work (compilation,
+    tables) must be done by an earlier call. Returns, for each function, its result and the seconds of its fastest call.
     """
     given, best = [None] * len(works), [float("inf")] * len(works)
     total, calls, left = [0.0] * len(works), [0] * len(works), list(range(len(works)))
@@ -27,7 +26,7 @@ def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
 
 
 def versions() -> dict[str, str]:
-    """Return the versions behind a measurement: Python, the processor's architecture, and the packages installed."""
+    """Return the versions that a measurement depends on: Python, architecture of the processor, and packages."""
     found = {"python": platform.python_version(), "machine": platform.machine()}
     for package in PACKAGES:
         try:

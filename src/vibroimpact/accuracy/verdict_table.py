@@ -1,4 +1,4 @@
-"""Verdicts on every fixed point and orbit of a case: (10.26), fast, slow, theory, exact (`theory.criteria`)."""
+"""Tabulate verdicts on all fixed points and orbits of a case: (10.26), fast, slow, theory, exact."""
 
 import numpy as np
 
@@ -12,15 +12,15 @@ from vibroimpact.theory.manifold import stays_within_walls
 
 need("figures", "pandas")
 
-import pandas as pd  # noqa: E402 (after the word on what is missing)
+import pandas as pd  # noqa: E402 (after the dependency check)
 
 CRITERIA = (*criteria.CRITERIA, EXACT)
 FORMER = {"masri_derived": FAST, "slow_flow": SLOW, "floquet": EXACT}
-"""Former names of columns, which the tables have beside the new ones until the next release."""
+"""Former names of columns; tables contain them as well until the next release."""
 NO_ORBIT = "no orbit"
 REACH = 1.0
-"""An orbit farther away in C is another one: over the grid of forces at epsilon = 0.1 the gaps end at 0.29, and the
-next are above 2.5, where the orbits next to two fixed points have merged."""
+"""Largest distance in C between a fixed point and its orbit. Over the grid of forces at epsilon = 0.1 the distances are
+at most 0.29, or above 2.5 where the orbits next to two fixed points have merged."""
 _SIDES = [f"{module}_{wall}" for module in (1, 2) for wall in ("plus", "minus")]
 _NUMBERS = [*(f"phase{side}" for side in _SIDES), *(f"speed{side}" for side in _SIDES)]
 _NUMBERS += [*(f"modulus_{k}" for k in range(1, 9)), *NAMES, "residual"]
@@ -33,8 +33,8 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
     Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), symmetric, admissible, C1, C2 (amplitudes
     of the saw-tooth), phase1_plus, ... (impacts at wall +1 and -1 of each module, in periods), speed1_plus, ...
     (of the flight that starts there), modulus_1 to modulus_8 of the multipliers, descending, the state at tau = 0,
-    residual, one column per criterion. Of a single machine what belongs to the other module is NaN, as are modulus_5 to
-    modulus_8.
+    residual, one column per criterion. For a single machine, entries of the other module and modulus_5 to modulus_8 are
+    NaN.
     """
     counts = {True: 0, False: 0}
     rows = []
@@ -52,7 +52,9 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 
 
 def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.DataFrame:
-    """Return a row per fixed point, by label: verdicts of the criteria, the multipliers being those of its exact orbit.
+    """Return a row per fixed point, by label, with the verdicts of the criteria.
+
+    The multipliers are those of its exact orbit.
 
     Parameters
     ----------
@@ -65,7 +67,7 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
     orbit that goes with it, see `partners`; "" if there is none), one per criterion.
     """
     labelled = sorted(labelled, key=lambda pair: pair[0])
-    symmetric = orbits[orbits["symmetric"].astype(bool)]  # a table without rows has no types
+    symmetric = orbits[orbits["symmetric"].astype(bool)]  # an empty table has no types
     found = partners([point.C for _, point in labelled], symmetric[["C1", "C2"]].to_numpy(float))
     rows = []
     for (label, point), place in zip(labelled, found, strict=True):
@@ -81,10 +83,10 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
 
 
 def partners(points, orbits) -> list[int | None]:
-    """For the C of each fixed point (n, 2) the place of the orbit that is nearest in C, orbits (m, 2).
+    """Return, for the C of each fixed point (n, 2), the index of the nearest of the orbits (m, 2), or None.
 
-    C of a module that takes no part is NaN, and is left out.
-    None where another fixed point is nearer to that orbit, or there is none within REACH.
+    C of a module that takes no part is NaN and ignored. The result is None if another fixed point is nearer to that
+    orbit, or if no orbit lies within REACH.
     """
     points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
     if not len(orbits):

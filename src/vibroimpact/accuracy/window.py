@@ -1,4 +1,4 @@
-"""Direct integration of a case: the window of its motion after a transient, in float64 or the reference arithmetic."""
+"""Simulate the window of a motion after a transient, in float64 or in the reference arithmetic."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ from vibroimpact.system.state import KINDS, NAMES
 
 need("figures", "pandas")
 
-import pandas as pd  # noqa: E402 (after the word on what is missing)
+import pandas as pd  # noqa: E402 (after the dependency check)
 
 ARITHMETICS = "float64", "reference"
 DIGITS = 40
@@ -20,11 +20,11 @@ SPAN = ("transient_cycles", "window_cycles", "samples_per_cycle")
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """The end of a simulation.
+    """Window of a simulation.
 
-    samples: columns tau and the state, evenly spaced, both ends included. events: tau, module, wall, kind and the
-    state just after. strobe: as samples, at the start of every forcing cycle of the whole run. trust: what vouches
-    for the run.
+    samples: columns tau and the state, evenly spaced, both ends included. events: tau, module, wall, kind and the state
+    just after. strobe: as samples, at the start of every forcing cycle of the whole run. trust: validation metadata of
+    the run.
     """
 
     samples: pd.DataFrame
@@ -34,19 +34,20 @@ class Window:
 
 
 def window(system: System, settings: dict) -> Window:
-    """Simulate a case and keep its window.
+    """Simulate a case and return its window.
 
     Parameters
     ----------
+    system : System
+        Dimensionless parameters.
     settings : dict
-        initial_state (8,); transient_cycles, which are left out; window_cycles; samples_per_cycle; model, "float64" or
-        "reference": there the run is carried with `digits` decimal digits, by default DIGITS, which are doubled until
-        two runs agree.
+        initial_state (8,); transient_cycles, which are omitted; window_cycles; samples_per_cycle; model, "float64" or
+        "reference". The reference uses `digits` decimal digits, by default DIGITS, doubled until two runs agree.
 
     Raises
     ------
     ValueError
-        If another model.
+        If the model is unknown.
     """
     cycles = settings["transient_cycles"] + settings["window_cycles"]
     starts = np.arange(settings["transient_cycles"]) * system.period
@@ -64,19 +65,19 @@ def window(system: System, settings: dict) -> Window:
 
 
 def window_times(period: float, transient_cycles: int, window_cycles: int, samples_per_cycle: int) -> np.ndarray:
-    """Return the sample times of the window, both ends included, the same phases in every cycle."""
+    """Return the sample times of the window, both ends included, at the same phases in every cycle."""
     return (transient_cycles + np.arange(window_cycles * samples_per_cycle + 1) / samples_per_cycle) * period
 
 
 def _integrate(system, settings, cycles, times):
-    """Return the run, and what vouches for it."""
+    """Return the run and its validation metadata."""
     if settings["model"] not in ARITHMETICS:
         raise ValueError(f"model: {settings['model']!r} is not {' or '.join(ARITHMETICS)}")
     if settings["model"] == "float64":
         run = simulate(system, settings["initial_state"], cycles, sample_times=times)
         certificate = {name: value for name, value in vars(run.certificate).items() if np.isfinite(value)}
         return run, {"method": "float64", "certificate": certificate}
-    from vibroimpact.accuracy.reference.run import proven_run  # needs an extra that float64 does without
+    from vibroimpact.accuracy.reference.run import proven_run  # needs an extra that float64 does not need
 
     proof = proven_run(
         system,

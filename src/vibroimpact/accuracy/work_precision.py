@@ -1,23 +1,23 @@
-"""Work against precision: error and cost of each method over its settings."""
+"""Work-precision data: error and cost of each method over its settings."""
 
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
-from vibroimpact.accuracy.errors import compare
+from vibroimpact.accuracy.errors import run_errors
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.accuracy.timing import interleaved
 from vibroimpact.integrators.protocol import Method, MethodRun
 from vibroimpact.system import System
 
 RESOLVED = 0.03, 1e-11
-"""Errors between which an order is fitted: above, the motion is another one; below, rounding takes part."""
+"""Range of errors in which an order is fitted: larger ones belong to another motion, smaller ones contain rounding."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """A motion to compute: state (8,) at tau = 0, number of forcing cycles."""
+    """Motion to compute: initial state (8,) at tau = 0, and number of forcing cycles."""
 
     name: str
     system: System
@@ -26,14 +26,14 @@ class Problem:
 
 
 def measure(problem: Problem, methods: list[Method], seconds: float, short: bool = False) -> list[dict]:
-    """Return one row per method and setting: errors against the reference, time per forcing cycle [s], order fitted.
+    """Return one row per method and setting: errors against the reference, time per cycle [s] and fitted order.
 
     Parameters
     ----------
     seconds : float
-        How long each setting is repeated, all of them in turn, after a first call of each that compiles.
+        Time over which each setting is repeated, all in turn, after a first call that compiles.
     short : bool, default False
-        Every second setting of each method only.
+        Use only every second setting of each method.
     """
     reference = proven_run(problem.system, problem.state, problem.cycles, exact_floats=False).run
     missing = [method for method in methods if method.available()]
@@ -61,7 +61,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 def _measured(problem, run, time, reference):
     """Return the errors, time and steps of a run."""
     return {
-        **compare(run, reference, problem.system.period).columns(),
+        **run_errors(run, reference, problem.system.period).columns(),
         "seconds_per_cycle": time / problem.cycles,
         "steps": run.steps,
         "evaluations": run.evaluations,

@@ -1,4 +1,4 @@
-"""Other integrators of the same system behind one small protocol, to be measured against the engine."""
+"""Other integrators of the same system behind a common protocol, for comparison with the engine."""
 
 from vibroimpact.integrators.event_driven import CertifiedEngine, Engine
 from vibroimpact.integrators.heyoka_taylor import HeyokaTaylor
@@ -21,6 +21,6 @@ METHODS = [
     *transformed(),
     LeadingOrder(),
 ]
-"""Every method, in the order of tables and legends."""
+"""All methods, in the order of tables and legends."""
 TIMED = [METHODS[0], CertifiedEngine(), *METHODS[1:]]
-"""The same, and the engine with the certificate of each run."""
+"""METHODS with the certified engine, in the order of tables."""

@@ -1,15 +1,15 @@
-"""Laws of compliant contact as data: the force on a ball that is beyond a wall by p, or anywhere in its box.
+"""Laws of compliant contact: the force on a ball that is beyond a wall by p, or anywhere in its box.
 
 All have the form K p^n + D p^m p'. In the phase plane of p and V = p', with the mass mu = epsilon / (1 + epsilon)
 of the relative motion, V dV/dp = -(K p^n + D p^m V) / mu.
 
-If m = (n - 1) / 2, u = p^((n + 1) / 2) makes it V dV/du = -2 (K u + D V) / ((n + 1) mu), a linear oscillator with the
-damping ratio zeta = D / sqrt(2 (n + 1) K mu), which multiplies every speed by exp(-pi zeta / sqrt(1 - zeta^2)) (Antypov
-and Elliott 2011, for n = 3/2). So the restitution coefficient is the same at every speed.
+If m = (n - 1) / 2, the substitution u = p^((n + 1) / 2) gives V dV/du = -2 (K u + D V) / ((n + 1) mu), a linear
+oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu), which multiplies every speed by exp(-pi zeta / sqrt(1
+- zeta^2)) (Antypov and Elliott 2011, for n = 3/2). So the restitution coefficient is the same at every speed.
 
 If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu; between equal p at speeds V and -kappa V the
 left side integrates to (1 + kappa) d = log((1 + d) / (1 - kappa d)), d = D V / K: D must be proportional to 1 / V. One
-D gives kappa at one speed only, whence D is set anew at each impact (as Lankarani and Nikravesh do, 1990).
+D gives kappa at one speed only, so that D is set at each impact (as by Lankarani and Nikravesh, 1990).
 """
 
 import math
@@ -18,12 +18,15 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 
 NEARLY_ELASTIC = 1e-5
-"""1 - kappa below which the two sides of the equation for d differ by no more than their rounding."""
+"""Value of 1 - kappa below which the two sides of the equation for d differ by rounding only."""
 
 
 @dataclass(frozen=True)
 class Law:
-    """K p^n + D p^m p'. stiffness: n; damping: m; walls: False if p = |W|, a spring through all of the box."""
+    """Contact force K p^n + D p^m p'.
+
+    stiffness: n; damping: m; walls: False if p = |W|, a spring over the whole box.
+    """
 
     stiffness: float
     damping: float
@@ -36,38 +39,44 @@ HUNT_CROSSLEY = Law(1.5, 1.5)
 
 
 def power_law(order: int) -> Law:
-    """Return W^(2n - 1) and |W|^(n - 1) W', which tend to walls at W = +1 and -1 as n grows (Pilipchuk 2010)."""
+    """Return the law W^(2n - 1) and |W|^(n - 1) W' (Pilipchuk 2010).
+
+    It tends to walls at W = +1 and -1 as n grows.
+    """
     return Law(2.0 * order - 1.0, order - 1.0, walls=False)
 
 
 def stiffness_of(law: Law, mass: float, duration: float) -> float:
-    """Return K with which an undamped contact at speed 1 lasts `duration`."""
+    """Return the stiffness K for which an undamped contact at speed 1 lasts `duration`."""
     share = 1.0 / (law.stiffness + 1.0)
     path = math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)  # of 1 / sqrt(1 - x^(n + 1))
     return mass / (2.0 * share) * (2.0 * path / duration) ** (law.stiffness + 1.0)
 
 
 def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float, speed: float) -> float:
-    """Return K of a spring through the box with which a ball of this speed in the middle turns at W = 1."""
+    """Return the stiffness K of a spring over the box for which a ball turns at W = 1.
+
+    The ball has the given speed in the middle of the box.
+    """
     zeta = damping_ratio(kappa)
     deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # u, with 1 / omega for the speed 1
     return 0.5 * (law.stiffness + 1.0) * mass * (deepest * speed) ** 2
 
 
 def damping_of(law: Law, mass: float, kappa: float, stiffness: float) -> float:
-    """Return D with which a contact at speed 1 has the restitution coefficient kappa."""
+    """Return the damping D for which a contact at speed 1 has the restitution coefficient kappa."""
     if law.damping == law.stiffness:
         return stiffness * hunt_crossley_number(kappa)
     return damping_ratio(kappa) * math.sqrt(2.0 * (law.stiffness + 1.0) * stiffness * mass)
 
 
 def fading(law: Law) -> float:
-    """Return the power of 1 / V that D must be proportional to, if kappa is to be the same at every speed V."""
+    """Return the power of 1 / V in D for which kappa is the same at every speed V."""
     return (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
 
 
 def damping_ratio(kappa: float) -> float:
-    """Return zeta of the linear oscillator that multiplies the speed by kappa in half a period."""
+    """Return the damping ratio of a linear oscillator whose speed is multiplied by kappa in half a period."""
     decay = -math.log(kappa)
     return decay / math.hypot(math.pi, decay)
 
@@ -81,7 +90,7 @@ def hunt_crossley_number(kappa: float) -> float:
     if 1.0 - kappa < NEARLY_ELASTIC:
         return 1.5 * (1.0 - kappa)
 
-    def number(x):  # x = -log(1 - kappa d): where kappa is small, d differs from 1 / kappa by less than rounding
+    def number(x):  # x = -log(1 - kappa d), since d differs from 1 / kappa by less than rounding if kappa is small
         return -math.expm1(-x) / kappa
 
     def excess(x):

@@ -1,4 +1,4 @@
-"""The engine of this package, as one method among the others."""
+"""The engine of this package as a method."""
 
 from functools import partial
 
@@ -11,7 +11,7 @@ from vibroimpact.system.state import IMPACT
 
 
 class Engine(Method):
-    """Closed-form flight and certified events (vibroimpact.simulate). It has no tolerance to set."""
+    """Closed-form flight and certified events (vibroimpact.simulate), without a tolerance."""
 
     name, family, knob, settings, careful = "this engine", "exact flow", "precision", ("float64",), "float64"
 
@@ -24,7 +24,7 @@ class Engine(Method):
 
 
 class CertifiedEngine(Engine):
-    """The same with the certificate of the run, which the others do not have."""
+    """The engine with the certificate of the run, which the other methods do not have."""
 
     name = "this engine, certified"
 
@@ -41,7 +41,7 @@ def _impacts(run):
 
 
 def _doubt(run):
-    """Return the doubt that a run's certificate leaves, in words, or None."""
+    """Return the doubt expressed by the certificate of a run, as text, or None."""
     certificate = run.certificate
     if certificate.horizon < run.tau0 + run.cycles * run.system.period:
         return f"known up to tau = {certificate.horizon:.6g}"

@@ -1,6 +1,6 @@
-"""heyoka in batches: eight starts side by side in the lanes of the processor, for timing against `ensemble`.
+"""heyoka in batches: eight runs in parallel vector lanes, for timing against `ensemble`.
 
-For motions in which no ball comes to rest on a wall: the lanes share their equations, and with them the contact state.
+The lanes share their equations and contact state, so that no ball may come to rest on a wall.
 """
 
 import numpy as np
@@ -13,7 +13,10 @@ LANES = 8
 
 
 class HeyokaBatch:
-    """heyoka's batch integrator at a tolerance, for a system in each lane. Compiled when it is made."""
+    """heyoka's batch integrator at a tolerance, with one system per lane.
+
+    The integrator is compiled on construction.
+    """
 
     def __init__(self, tolerance: float):
         s, _, equations = right_hand_side([heyoka.par[k] for k in range(len(NAMES))])
@@ -26,12 +29,12 @@ class HeyokaBatch:
             )
         ]
         self._taylor = heyoka.taylor_adaptive_batch(equations, np.zeros((10, LANES)), tol=tolerance, t_events=events)
-        self._state = self._taylor.state  # a view: the integrator's own memory
+        self._state = self._taylor.state  # a view of the integrator's memory
 
     def run(self, systems, states, cycles: int) -> np.ndarray:
-        """Return the final states (8, LANES) of starts (8, LANES) at tau = 0."""
+        """Return the final states (8, LANES) from initial states (8, LANES) at tau = 0."""
         numbers, periods = np.array([coefficients(system) for system in systems]).T, [one.period for one in systems]
-        self._taylor.pars[:] = numbers[: len(self._taylor.pars)]  # those that the equations use
+        self._taylor.pars[:] = numbers[: len(self._taylor.pars)]  # parameters that the equations use
         self._epsilon, kappa = numbers[NAMES.index("epsilon")], numbers[NAMES.index("kappa")]
         self._bounce = (1.0 + kappa) / (1.0 + self._epsilon)
         self._taylor.set_time(0.0)

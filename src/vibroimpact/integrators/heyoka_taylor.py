@@ -1,9 +1,9 @@
 """heyoka's adaptive Taylor integrator: terminal events at the walls, the impact law in their callbacks.
 
-The best form found: the forcing phase as two states (no transcendental function in the recursion), one event per wall
-with its direction, no compact mode, one integrator for each contact state of the balls, all parameters at run time so
-that it is compiled once. After an event heyoka is blind to the same event for a while, and a shorter hop would end
-unseen: no rebound slower than SLOWEST is followed.
+This is the fastest form found: the forcing phase as two states (no transcendental function in the recursion), one
+directed event per wall, no compact mode, one integrator for each contact state of the balls, and all parameters at run
+time, so that it is compiled once. After an event heyoka ignores the same event during a cooldown, in which a short hop
+could end undetected. So rebounds slower than SLOWEST are not followed.
 """
 
 from functools import lru_cache
@@ -18,12 +18,12 @@ from vibroimpact.system.state import NAMES as STATE
 
 try:
     import heyoka
-except ImportError as error:  # no build for this platform
+except ImportError as error:  # no package for this platform
     heyoka, _missing = None, str(error)
 
 
 class HeyokaTaylor(Method):
-    """Setting: tolerance of the Taylor series."""
+    """heyoka's Taylor integrator; the setting is the tolerance of the Taylor series."""
 
     name, family, knob = "heyoka", "Taylor", "tolerance"
     careful = float(np.finfo(float).eps)
@@ -74,7 +74,10 @@ def right_hand_side(numbers, stuck=(False, False)):
 
 
 class _Flight:
-    """End of a flight. module: the one whose event ended it, or None at the end; failure: outcome or None."""
+    """End of a flight.
+
+    module: the one whose event ended it, or None at the end; failure: outcome, or None.
+    """
 
     def __init__(self, tau, state, steps, module, failure):
         self.tau, self.state, self.steps, self.module, self.failure = tau, state, steps, module, failure
@@ -93,11 +96,11 @@ class _Integrator:
         s, acceleration, equations = right_hand_side([heyoka.par[k] for k in range(len(NAMES))], stuck)
         events = [event for i in range(2) for event in self._events(i, s[BOXES[i]] - s[BALLS[i]], acceleration[i])]
         self._taylor = heyoka.taylor_adaptive(equations, [0.0] * 9 + [1.0], tol=tolerance, t_events=events)
-        self._state = self._taylor.state  # a view: the integrator's own memory
+        self._state = self._taylor.state  # a view of the integrator's memory
 
     def propagate(self, contacts, tau, state, end, limit):
         taylor, system = self._taylor, contacts.system
-        taylor.pars[:] = coefficients(system)[: len(taylor.pars)]  # those that the equations use
+        taylor.pars[:] = coefficients(system)[: len(taylor.pars)]  # parameters that the equations use
         taylor.time = tau
         self._state[:8] = state
         self._state[8:] = np.sin(system.Omega * tau), np.cos(system.Omega * tau)
@@ -112,7 +115,7 @@ class _Integrator:
 
     def _events(self, i, gap, acceleration):
         rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
-        if self.stuck[i]:  # either wall: the force changes sign
+        if self.stuck[i]:  # for both walls: the force changes sign
             return [heyoka.t_event(acceleration, callback=self._stop(i))]
         return [
             heyoka.t_event(gap - 1.0, callback=self._impact(i, 1), direction=rising),

@@ -1,20 +1,20 @@
-"""Ivanov's transformation, extended from one wall to the two of a box: coordinates in which impacts are no jumps.
+"""Ivanov's transformation, extended to two walls: coordinates in which impacts are continuous.
 
 The box is unfolded (Zhuravlev 1976): W = T(s), the triangular wave of slope +1 or -1 with walls at odd s, so that the
-ball runs through the walls; and its speed is measured in a unit that shrinks there (Ivanov 1994), W' = T'(s) R v with
+ball passes through the walls. The unit of its speed changes there (Ivanov 1994), W' = T'(s) R v with
 
     R = 1 + k sgn(v) p,   k = (1 - kappa) / (1 + kappa),   p = s - 2n in [-1, 1] in box n,   T = (-1)^n p,
 
-so that R falls from 1 + k to 1 - k in passing a wall: their ratio is kappa, v stays. With the acceleration a of W in
+so that R falls from 1 + k to 1 - k at a wall: the ratio is kappa, and v is continuous. With the acceleration a of W in
 flight
 
     s' = R v,   v' = (-1)^n a / R - k v |v|.
 
-An impact kicks the box, too, but not the centre of mass (X + epsilon Y) / (1 + epsilon) of box and ball, whose
-acceleration is a / (1 + epsilon): it is the other coordinate of a module. All eight are continuous; the right-hand
-side jumps, at walls and where v changes its sign. A step of length h across a jump that is not located errs by the
-order of h, whatever the order of the integrator, here Runge and Kutta's four stages: the method is of first order.
-There is no state of rest on a wall: a ball that sticks goes on impacting.
+An impact also changes the velocity of the box, but not that of the centre of mass (X + epsilon Y) / (1 + epsilon) of
+box and ball, whose acceleration is a / (1 + epsilon). It is the other coordinate of a module. All eight coordinates are
+continuous; the right-hand side jumps at walls and where v changes its sign. A step of length h across a jump that is
+not located has an error of the order of h for any integrator (here the classical Runge-Kutta method), so that the
+method is of first order. It has no state of rest on a wall: a ball that sticks continues to impact.
 """
 
 import math
@@ -26,16 +26,17 @@ from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, fail
 from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 
-SHORTEST, PATIENCE = 1e-6, 100  # time between two jumps, and how many in turn may be as short: chatter gets no further
-HALVINGS = 50  # of a step, to locate a jump in it
+SHORTEST, PATIENCE = 1e-6, 100
+"""A run is stopped, as endless chatter, after PATIENCE jumps in sequence with times below SHORTEST in between."""
+HALVINGS = 50  # bisections of a step to locate a jump
 
 
 class Ivanov(Method):
-    """Steps of equal length in Ivanov's coordinates, setting: steps per cycle.
+    """Fixed-step integration in Ivanov's coordinates; the setting is the number of steps per cycle.
 
     Parameters
     ----------
-    located
+    located : bool
         True if a step ends where the right-hand side jumps.
     """
 
@@ -59,7 +60,10 @@ class Ivanov(Method):
 
 
 def unfolded(state, epsilon: float, k: float) -> np.ndarray:
-    """Return [s, v, centre of mass, its velocity] of both modules, shape (8,), of a state (8,): in box n = 0."""
+    """Return the unfolded coordinates of a state (8,), in box n = 0.
+
+    They are [s, v, centre of mass, its velocity] of both modules, shape (8,).
+    """
     x, y = state[BOXES], state[BALLS]
     W, W_rate = x[:2] - y[:2], x[2:] - y[2:]
     centre = (x + epsilon * y) / (1.0 + epsilon)
@@ -67,7 +71,7 @@ def unfolded(state, epsilon: float, k: float) -> np.ndarray:
 
 
 def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
-    """Return the state (8,) of unfolded coordinates (8,), given the box n that each ball is in."""
+    """Return the state (8,) of unfolded coordinates (8,), given the box n of each ball."""
     s, v, centre, rate = z.reshape(2, 4).T
     p, sign = s - 2.0 * boxes, 1.0 - 2.0 * (boxes % 2)
     W, W_rate = sign * p, sign * (1.0 + k * np.sign(v) * p) * v
@@ -81,7 +85,7 @@ def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
 def _rates(tau, z, q, k, boxes, ways, d):
     """Write the derivative of the unfolded coordinates into d, for given boxes and signs of v.
 
-    It goes on smoothly beyond where these hold.
+    It continues smoothly beyond the region in which these hold.
     """
     share, s = q[9] / (1.0 + q[9]), np.empty(8)
     for i in range(2):
@@ -126,13 +130,16 @@ def _look(z, boxes, ways):
 
 @disk_cached()
 def _impact(tau, i, box, direction, speed, k):
-    """Return the row of an impact, (tau, module, wall, speed), for a ball that leaves a box of the unfolded line."""
+    """Return the row (tau, module, wall, speed) of an impact, for a ball that leaves a box of the unfolded line."""
     return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * direction, (1.0 + k) * abs(speed)
 
 
 @disk_cached()
 def _march_across_jumps(q, k, z, tau0, h, count):
-    """Return the coordinates and boxes at the end, impacts, number of steps, and nan, for it always gets there."""
+    """Return coordinates, boxes, impacts and number of steps at the end, without locating jumps.
+
+    The last result, the time of an endless chatter, is always nan.
+    """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, ways = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
     for n in range(count):
@@ -150,7 +157,10 @@ def _march_across_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _march_to_jumps(q, k, z, tau0, h, count):
-    """Return the same with steps that end at jumps; instead of nan, the time after which there is no end of impacts."""
+    """Return coordinates, boxes, impacts and number of steps at the end, with steps that end at jumps.
+
+    The last result is the time of an endless chatter, or nan.
+    """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     boxes, ways, idle, steps = np.zeros(2, np.int64), np.ones(2), 0, 0
     for i in range(2):
@@ -178,7 +188,7 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, ways):
-    """Return the shortest part of a step found to end beyond a jump, by halving, and the coordinates there."""
+    """Return the shortest fraction of a step found by bisection to end beyond a jump, and the coordinates there."""
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, ways, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)
@@ -192,7 +202,10 @@ def _first_jump(tau, z, part, h, q, k, boxes, ways):
 
 @disk_cached()
 def _beyond(z, boxes, ways):
-    """Return True if the right-hand side should have jumped, or a step so long that R vanishes has left no numbers."""
+    """Return True if the right-hand side should have jumped, or if the coordinates are not finite.
+
+    The latter happens in a step so long that R vanishes.
+    """
     within = True
     for i in range(2):
         to_wall, speed = _ahead_of(z, i, boxes, ways)
@@ -202,7 +215,7 @@ def _beyond(z, boxes, ways):
 
 @disk_cached()
 def _ahead_of(z, i, boxes, ways):
-    """Return the distance of the next wall, and the size of v: negative once the right-hand side should have jumped."""
+    """Return the distance of the next wall, and |v|; negative once the right-hand side should have jumped."""
     return 1.0 - ways[i] * (z[4 * i] - 2.0 * boxes[i]), ways[i] * z[4 * i + 1]
 
 

@@ -1,4 +1,4 @@
-"""The chapter's leading-order solution, (10.9)-(10.12), as a method: no transient, no integration."""
+"""Leading-order solution of the chapter, (10.9)-(10.12), as a method without transient and integration."""
 
 from functools import partial
 
@@ -12,7 +12,7 @@ from vibroimpact.theory.response import impact_times, leading_order
 
 
 class LeadingOrder(Method):
-    """The steady response of the stable fixed point that lies nearest to the start; its error is O(epsilon)."""
+    """Steady response of the stable fixed point nearest to the initial state; its error is O(epsilon)."""
 
     name, family, knob, settings, careful = "leading order", "multiple scales", "order", (0,), 0
 
@@ -30,7 +30,7 @@ class LeadingOrder(Method):
 
 
 def steady_state(system, point, tau) -> np.ndarray:
-    """Return the leading-order state (8,) at a time, with the velocities of the expressions for the displacements."""
+    """Return the leading-order state (8,) at a time, with velocities derived from the displacements."""
     response = leading_order(system, point, [tau])
     phase = system.Omega * tau - point.psi
     U_rate = system.Omega * point.B * np.cos(phase)

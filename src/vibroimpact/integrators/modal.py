@@ -1,6 +1,7 @@
-"""The exact flow between impacts as a sum of modes of the boxes; impacts by a scan and Newton's method, compiled.
+"""Exact flow between impacts as a sum of modes of the boxes; impacts by a scan and Newton's method, compiled.
 
-The strongest simple method: as exact in flight as the engine, without a proof that nothing happens between two looks.
+This is the strongest simple method: as exact in flight as the engine, but without a proof that no event occurs between
+two samples.
 """
 
 import math
@@ -23,13 +24,13 @@ from vibroimpact.integrators.rigid_contact import (
 from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 
 WORST = 1e8
-"""Condition number of the eigenvectors from which on the modes have lost half of their digits."""
+"""Condition number of the eigenvectors at which the modes have lost half of their digits."""
 TRIES, NEAR = 60, 3e-8
-"""Steps of Newton's method for an event at most, and the last one, whose square is below rounding."""
+"""Largest number of Newton steps for an event, and the length of the last step, whose square is below rounding."""
 
 
 class Modal(Method):
-    """Setting: looks at the gaps per cycle."""
+    """Modal scan; the setting is the number of samples of the gaps per cycle."""
 
     name, family, knob = "modal scan", "exact flow", "looks per cycle"
     settings = (8, 16, 32, 64, 128, 256)
@@ -52,8 +53,8 @@ def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
     """Return the tables of the four contact states, and the largest condition number of their eigenvectors.
 
     Tables: numbers of modes, (4,), of which the last is the forcing; their rates, (4, 2, 5), real and imaginary parts;
-    what of [X1, X2, X1', X2'] a mode of amplitude 1 is the real part of, doubled if it stands for a pair, (4, 2, 4, 5);
-    amplitudes of the other modes per free part of these, (4, 2, 4, 4).
+    mode shapes in [X1, X2, X1', X2'], of which the motion is the real part, doubled for a conjugate pair, (4, 2, 4, 5);
+    amplitudes of the other modes per free part of the boxes, (4, 2, 4, 4).
     """
     counts, worst = np.zeros(4, np.intp), 0.0
     rates, shapes, inverses = (np.zeros((4, *shape), complex) for shape in ((5,), (4, 5), (4, 4)))
@@ -82,7 +83,7 @@ def _turn(rates, count, t, turns):
 
 @inlined()
 def _advance(turns, count, amplitudes, later):
-    """Write the amplitudes (2, 5) after a time."""
+    """Write the amplitudes (2, 5) after the time of the factors."""
     for k in range(count):
         re, im, c, s = amplitudes[0, k], amplitudes[1, k], turns[0, k], turns[1, k]
         later[0, k], later[1, k] = re * c - im * s, re * s + im * c
@@ -119,9 +120,9 @@ def _state(s, walls, count, shape, amplitudes, t, there):
 
 @inlined()
 def _guess(before, there, i, low, high):
-    """Return the zero of the cubic that interpolates the gap of module i and its slope in two states.
+    """Return a zero of the cubic that interpolates the gap of module i and its slope in two states.
 
-    Two Newton steps from the secant suffice.
+    Newton's method starts at the secant.
     """
     x = 2 * i
     wall = 1.0 if there[x] - there[x + 1] > 0.0 else -1.0
@@ -139,7 +140,10 @@ def _guess(before, there, i, low, high):
 
 @disk_cached(error_model="numpy", fastmath={"contract"})
 def _march(q, tables, s, tau, end, step, limit):
-    """Run in at most `limit` looks: final state, rows [time, module, wall, speed] of impacts, looks, time reached."""
+    """Run in at most `limit` samples; return the final state, rows of impacts, number of samples and time.
+
+    Rows hold [time, module, wall, speed].
+    """
     counts, all_rates, all_shapes, inverses = tables
     walls, ahead = np.zeros(2), np.empty((4, 2, 5))
     amplitudes, now, trial, turns = np.empty((2, 5)), np.empty((2, 5)), np.empty((2, 5)), np.empty((2, 5))
@@ -192,7 +196,7 @@ def _event(q, flight, tau, i, times, states, memory, event):
 
     The state at that time is written to `event`.
 
-    Newton's method from the zero of a cubic through both looks; halving where that fails.
+    Newton's method starts at the zero of a cubic through both samples; bisection is the fallback.
     """
     (s, walls, count, shape, rates, amplitudes), (turns, trial) = flight, memory
     (low, high), (before, there) = times, states

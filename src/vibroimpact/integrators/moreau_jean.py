@@ -1,4 +1,4 @@
-"""Moreau-Jean time-stepping: velocities and impulses per step, no events (Jean 1999; Acary and Brogliato 2008)."""
+"""Moreau-Jean time-stepping without events (Jean 1999; Acary and Brogliato 2008)."""
 
 import math
 
@@ -10,7 +10,10 @@ from vibroimpact.integrators.right_hand_side import coefficients
 
 
 class MoreauJean(Method):
-    """Implicit midpoint rule with the restitution law on the velocities of a step; setting: steps per cycle."""
+    """Implicit midpoint rule with the restitution law for the velocities of a step.
+
+    The setting is the number of steps per cycle.
+    """
 
     name, family, knob, order = "Moreau-Jean", "time-stepping", "steps per cycle", 1
     settings = (100, 300, 1_000, 3_000, 10_000, 30_000, 100_000)
@@ -65,7 +68,7 @@ def _march(q, s, tau0, h, steps):
 
 @disk_cached()
 def _closed(gap, speed, g):
-    """Return the wall that the ball is predicted to have reached half a step ahead, or 0."""
+    """Return the wall that the ball is predicted to reach within half a step, or 0."""
     ahead = gap + g * speed
     return 1 if ahead >= 1.0 else (-1 if ahead <= -1.0 else 0)
 

@@ -1,7 +1,7 @@
-"""Compliant contact: walls of springs and dampers (contact_laws), their force integrated like any other.
+"""Compliant contact: walls of springs and dampers (contact_laws), integrated as ordinary forces.
 
-By the method of Dormand and Prince (1980): explicit, since a contact is an oscillation that has to be resolved, and
-compiled, since a general solver would spend nearly all of the time between the evaluations of so cheap a force.
+The method of Dormand and Prince (1980) is explicit, since a contact is an oscillation that must be resolved. It is
+compiled, since a general solver would spend most of its time outside the evaluation of the force.
 """
 
 import math
@@ -26,16 +26,16 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
 SLOWEST = 1e-3
-"""Lowest speed of contact for which the damping is set: a law whose damping grows like 1 / V has no limit at rest."""
+"""Lowest speed of contact for which the damping is set, since a damping proportional to 1 / V has no limit at rest."""
 NOTICED = 0.01
-"""Speed of a ball that just reaches the depth of a counted impact, where a spring all through its box is the wall."""
+"""Speed of a ball that just reaches the depth of a counted impact, if the wall is a spring over the whole box."""
 SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
-HALVINGS = 40  # of a step, to end it where a contact begins
+HALVINGS = 40  # bisections of a step to end it at the beginning of a contact
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
 
 class Penalty(Method):
-    """Walls of one law of contact; setting: duration T of an undamped contact at speed 1, in forcing periods."""
+    """Walls of one contact law; the setting is the duration T [forcing periods] of an undamped contact at speed 1."""
 
     family, knob, order = "compliant contact", "contact duration", 1
     limit = 10_000_000
@@ -54,7 +54,7 @@ class Penalty(Method):
         return MethodRun(final, rows, steps, 6 * steps)
 
     def wall(self, system, setting) -> tuple[Law, tuple[float, float, float]]:
-        """Return the law; K, D at speed 1, and where |W| is in contact."""
+        """Return the law and (K, D at speed 1, |W| at which contact begins)."""
         mass = system.epsilon / (1.0 + system.epsilon)
         stiffness = stiffness_of(self._law, mass, setting * system.period)
         return self._law, (stiffness, damping_of(self._law, mass, system.kappa, stiffness), 1.0)
@@ -64,12 +64,12 @@ class Penalty(Method):
 
 
 class PowerLaw(Penalty):
-    """A spring W^(2n - 1) through all of the box; setting: n.
+    """A spring W^(2n - 1) over the whole box; the setting is n.
 
     Parameters
     ----------
-    speed
-        With which a ball in the middle of its box turns at W = 1; the stiffness is proportional to its square.
+    speed : float
+        Speed at which a ball in the middle of its box turns at W = 1; the stiffness is proportional to its square.
     """
 
     knob = "exponent"
@@ -91,7 +91,7 @@ class PowerLaw(Penalty):
 
 
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
-    """Return [n, m, K, D at speed 1, power of 1 / V in D, where p begins, where |W| is in contact]."""
+    """Return [n, m, K, D at speed 1, power of 1 / V in D, origin of p, |W| at which contact begins]."""
     return np.array([law.stiffness, law.damping, stiffness, damping, fading(law), float(law.walls), contact])
 
 
@@ -107,7 +107,10 @@ def variants() -> list[Penalty]:
 
 @disk_cached()
 def force(gap, speed, law, damping):
-    """Return the force on the ball (its opposite on the box) from its walls, for W and W' and the D of this contact."""
+    """Return the force on the ball from its walls, for W, W' and the D of this contact.
+
+    The force on the box is the opposite.
+    """
     depth = abs(gap) - law[5]
     if depth <= 0.0:
         return 0.0
@@ -139,7 +142,7 @@ def _sum(weights, rates, count, c):
 
 @disk_cached()
 def _step(stages, tau, s, h, contact):
-    """Return the state a step later, and the error as a multiple of the allowed one."""
+    """Return the state one step later, and the error as a multiple of the allowed one."""
     A, B, C, E = stages
     rates, ahead, error = np.empty((7, 8)), s.copy(), 0.0
     for k in range(6):
@@ -157,13 +160,13 @@ def _step(stages, tau, s, h, contact):
 
 @disk_cached()
 def _reach(s, i, law):
-    """Return the depth of ball i beyond the beginning of contact; negative in flight."""
+    """Return the depth of ball i beyond the beginning of contact; it is negative in flight."""
     return abs(s[2 * i] - s[2 * i + 1]) - law[6]
 
 
 @disk_cached()
 def _outwards(s, i):
-    """Return the wall on whose side ball i is, and its speed towards it."""
+    """Return the wall on the side of ball i, and the speed of the ball towards it."""
     wall = 1.0 if s[2 * i] > s[2 * i + 1] else -1.0
     return wall, wall * (s[2 * i + 4] - s[2 * i + 5])
 
@@ -178,7 +181,7 @@ def _march(q, law, stages, s, tau, end, limit):
     touching, dampings = np.zeros(2, np.bool_), np.full(2, law[3])
     contact, h, steps = (q, law, dampings), 0.01 * (end - tau), 0
     while steps < limit:
-        for i in range(2):  # a contact begins where a step ends
+        for i in range(2):  # a contact begins at the end of a step
             wall, speed = _outwards(s, i)
             if not touching[i] and _reach(s, i, law) >= 0.0:
                 touching[i], dampings[i] = True, law[3] * max(speed, SLOWEST) ** -law[4]
@@ -200,7 +203,7 @@ def _march(q, law, stages, s, tau, end, limit):
 
 @disk_cached()
 def _until_contact(stages, tau, s, h, ahead, contact, touching):
-    """Return the step, cut short just after the first contact that begins in it."""
+    """Return the step, cut just after the first contact that begins in it."""
     least = 0.0
     for _ in range(HALVINGS):
         if not _begins(ahead, contact[1], touching) or least == h:

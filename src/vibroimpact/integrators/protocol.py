@@ -8,15 +8,16 @@ from functools import cached_property
 import numpy as np
 
 IMPACT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("speed", "f8")])
-"""One impact as a method reports it: time, module 1 or 2, wall +1 or -1, speed |W'| just before."""
+"""Data type of an impact: time, module 1 or 2, wall +1 or -1, speed |W'| just before."""
 
 REFUSED, UNFINISHED = "refused", "unfinished"
 
 
 @dataclass(frozen=True)
 class Failure:
-    """Reason why a run has no result. kind: REFUSED (the method raised or returned an error) or UNFINISHED (out of
-    steps).
+    """Reason why a run has no result.
+
+    kind: REFUSED (the method raised or returned an error) or UNFINISHED (out of steps).
     """
 
     kind: str
@@ -25,12 +26,12 @@ class Failure:
 
 @dataclass(eq=False)
 class MethodRun:
-    """The result of a method.
+    """Result of a method.
 
-    final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure; noted: the impacts in
-    the order of time, (tau, module, wall, speed) each, or a function that gives them; steps: integration steps taken;
-    evaluations: evaluations of the right-hand side, where the method counts them, else 0; failure: None, or why there
-    is no result; doubt(): None, or what the method itself says that it cannot decide about the result it gives.
+    final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure. noted: the impacts in
+    order of time, (tau, module, wall, speed) each, or a function that returns them. steps: integration steps.
+    evaluations: evaluations of the right-hand side if the method counts them, else 0. failure: None, or the reason for
+    having no result. doubt(): None, or what the method itself reports as undecided.
 
     `impacts` and doubt() are evaluated after the run, so that its time does not include them.
     """
@@ -44,18 +45,18 @@ class MethodRun:
 
     @cached_property
     def impacts(self) -> np.ndarray:
-        """The noted impacts as one table, (n,) IMPACT."""
+        """The noted impacts as one table, (n,) of type IMPACT."""
         rows = self.noted() if callable(self.noted) else self.noted
         return np.array([tuple(row) for row in rows], IMPACT)
 
 
 class Method(ABC):
-    """One integrator of (10.2). A new one is one file with a subclass, listed in `integrators.METHODS`.
+    """An integrator of (10.2). To add one, write a file with a subclass and list it in `integrators.METHODS`.
 
-    name, family: as printed; settings: from coarse to fine, all of one kind (`knob` says which); careful: the
-    one that a careful user would choose where methods fail; order: the order of convergence in `scale` that theory
-    expects, or None; limit: steps after which a run is given up, what can be done in roughly half a minute;
-    compiles_settings: whether each setting has code of its own, compiled when it is first run.
+    name, family: as printed. settings: from coarse to fine, of the kind that `knob` names. careful: the setting that a
+    careful user would choose for difficult motions. order: expected order of convergence in `scale`, or None. limit:
+    number of steps after which a run is stopped, roughly half a minute. compiles_settings: True if each setting has its
+    own code, compiled on its first run.
     """
 
     name: str
@@ -68,21 +69,21 @@ class Method(ABC):
     compiles_settings: bool = False
 
     def available(self) -> str | None:
-        """Return None, or why the method cannot run on this machine."""
+        """Return None, or the reason why the method cannot run on this machine."""
         return None
 
     @abstractmethod
     def run(self, system, state, cycles: int, tau0: float, setting, limit: int | None = None) -> MethodRun:
-        """Integrate from a state (8,) at tau0 over so many forcing periods in at most `limit` steps.
+        """Integrate from a state (8,) at tau0 over `cycles` forcing periods in at most `limit` steps.
 
-        setting: one of `settings`. limit: by default the method's. A run that cannot go on comes back with a failure.
+        setting: one of `settings`. limit: that of the method by default. A run that cannot continue returns a failure.
         """
 
     def scale(self, setting, run: MethodRun) -> float:
-        """Return the small quantity in which the error is expected to fall: by default the mean step."""
+        """Return the small quantity that controls the error; by default the mean step."""
         return 1.0 / run.steps
 
 
 def failed(kind: str, reason: str, steps: int, evaluations: int = 0, noted=()) -> MethodRun:
-    """Return a run without a result; the impacts found until then are kept."""
+    """Return a run without a result, with the impacts found up to the failure."""
     return MethodRun(None, noted, steps, evaluations, Failure(kind, reason))

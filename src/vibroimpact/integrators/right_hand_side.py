@@ -1,4 +1,4 @@
-"""(10.2) between impacts as the general-purpose integrators get it: a compiled right-hand side in the public order."""
+"""Right-hand side of (10.2) between impacts for general-purpose integrators, compiled, in the public order."""
 
 import math
 from functools import partial
@@ -12,13 +12,13 @@ from vibroimpact.system.state import BALLS, BOXES
 NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon", "kappa"
 
 inlined = partial(disk_cached, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
-"""For what runs at every step: code from a cache is inlined only where it is told to be."""
+"""Decorator of functions that run at every step; cached code is inlined only if this is requested."""
 inlined_source = partial(disk_cached, inline="always")
-"""For what rounds as its caller does: SciPy's integrators get no contracted products."""
+"""Decorator of functions that round like their caller: SciPy's integrators receive no contracted products."""
 
 
 def coefficients(system) -> np.ndarray:
-    """Return the numbers of (10.2), shape (11,), in the order of NAMES."""
+    """Return the coefficients of (10.2), shape (11,), in the order of NAMES."""
     upper = np.triu_indices(2)
     numbers = stiffness_matrix(system)[upper], damping_matrix(system)[upper], system.forcing
     return np.concatenate([*numbers, [system.Omega, system.epsilon, system.kappa]])
@@ -26,9 +26,9 @@ def coefficients(system) -> np.ndarray:
 
 @inlined_source()
 def accelerations(sine, s, q, walls):
-    """Return X1'' and X2'' in the state s (8,) at a sine of the forcing phase.
+    """Return X1'' and X2'' in the state s (8,) for a sine of the forcing phase.
 
-    walls: for each ball the wall it sticks to, or 0; such a ball moves with its box as one mass 1 + epsilon.
+    walls: for each ball, the wall it sticks to, or 0; such a ball moves with its box as one mass 1 + epsilon.
     """
     a1 = q[6] * sine - q[0] * s[0] - q[1] * s[2] - q[3] * s[4] - q[4] * s[6]
     a2 = q[7] * sine - q[1] * s[0] - q[2] * s[2] - q[4] * s[4] - q[5] * s[6]
@@ -54,7 +54,10 @@ def rates(tau, s, q, walls):
 
 
 def jacobian(system, stuck) -> np.ndarray:
-    """Return the derivative of `rates` with respect to the state, shape (8, 8): constant in each contact state."""
+    """Return the derivative of `rates` with respect to the state, shape (8, 8).
+
+    It is constant in each contact state.
+    """
     boxes = rate_matrix(system, stuck)[2:4, :4]
     matrix = np.zeros((8, 8))
     matrix[:4, 4:] = np.eye(4)

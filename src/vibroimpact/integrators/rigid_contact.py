@@ -1,9 +1,9 @@
-"""Contact logic shared by the event-driven integrators: the law at a wall, where a general integrator stopped.
+"""Contact logic shared by the event-driven integrators, applied where a general integrator stopped at a wall.
 
-Without it they could not integrate the system at all: after chatter there is a ball at rest on a wall, which none of
-them knows. A ball whose rebound is slower than `slow` sticks if the box presses it against the wall; the infinitely
-many impacts left out shift the state by less than their third power. Nothing here checks what the integrator
-returns: a ball that it lets through the wall goes on beyond it. Compiled; q as in `right_hand_side`.
+General integrators cannot treat a ball at rest on a wall, which follows chatter. A ball whose rebound is slower than
+`slow` sticks if the box presses it against the wall; the omitted impacts shift the state by less than the third power
+of that speed. The result of the integrator is not checked: if it misses a wall, the ball continues beyond it. The code
+is compiled; q is as in `right_hand_side`.
 """
 
 import math
@@ -14,9 +14,9 @@ from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.right_hand_side import accelerations, coefficients, inlined
 
 SLOWEST = 1e-6
-"""A slower rebound is not followed: what this leaves out, epsilon times its third power, is below rounding."""
+"""Lowest speed of a rebound that is followed; the omitted change, epsilon times its third power, is below rounding."""
 ROOM = 64
-"""Impacts that a run has room for at first."""
+"""Initial number of rows for impacts of a run."""
 
 
 @inlined()
@@ -38,9 +38,9 @@ def guard(tau, s, q, walls, i):
 
 @disk_cached()
 def resolve(tau, s, q, walls, due, rows, count, slow):
-    """Change state s (8,) and walls (2,) at an event of module `due`; the rows of impacts, and how many there are.
+    """Update state s (8,) and walls (2,) at an event of module `due`; return the rows of impacts and their number.
 
-    A row is [time, module, wall, speed]. At a start `due` is -1. slow: see the module.
+    A row is [time, module, wall, speed]. At the start of a run `due` is -1. slow: see the module docstring.
     """
     for i in range(2):
         x = 2 * i
@@ -61,7 +61,7 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
             if abs(s[x + 4] - s[x + 5]) <= slow and wall * acceleration(tau, s, q, walls, i) > 0.0:
                 s[x + 4] = s[x + 5] = (s[x + 4] + q[9] * s[x + 5]) / (1.0 + q[9])
                 walls[i] = wall
-    for i in range(2):  # an impact in one module may pull the ball off the wall in the other
+    for i in range(2):  # an impact in one module may release the ball of the other
         if walls[i] != 0.0 and guard(tau, s, q, walls, i) < 0.0:
             walls[i] = 0.0
     return rows, count
@@ -69,7 +69,10 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 
 @inlined()
 def first_look(tau, s, q, walls, step):
-    """Return a time to look at the gaps first: a step, or half of the shortest hop that has just begun on a wall."""
+    """Return the time of the first sample of the gaps.
+
+    It is a step, or half of the shortest hop that has just begun on a wall.
+    """
     for i in range(2):
         x = 2 * i
         gap, speed = s[x] - s[x + 1], s[x + 4] - s[x + 5]
@@ -91,10 +94,10 @@ def newton_or_middle(t, value, slope, low, high):
 
 
 class Contacts:
-    """The discrete part of a run by an integrator without a contact logic of its own.
+    """Discrete part of a run for integrators without contact logic.
 
-    numbers: `right_hand_side.coefficients`; walls: (2,), the wall that each ball sticks to, or 0; impacts: rows (time,
-    module, wall, speed) so far.
+    numbers: `right_hand_side.coefficients`. walls: (2,), the wall that each ball sticks to, or 0. impacts: rows (time,
+    module, wall, speed).
     """
 
     def __init__(self, system, slow: float):
@@ -106,7 +109,7 @@ class Contacts:
         self.resolve(tau, s, [-1])
 
     def resolve(self, tau, s, due):
-        """Change the state (8,) in place at an event of the modules `due`: a wall is met, or a force vanishes."""
+        """Update the state (8,) in place at an event of the modules `due`: an impact, or a vanishing force."""
         for module in due:
             rows, count = resolve(tau, s, self.numbers, self.walls, module, np.empty((2, 4)), 0, self.slow)
             self.impacts += map(tuple, rows[:count])

@@ -1,6 +1,6 @@
-"""The classical Runge-Kutta method of fourth order with fixed steps; impacts by Newton's method, all compiled.
+"""Classical Runge-Kutta method of fourth order with fixed steps and impacts by Newton's method, compiled.
 
-What a careful programmer would write by hand, without the interpreter that a call of SciPy spends its time in.
+This is careful handwritten code, without the interpreter overhead of SciPy.
 """
 
 import math
@@ -13,11 +13,11 @@ from vibroimpact.integrators.right_hand_side import coefficients, derivative, in
 from vibroimpact.integrators.rigid_contact import ROOM, SLOWEST, first_look, guard, newton_or_middle, resolve
 
 TRIES, NEAR = 60, 1e-14
-"""Steps of Newton's method for an event at most, and the last one."""
+"""Largest number of Newton steps for an event, and the length of the last step."""
 
 
 class RungeKutta4(Method):
-    """Setting: steps per cycle."""
+    """Classical Runge-Kutta method; the setting is the number of steps per cycle."""
 
     name, family, knob = "RK4, compiled", "Runge-Kutta", "steps per cycle"
     settings = (16, 32, 64, 128, 256, 512, 1024, 2048)
@@ -34,7 +34,7 @@ class RungeKutta4(Method):
 
 @inlined()
 def _step(tau, s, q, walls, h, slopes, there):
-    """Write the state after one step of length h; slopes (4, 8) is memory for the stages."""
+    """Write the state after one step of length h; slopes (4, 8) is workspace for the stages."""
     omega = q[8]
     middle = math.sin(omega * (tau + 0.5 * h))
     derivative(math.sin(omega * tau), s, q, walls, slopes[0])
@@ -68,7 +68,10 @@ def _event(tau, s, q, walls, i, high, slopes, event):
 
 @disk_cached(error_model="numpy", fastmath={"contract"})
 def _march(q, s, tau, end, step, limit):
-    """Return the state where the run gets in at most `limit` steps, rows [time, module, wall, speed], steps, time."""
+    """Return the state reached in at most `limit` steps, rows of impacts, the number of steps and the time.
+
+    Rows hold [time, module, wall, speed].
+    """
     walls, slopes = np.zeros(2), np.empty((4, 8))
     there, event, found = np.empty(8), np.empty(8), np.empty(8)
     rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0, SLOWEST)

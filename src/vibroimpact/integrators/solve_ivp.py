@@ -11,13 +11,13 @@ from vibroimpact.system.state import BALLS, BOXES
 
 ABSOLUTE = 1e-2  # atol / rtol
 LOST = "its interpolant misses the impact that its step has found"
-PATIENCE = 100  # events without any progress of time
+PATIENCE = 100  # events without progress of time
 
 
 class LeanRadau(Radau):
-    """Radau whose linear systems LAPACK solves as in SciPy, but without a look at the arguments each time.
+    """Radau with LAPACK's solutions of linear systems as in SciPy, but without argument checks.
 
-    With systems so small that would be a third of the run.
+    For such small systems the checks would take a third of the run.
     """
 
     def __init__(self, *arguments, **options):
@@ -27,9 +27,9 @@ class LeanRadau(Radau):
 
 
 class SolveIvp(Method):
-    """One of solve_ivp's integrators with compiled right-hand side (and Jacobian), setting: rtol.
+    """An integrator of solve_ivp with compiled right-hand side and Jacobian; the setting is rtol.
 
-    The first step after an impact is kept below half the expected hop, so that chatter is not stepped over.
+    The first step after an impact is kept below half of the expected hop, so that chatter is not stepped over.
     """
 
     family, knob = "solve_ivp", "rtol"
@@ -63,7 +63,7 @@ class SolveIvp(Method):
                     atol=ABSOLUTE * setting,
                     **options,
                 )
-            except ValueError:  # of the search for the event, which says nothing of why
+            except ValueError:  # the root search for the event failed without a specific message
                 return failed(REFUSED, f"{LOST} at tau = {tau:.6g}", steps, evaluations, contacts.impacts)
             steps, evaluations = steps + len(flight.t) - 1, evaluations + flight.nfev
             if flight.status < 0:
@@ -81,7 +81,8 @@ class SolveIvp(Method):
 def _events(i, wall):
     """Return two functions of which one falls through zero at the next event of module i.
 
-    The gaps to both walls; for a sticking ball the force that holds it, twice, so that their places stay the same.
+    These are the gaps to both walls, or, for a sticking ball, its contact force twice, so that the positions are the
+    same.
     """
     x, y = BOXES[i], BALLS[i]
     if wall:

@@ -1,11 +1,11 @@
-"""The design of a ball absorber for one machine in SI units: clearance, restitution and response.
+"""Design a ball absorber for one machine in SI units: clearance, restitution and response.
 
 The machine is a mass on a spring and a damper, driven by F sin(2 pi f t) over a band of frequencies f. Candidates are
-compared by their peak: the largest displacement over the band, from rest and from other starts. A peak that is seen
-from a few starts is at most the true one, and the lowest of many such peaks is lower still. So the best few are
-measured again, from more starts, after longer, and beside: with a little more and a little less clearance. The design
-is the one of them whose peak is lowest where its neighbourhood is worst. All that is told of it, in text, table and
-picture, is of one grid of frequencies and one window of time.
+compared by their peak: the largest displacement over the band, from rest and from other initial states. A peak from a
+few initial states is a lower bound, and selecting the lowest of many such peaks adds a bias. So the best few candidates
+are measured again: from more initial states, after a longer transient, and with slightly more and less clearance. The
+design is the candidate with the lowest worst peak in this neighbourhood. Text, table and plot of the design use the
+same grid of frequencies and the same window of time.
 """
 
 import math
@@ -27,62 +27,81 @@ from vibroimpact.system.progress import track
 from vibroimpact.system.state import IMPACT, RELEASE, STICK, idle_at_rest
 
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.5, 0.8)
-"""Restitution coefficients that are tried if none is asked for: a damped pair of steels has some 0.6."""
-AROUND, LESS, COARSE = 4, 8, 8
-"""Clearances that are tried: from so many times less than F / k M / m to so many times more, but from the amplitude
-without ball over LESS at most, and up to that amplitude; number of clearances."""
+"""Default candidates for the restitution coefficient; a damped pair of steels has about 0.6."""
+CLEARANCE_FACTOR, WIDEST_FACTOR, COARSE_CLEARANCES = 4, 8, 8
+"""Default clearances: COARSE_CLEARANCES values between F / k M / m over and times CLEARANCE_FACTOR. The lower end is at
+most the amplitude without ball over WIDEST_FACTOR, the upper end at most that amplitude."""
 DIGITS = 3
-"""Significant digits of a clearance that is tried: what is printed is what was measured."""
+"""Significant digits of candidate clearances, so that the printed value is the simulated one."""
 FEW = 3
-"""The best of those tried, which are measured again."""
+"""Number of best candidates that are measured again."""
 PER_WIDTH, LEAST, MOST = 6, 41, 801
-"""Frequencies in a half-power width of the resonance without ball; in the band at least, at most."""
+"""Frequencies per half-power width of the resonance without ball; smallest and largest number in the band."""
 TRIED, AGAIN = 3, 6
-"""Starts that candidates are compared by, at every other frequency; starts that the best few are measured from."""
+"""Initial states for all candidates, at every other frequency, and for the best few."""
 SETTLED, LONGEST = 5, 2000
-"""Time constants of the machine before it is watched; forcing periods of those at most."""
+"""Transient in time constants of the machine, and its largest length in forcing periods."""
 SHORT, LONG = 100, 600
-"""Forcing periods for which candidates are watched; before the best few are, at least: some transients are chaotic."""
+"""Forcing periods of the window of candidates, and shortest transient of the best few (transients may be chaotic)."""
 WATCHED = 300
-"""Forcing periods for which the best few are watched."""
+"""Forcing periods of the window of the best few."""
 NEAR, FRAGILE = 0.02, 1.1
-"""The neighbourhood: so much more and less clearance; a peak so many times as high in it makes a design fragile."""
+"""Relative change of the clearance in the neighbourhood; ratio of peaks in it above which a design is fragile."""
 LATER = 1000
-"""Forcing periods after these, for which the largest motion at a frequency is followed: is it a transient?"""
+"""Further forcing periods of the largest motion at a frequency, which show if it is a transient."""
 CURVES = {
     "without_m": ("without ball", {"color": "0.55", "linewidth": 1.6}),
     "with_m": ("with the ball, settled", {"color": "black", "linewidth": 1.2}),
     "settling_m": ("while it settles from rest", {"color": "black", "linestyle": (0, (1, 1.5)), "linewidth": 0.9}),
     "absorber_m": ("best linear absorber", {"color": "black", "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9}),
 }
-"""Lines of the picture of a design: columns of its response, with labels and looks."""
+"""Lines of the plot of a design: columns of its response, with labels and styles."""
 OFF = (0.8, 1.2)
-"""Clearances of the sensitivity, over that of the design."""
+"""Clearances of the sensitivity analysis, relative to that of the design."""
 
 
 @dataclass(frozen=True, eq=False)
 class Design:
     """A ball for one machine, and its effect over the band of frequencies. Displacements are amplitudes [m].
 
-    machine: the chosen one, with its mass of the ball `m` [kg], clearance `L` [m], half of the play, and restitution
-        coefficient `kappa`.
-    peak: largest displacement over the band [m] once the motion has settled: in the last `window[1]` forcing periods,
-        after `window[0]`. It is the largest `with_m` of `response`.
-    near: least and greatest peak with 2 % less, the same and 2 % more clearance [m].
-    settling: largest displacement before that window, from rest [m].
-    without: peak without ball [m]. fixed: with the ball fixed in the box [m]. absorber: of the best linear absorber of
-        the mass of the ball [m]; absorber_stroke: how far that moves to each side [m].
-    off: peaks at 0.8 and 1.2 times the clearance [m].
-    natural: natural frequency of the machine without ball [Hz]. static: static deflection [m].
-    candidates: a row per pair tried: clearance_m, restitution, peak_m as few starts see it; of the best few again_m,
-        measured as `peak`, and near_m, the greatest of `near` (else nan). The chosen one has the least near_m.
-    masses: a row per mass of the ball, if there are several: mass_kg, clearance_m, restitution, peak_m, near_m,
+    Attributes
+    ----------
+    machine : PhysicalSystem
+        The chosen machine, with the mass of the ball `m` [kg], the clearance `L` [m], half of the play, and the
+        restitution coefficient `kappa`.
+    peak : float
+        Largest displacement over the band [m] once settled: in the last `window[1]` forcing periods, after `window[0]`.
+        It is the largest `with_m` of `response`.
+    near : tuple of float
+        Smallest and largest peak with 2 % less, the same and 2 % more clearance [m].
+    settling : float
+        Largest displacement before that window, from rest [m].
+    without, fixed : float
+        Peak without ball [m], and with the ball fixed in the box [m].
+    absorber, absorber_stroke : float
+        Peak with the best linear absorber of the mass of the ball [m], and its stroke to each side [m].
+    off : tuple of float
+        Peaks at 0.8 and 1.2 times the clearance [m].
+    natural, static : float
+        Natural frequency of the machine without ball [Hz], and its static deflection [m].
+    window : tuple of int
+        Forcing periods of the transient and of the window.
+    candidates : list of dict
+        One row per pair tried: clearance_m, restitution, peak_m from a few initial states; for the best few again_m,
+        measured as `peak`, and near_m, the largest of `near` (else nan). The chosen one has the smallest near_m.
+    response : list of dict
+        One row per frequency: frequency_Hz; displacement [m] without ball, with it (the largest of all initial states
+        in the window), while it settles from rest, and with the absorber. Then, for the largest motion with the ball in
+        the same window: impacts_per_s, the mean impact_speed_m_s of the ball against the wall, the mean impulse_Ns of
+        an impact, impulse_Ns_per_s, and sticking, the share of time that the ball rests on a wall. Last, later_m, its
+        displacement in the 1000 periods after the window, which is smaller for a transient.
+    masses : list of dict
+        One row per mass of the ball, if there are several: mass_kg, clearance_m, restitution, peak_m, near_m,
         absorber_m.
-    response: a row per frequency: frequency_Hz; displacement without ball, with it (the largest of all starts in the
-        window), while it settles from rest, and with the absorber [m]; then of the motion with the ball that is the
-        largest, in the same window: impacts_per_s, the mean impact_speed_m_s of the ball against the wall, the mean
-        impulse_Ns of an impact, impulse_Ns_per_s, and sticking, the share of time that the ball rests on a wall; last
-        its displacement in the 1000 periods after the window, later_m, which is less if it was a transient.
+
+    Examples
+    --------
+    >>> print(vi.design(machine, band=(2.5, 4.0)))  # doctest: +SKIP
     """
 
     machine: PhysicalSystem
@@ -132,10 +151,15 @@ class Design:
     def plot(self):
         """Return a Matplotlib Figure of the displacements in `response` over the frequency.
 
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The plot.
+
         Raises
         ------
         ModuleNotFoundError
-            If Matplotlib is missing; the extra `figures` brings it.
+            If Matplotlib is missing; the extra `figures` installs it.
         """
         need("figures", "matplotlib")
         from matplotlib.figure import Figure
@@ -164,7 +188,7 @@ class Design:
         return self.peak <= FRAGILE * row["later_m"]
 
     def _warnings(self):
-        """Yield a line on each thing to know before the design is built."""
+        """Yield a line for each warning about the design."""
         machine, first, last = self.machine, self.response[0]["frequency_Hz"], self.response[-1]["frequency_Hz"]
         for name, value in (("restitution", machine.kappa), ("clearance_m", machine.L)):
             tried = sorted({row[name] for row in self.candidates})
@@ -192,33 +216,43 @@ def design(
     progress: bool = True,
     masses: Sequence[float] | None = None,
 ) -> Design:
-    """Return the clearance and restitution with the lowest peak over a band, and their response.
+    """Return the clearance and restitution coefficient with the lowest peak over a band, and their response.
 
-    A machine and its mirror image (the force -F) have the same answer, to the last digit.
+    A machine and its mirror image (the force -F) have the same design, to the last digit.
 
     Parameters
     ----------
     machine : PhysicalSystem
-        One machine, see `PhysicalSystem.single`; its own L, kappa and forcing frequency do not count.
-    band : tuple[float, float]
+        One machine, see `PhysicalSystem.single`; its own L, kappa and forcing frequency are ignored.
+    band : tuple of float
         First and last frequency of the force [Hz].
     clearances : sequence of float, optional
-        Those to choose from [m]; by default 8 about F / k M / m, from 1/4 to 4 times this, none above the amplitude
-        without ball (a box that swings less than its clearance never meets a ball at rest), then others beside the
+        Candidates [m]. By default 8 values around F / k M / m, from 1/4 to 4 times this, none above the amplitude
+        without ball (a box that moves less than its clearance never meets a ball at rest); then further ones near the
         best.
     restitutions : sequence of float, default RESTITUTIONS
-        Those to choose from, each between 0 and 1.
+        Candidates, each between 0 and 1.
     progress : bool, default True
-        Count the candidates on standard error, if that is a terminal.
+        Count the candidates on standard error, if it is a terminal.
     masses : sequence of float, optional
-        Those of the ball to choose from [kg], each with a design of its own; by default that of the machine.
+        Candidate masses of the ball [kg], each with its own design; by default that of the machine.
+
+    Returns
+    -------
+    Design
+        The best design, with the response and all candidates.
 
     Raises
     ------
     ValueError
-        If an argument is malformed; the machine is not alone, or has no damper or no force.
+        If an argument is malformed, if the machine is coupled, or if it has no damper or no force.
     ArithmeticError
         If a run could not be finished.
+
+    Examples
+    --------
+    >>> machine = vi.PhysicalSystem.single(M=100.0, m=5.0, k=4e4, c=40.0, F=20.0)
+    >>> found = vi.design(machine, band=(2.5, 4.0))  # doctest: +SKIP
     """
     instance("machine", machine, PhysicalSystem)
     restitutions = _choices("restitutions", restitutions, 1.0)
@@ -230,7 +264,7 @@ def design(
 
 
 def _choices(name, values, end) -> list[float]:
-    """Return the values in ascending order, each above 0 and below an end."""
+    """Return the values in ascending order, each above 0 and below an upper limit."""
     given = np.unique(reals(name, values)).tolist()
     if not given or not 0 < given[0] <= given[-1] < end:
         upper = f" and below {end:g}" if end < math.inf else ""
@@ -239,7 +273,7 @@ def _choices(name, values, end) -> list[float]:
 
 
 def _of_mass(found) -> dict:
-    """Return the row of `Design.masses`."""
+    """Return the row of `Design.masses` of a design."""
     machine = found.machine
     return {
         "mass_kg": machine.m, "clearance_m": machine.L, "restitution": machine.kappa, "peak_m": found.peak,
@@ -252,7 +286,11 @@ def _designed(study, clearances, restitutions, progress) -> Design:
     widest = study.linear(without_balls)
     if clearances is None:
         scale = study.static * study.machine.M / study.machine.m
-        coarse = np.geomspace(min(scale / AROUND, widest / LESS), min(AROUND * scale, widest), COARSE)
+        coarse = np.geomspace(
+            min(scale / CLEARANCE_FACTOR, widest / WIDEST_FACTOR),
+            min(CLEARANCE_FACTOR * scale, widest),
+            COARSE_CLEARANCES,
+        )
         rows = study.tried([(_rounded(L), kappa) for kappa in restitutions for L in coarse], progress)
         third = np.cbrt(coarse[1] / coarse[0])
         beside = [(row["clearance_m"] * f, row["restitution"]) for row in _best(rows) for f in (1 / third, third)]
@@ -301,10 +339,10 @@ def _mm(metres) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Measured:
-    """A machine with its ball at n frequencies, watched from m starts once it has settled.
+    """A machine with its ball at n frequencies, from m initial states, once settled.
 
-    largest: (n, m) [m], in the window. settling: (n,) [m], before it from rest. states, finals: (n, m, 8), where it
-    begins and ends.
+    largest: (n, m) [m], in the window. settling: (n,) [m], before it from rest. states, finals: (n, m, 8), at the start
+    and end of the window.
     """
 
     machine: PhysicalSystem
@@ -320,7 +358,7 @@ class _Measured:
 
 
 class _Study:
-    """A machine over a band: frequencies, lengths of runs and starts."""
+    """A machine over a band: frequencies, lengths of runs and initial states."""
 
     def __init__(self, machine, band):
         low, high = pair("band", band)
@@ -328,12 +366,14 @@ class _Study:
             raise ValueError(f"band: ({low}, {high}) Hz; needs 0 < low < high")
         if not machine.c1 or not machine.F10:
             raise ValueError("machine: needs a damper c above 0 and a force F other than 0")
-        # With -F all signs change; from the same starts that would be another sample of the same motions.
+        # With -F all signs change, so that the same initial states would sample other motions.
         self.given, self.machine = machine, replace(machine, F10=abs(machine.F10), L=1.0)
         self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
         if self.system.modules != (1,):
-            raise ValueError("machine: it is coupled to another one, or that is driven; see PhysicalSystem.single")
+            raise ValueError(
+                "machine: a single machine is required, without coupling and a second force; see PhysicalSystem.single"
+            )
         ratio = machine.c1 / (2 * machine.M * machine.omega10)
         width = 2 * ratio * self.hertz
         self.frequencies = np.linspace(low, high, min(max(LEAST, math.ceil(PER_WIDTH * (high - low) / width)), MOST))
@@ -345,7 +385,7 @@ class _Study:
         return self.machine.L * reference(self.system).peak(self.band)
 
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
-        """Return a row per pair of clearance and restitution, with the peak from few starts."""
+        """Return a row per pair of clearance and restitution, with the peak from a few initial states."""
         rows, states = [], self._starts(TRIED, 1)
         for L, kappa in track(pairs, "design: tried", progress):
             systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]
@@ -357,7 +397,7 @@ class _Study:
         return rows
 
     def measured(self, machine, factor: float) -> _Measured:
-        """Return the response of a machine with a multiple of its clearance, from many starts."""
+        """Return the response of a machine with a multiple of its clearance, from many initial states."""
         machine = replace(machine, L=factor * machine.L)
         systems = self._systems(machine)
         each = np.array(systems)[:, None]
@@ -395,7 +435,7 @@ def _impacts(machine, run) -> dict:
     events = run.events[run.events["module"] == 1]
     states = events["state"][events["kind"] == IMPACT]
     seconds = run.cycles * run.system.period / machine.omega10
-    speeds = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa  # before the impact
+    speeds = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa  # just before the impact
     impulses = machine.m / (1 + run.system.epsilon) * (1 + machine.kappa) * speeds
     rests, spans = _at_rest(events, run), run.cycles * run.system.period
     return {

@@ -184,7 +184,7 @@ def test_a_peak_is_the_top_of_all_humps(chapter):
         r"^band: 'low' is not a number": lambda: best(DAMPED, ("low", 1.0)),
         r"^tuning: .* needs frequencies above 0": lambda: tuned(DAMPED, Tuning((0.0, 1.0), (0.1, 0.1))),
         r"^damping: needs two finite numbers": lambda: tuned(DAMPED, Tuning((1.0, 1.0), (0.1,))),
-        r"^system: no force acts on it": lambda: best(DAMPED.with_(f10_hat=0, f20_hat=0), (0.9, 1.1)),
+        r"^system: no force acts": lambda: best(DAMPED.with_(f10_hat=0, f20_hat=0), (0.9, 1.1)),
         r"^fraction: 1.0 is not between 0 and 1": lambda: without_balls(DAMPED).decay_time(fraction=1.0),
         r"^strokes: needs two boxes with an absorber each": lambda: without_balls(DAMPED).stroke((0.9, 1.1)),
         r"^module: 3 is not a whole number": lambda: without_balls(DAMPED).decay_time(3),

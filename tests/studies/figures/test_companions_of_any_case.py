@@ -17,7 +17,7 @@ from vibroimpact.studies.figures import (
     companion_response,
     force_sweep,
 )
-from vibroimpact.studies.regimes.epsilon_limit import compare
+from vibroimpact.studies.regimes.epsilon_limit import distance_to_orbit
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.studies.sweeps.rows import rows
 from vibroimpact.studies.sweeps.spec import Spec
@@ -131,7 +131,7 @@ def test_a_single_machine_is_compared_with_its_orbits(monkeypatch):
     assert tables["orders"]["order"].to_numpy() == pytest.approx([1, 1, 1, 2], abs=0.02)
     companion_epsilon.draw(tables)
     both = system.with_(f20_hat=1.4)
-    alone, together = (compare(one, vi.fixed_points(one)[0]) for one in (system, both))
+    alone, together = (distance_to_orbit(one, vi.fixed_points(one)[0]) for one in (system, both))
     np.testing.assert_allclose(alone.offset, together.offset[[0, 2]], atol=1e-9)
     orbits = orbit_rows("single", vi.orbits(system))
     tables = companion_asymmetric.compute({"single": system}, orbits, system.kappa, [0.1, 0.01], 3, 0.05, 2.5)

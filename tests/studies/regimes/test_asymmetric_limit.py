@@ -47,7 +47,7 @@ def test_the_pair_of_fig_10_8_comes_from_just_below_symmetry_breaking(ways, poin
     assert not end.real
     assert asymmetric_limit.onset(pair) == pytest.approx(0.00218, abs=2e-5)
     station = pair[-1]
-    before = max(abs(asymmetric_limit.compare(pair[0], end).multipliers))
+    before = max(abs(asymmetric_limit.distance_to_limit(pair[0], end).multipliers))
     assert before == pytest.approx(0.988, abs=1e-3)
     assert station.place[3] == pytest.approx(end.squared[1] + 0.8 * station.system.epsilon, abs=2e-4)
 
@@ -65,7 +65,7 @@ def test_multipliers_are_those_of_impact_maps_and_slow_flow():
     ]
     errors = []
     for station in (way[-7], way[-1]):
-        found = asymmetric_limit.compare(station, point)
+        found = asymmetric_limit.distance_to_limit(station, point)
         slow = np.abs(found.rates - found.predicted).max()
         fast = np.abs(found.multipliers - found.predicted_multipliers)[4:].max()
         errors.append((found.distance, slow, fast))

@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.second_term import first_order
-from vibroimpact.studies.regimes.epsilon_limit import compare, order
+from vibroimpact.studies.regimes.epsilon_limit import distance_to_orbit, order
 
 
 def test_the_order_of_a_power_law():
@@ -51,7 +51,7 @@ def test_the_second_term_of_a_single_module_in_closed_form(chapter):
 def test_errors_shrink_tenfold_with_epsilon(chapter, f10, f20):
     """The slow flow's eigenvalues, the impact map's multipliers and the fixed points are each right to first order."""
     for point in vi.fixed_points(chapter(f10, f20)):
-        found = [compare(chapter(f10, f20, epsilon=epsilon), point) for epsilon in (1e-3, 1e-4)]
+        found = [distance_to_orbit(chapter(f10, f20, epsilon=epsilon), point) for epsilon in (1e-3, 1e-4)]
         distances = [c.distance for c in found]
         slow = [abs(c.rates - c.predicted).max() for c in found]
         fast = [abs(c.multipliers - c.predicted_multipliers)[4:].max() for c in found]
@@ -63,6 +63,6 @@ def test_two_terms_are_right_to_second_order(chapter):
     point = vi.fixed_points(chapter(1.0, 1.0))[-1]
     added = first_order(chapter(1.0, 1.0), point).ravel()
     epsilon = np.geomspace(1e-2, 1e-3, 3)
-    found = [compare(chapter(1.0, 1.0, epsilon=e), point) for e in epsilon]
+    found = [distance_to_orbit(chapter(1.0, 1.0, epsilon=e), point) for e in epsilon]
     errors = [np.linalg.norm(c.offset - c.epsilon * added) for c in found]
     assert order(epsilon, errors)[0] == pytest.approx(2, abs=0.03)

@@ -1,4 +1,4 @@
-"""The reference: the same motion in ball arithmetic, written independently of the engine that it judges."""
+"""Reference simulation in ball arithmetic, independent of the engine that it validates."""
 
 from vibroimpact.system.extras import need
 

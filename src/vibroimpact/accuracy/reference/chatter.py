@@ -1,4 +1,4 @@
-"""Completion of chatter: the limit of infinitely many impacts by extrapolation of the first ones."""
+"""Complete chatter: extrapolate the limit of infinitely many impacts from the first ones."""
 
 import math
 from fractions import Fraction
@@ -9,11 +9,11 @@ from vibroimpact.accuracy.reference.taylor_models import to_ball
 class Chatter:
     """Consecutive impacts of the same balls on the same walls, and the state in which they accumulate.
 
-    The map from one impact to the next is analytic in the rebound speed and contracts it by kappa at speed
-    zero, the other coordinates being neutral there. In Koenigs' linearising coordinate it is a multiplication
-    by kappa, so every coordinate of the state after the n-th impact is limit + c1 kappa^n + c2 kappa^(2n) + ...
-    (the first term alone is the geometric series of the flight times). Richardson extrapolation removes
-    power after power, and its error falls like kappa^(n^2 / 2).
+    The map from one impact to the next is analytic in the rebound speed. At speed zero it contracts the speed by
+    kappa and is neutral in the other coordinates. In Koenigs' linearising coordinate it is a multiplication by
+    kappa, so that every coordinate of the state after the n-th impact is limit + c1 kappa^n + c2 kappa^(2n) + ...
+    (the first term is the geometric series of the flight times). Richardson extrapolation removes the powers one
+    by one; its error falls like kappa^(n^2 / 2).
     """
 
     def __init__(self, contacts, kappa: Fraction):
@@ -32,10 +32,10 @@ class Chatter:
         return self._row[-1]
 
     def add(self, coordinates) -> bool:
-        """Take in the state after the next impact; True if this has improved the limit.
+        """Add the state after the next impact; return True if this has improved the limit.
 
-        change is then the largest difference between the new limit and the one before, a bound in practice
-        of the error of the older one and a generous one of that of the newer.
+        `change` is then the largest difference between the new and the previous limit. In practice it bounds the error
+        of the previous limit, and generously that of the new one.
         """
         self._impacts += 1
         if (self._impacts - 1) % self._stride:

@@ -1,10 +1,10 @@
-"""The first root of a power series on an interval, found or excluded with proof in ball arithmetic."""
+"""Find or exclude the first root of a power series on an interval, with proof in ball arithmetic."""
 
 from flint import arb, ctx
 
 
 class Undecidable(ArithmeticError):
-    """A sign that decides what happens next lies within the error of the working precision."""
+    """Raised if a sign that decides the next event is within the error of the working precision."""
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
@@ -16,7 +16,7 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
     Raises
     ------
     Undecidable
-        If near-tangent approach that the precision cannot tell from a contact.
+        If an approach is so close to tangential that the precision cannot distinguish it from a contact.
     """
     if not series(arb(0)) > 0:
         raise Undecidable("the distance at the start is not positive to working precision")
@@ -35,15 +35,20 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
                 continue
             if last < 0:
                 return interval
-            stop = (stop + (stop - start) / 8).mid()  # the root is at the end itself: look just beyond
+            stop = (stop + (stop - start) / 8).mid()  # the root is at the end: search just beyond it
         if depth > 0.6 * ctx.prec:
-            raise Undecidable(f"approach within {float(abs(series(middle)).upper()):.1e} not told from a contact")
+            raise Undecidable(
+                f"approach within {float(abs(series(middle)).upper()):.1e} cannot be distinguished from a contact"
+            )
         pieces += [(middle, stop, depth + 1), (start, middle, depth + 1)]
     return None
 
 
 def refine(series, ball: arb) -> arb:
-    """Return the single root inside the ball, a falling one, to working precision: interval Newton, else bisection."""
+    """Return the single, falling root inside the ball to working precision.
+
+    The interval Newton method is used, with bisection as the fallback.
+    """
     slope = series.derivative()
     while True:
         middle = ball.mid()

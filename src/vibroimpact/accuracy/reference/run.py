@@ -1,9 +1,9 @@
-"""Arbitrary-precision simulation of (10.1): the judge of every other method.
+"""Simulate (10.1) in arbitrary precision, as the reference for all other methods.
 
-Parameters and start are rational numbers. Between events the boxes' motion is a Taylor series with an enclosed
-tail, the next event is found with proof in ball arithmetic, and each flight starts from an exact (rational)
-state, so what a single flight contributes is enclosed. How these contributions grow along the trajectory is
-decided by running again with more digits: see proven_run.
+Parameters and initial state are rational numbers. Between events the motion of the boxes is a Taylor series with
+an enclosed tail, and the next event is found with proof in ball arithmetic. Each flight starts from an exact
+(rational) state, so that the error of a single flight is enclosed. The growth of these errors along the
+trajectory is checked by another run with more digits: see proven_run.
 """
 
 from dataclasses import dataclass
@@ -18,18 +18,18 @@ from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, Trajectory
 from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
 
-ROUNDED = Fraction(1, 10**12)  # farthest beyond a wall that a ball is by rounding
+ROUNDED = Fraction(1, 10**12)  # largest distance of a ball beyond a wall by rounding
 
 
 @dataclass(frozen=True, eq=False)
 class ReferenceRun:
-    """A trajectory in arbitrary precision. State order and units as everywhere: dimensionless.
+    """Trajectory in arbitrary precision, dimensionless, with states in the usual order.
 
-    digits: decimals to which a single flight is computed; events: structured array (tau, module, wall, kind
-    0 impact / 1 stick / 2 release, state after), rounded to float64; event_taus (n,), event_states (n, 8) and
-    final_exact (8,): the same as arbitrary-precision numbers (flint.arb); samples (n, 8), final (8,): float64;
-    local_error (arb): largest radius of the enclosures of a single flight; completion_error (arb): largest last
-    correction of a completed chatter's limit; flights, chatters: their numbers.
+    digits: decimals to which a single flight is computed. events: structured array (tau, module, wall, kind 0 impact /
+    1 stick / 2 release, state after), rounded to float64. event_taus (n,), event_states (n, 8), final_exact (8,): the
+    same as arbitrary-precision numbers (flint.arb). samples (n, 8), final (8,): float64. local_error (arb): largest
+    radius of the enclosures of a single flight. completion_error (arb): largest last correction of the limit of a
+    completed chatter. flights, chatters: their numbers.
     """
 
     digits: int
@@ -46,16 +46,16 @@ class ReferenceRun:
 
     @property
     def final_text(self) -> tuple[str, ...]:
-        """The final state as decimal strings with all digits carried."""
+        """Final state as decimal strings with all digits."""
         return tuple(value.str(self.digits, radius=False) for value in self.final_exact)
 
 
 @dataclass(frozen=True, eq=False)
 class ProvenRun:
-    """A run confirmed by another one.
+    """Run confirmed by another one.
 
-    run: the finer run; coarse: the other one; agreement: largest absolute difference between them over all
-    times and states of events, samples and the final state, which bounds the error of the coarse run in practice.
+    run: the finer run; coarse: the other one. agreement: largest absolute difference between them over all times and
+    states of events, samples and the final state, which in practice bounds the error of the coarse run.
     """
 
     run: ReferenceRun
@@ -68,22 +68,33 @@ def reference_run(
 ) -> ReferenceRun:
     """Simulate (10.1) for a number of forcing periods from tau0, every flight to the given decimals.
 
-    system_parameters: a System or a mapping of its ten parameters; state: [X1, Y1, X2, Y2, X1', Y1', X2', Y2'];
-    tau0, cycles: start and length of the window. All of these are rational numbers: decimal strings, Fractions,
-    or floats. exact_floats: True takes floats, and that of Omega, at their binary values and puts a ball near a wall by
-    rounding on it, as `simulate` does; False reads them as their shortest decimals. By default True for a System, else
-    False. sample_times: ascending times in the window; floats among them are taken at their binary value. A sample at
-    an event is the state after it.
+    A ball that rests on a wall at the start sticks if the wall pushes it (w X'' > 0, or the first derivative that does
+    not vanish within the digits); else it leaves at once.
 
-    A ball that rests on a wall at the start sticks there if the wall pushes it (w X'' > 0, or the first
-    derivative that does not vanish to the digits), else it leaves at once.
+    Parameters
+    ----------
+    system_parameters : System or mapping
+        The ten parameters, rational numbers: decimal strings, Fractions or floats.
+    state : sequence
+        [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], rational numbers.
+    cycles, tau0
+        Length and start of the window, rational numbers.
+    digits : int
+        Decimals of a single flight, at least 20.
+    sample_times : sequence, optional
+        Ascending times in the window; floats among them have their binary value. A sample at an event is the state
+        after it.
+    exact_floats : bool, optional
+        True: floats, and the float Omega, have their binary values, and a ball within rounding of a wall is put on it,
+        as in `simulate`. False: floats are read as their shortest decimals. The default is True for a System, else
+        False.
 
     Raises
     ------
     ValueError
-        If inadmissible parameters, a start beyond a wall, or times outside the window.
+        If parameters are inadmissible, a ball starts beyond a wall, or times are outside the window.
     Undecidable
-        If a decision, such as graze or miss, that needs more digits.
+        If a decision, such as graze or miss, needs more digits.
     """
     if digits < 20:
         raise ValueError(f"digits: {digits} is below 20; use simulate for float64 accuracy")
@@ -115,20 +126,20 @@ def proven_run(
     max_digits=5000,
     exact_floats=None,
 ) -> ProvenRun:
-    """Return the run of reference_run with the digits doubled until two precisions agree to the absolute accuracy.
+    """Return a `reference_run` with the digits doubled until two precisions agree to the absolute accuracy.
 
     Parameters
     ----------
     system_parameters, state, cycles, tau0, sample_times, exact_floats
         As in `reference_run`.
-    digits : optional
-        Where to start; by default enough for a loss of 0.33 digits per forcing period, measured in the modulated case,
-        and 40 more.
+    digits : int, optional
+        Initial number of digits; the default allows for a loss of 0.33 digits per forcing period, measured in the
+        modulated case, plus 40.
 
     Raises
     ------
     ArithmeticError
-        If no agreement up to max_digits.
+        If there is no agreement up to max_digits.
     """
     digits = digits or int(40 + 0.33 * float(to_fraction("cycles", cycles)))
     coarse, agreement = None, np.inf
@@ -146,9 +157,9 @@ def proven_run(
 
 
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
-    """Return the departure of two runs of the same motion: event times of the fine run (n,) and differences there (n,).
+    """Return the event times of the fine run (n,) and the differences of two runs of the same motion there (n,).
 
-    The difference is the largest in time and state; it is inf from the first event that is not the same.
+    The difference is the largest in time and state; it is inf from the first event that differs.
     """
     error = np.full(len(fine.events), np.inf)
     for i, (one, other) in enumerate(zip(coarse.events, fine.events, strict=False)):
@@ -197,7 +208,7 @@ def _distance(one, other):
 
 
 def _put_on_walls(start):
-    """Move balls that are on a wall to rounding, or by rounding beyond it, onto it."""
+    """Move balls that are on a wall to rounding, or beyond it by rounding, onto the wall."""
     for i in (0, 2):
         gap = start[i] - start[i + 1]
         if float(start[i]) - float(start[i + 1]) in (1.0, -1.0) or 1 < abs(gap) <= 1 + ROUNDED:
@@ -206,8 +217,8 @@ def _put_on_walls(start):
 
 def _require_inside(start):
     if len(start) != 8:
-        raise ValueError(f"state: {len(start)} entries, needs 8")
+        raise ValueError(f"state: needs 8 entries, got {len(start)}")
     for i in (0, 2):
         gap = start[i] - start[i + 1]
         if abs(gap) > 1:
-            raise ValueError(f"state: |W{i // 2 + 1}| = {float(abs(gap))} is above 1, a ball beyond its wall")
+            raise ValueError(f"state: |W{i // 2 + 1}| = {float(abs(gap))} is above 1, the ball is beyond a wall")

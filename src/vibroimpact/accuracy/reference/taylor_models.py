@@ -1,4 +1,4 @@
-"""Taylor models of the boxes' motion between events, in ball arithmetic from exact rational parameters."""
+"""Taylor models of the motion of the boxes between events, in ball arithmetic from rational parameters."""
 
 import math
 from dataclasses import dataclass, fields
@@ -22,7 +22,7 @@ def to_fraction(name: str, value, exact_floats: bool = False) -> Fraction:
     Raises
     ------
     ValueError
-        If not a finite number.
+        If the value is not a finite number.
     """
     try:
         if isinstance(value, Fraction | int | str | Decimal):
@@ -33,7 +33,7 @@ def to_fraction(name: str, value, exact_floats: bool = False) -> Fraction:
 
 
 def to_ball(value: Fraction) -> arb:
-    """Return the enclosure of a rational number at the current precision."""
+    """Return an enclosure of a rational number at the current precision."""
     return arb(fmpq(value.numerator, value.denominator))
 
 
@@ -50,9 +50,9 @@ class ExactSystem:
 
     @classmethod
     def of(cls, parameters, exact_floats: bool = False) -> "ExactSystem":
-        """From a System or a mapping of its ten parameters to numbers or decimal strings; floats as in `to_fraction`.
+        """Return the coefficients of a System, or of a mapping of its ten parameters to numbers or decimal strings.
 
-        With exact floats Omega is a float, too, as the engine has it.
+        Floats are read as in `to_fraction`; with exact floats Omega is a float too, as in the engine.
 
         Raises
         ------
@@ -85,11 +85,11 @@ def _coupled(ground, coupling):
 
 
 class Flow:
-    """Power series of X1 and X2 in the time since a start state, for one contact state of the two balls.
+    """Power series of X1 and X2 in the time since an initial state, for one contact state.
 
-    The motion is linear: with s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)] and s' = A s, the k-th
-    coefficient is the first two rows of A^k s / k!. No spectrum enters, so a repeated, defective, undamped or
-    resonant one needs no special case. The last coefficient is a ball that contains the neglected tail.
+    The motion is linear: with s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)] and s' = A s, the k-th coefficient
+    is given by the first two rows of A^k s / k!. No eigenvalues are used, so that repeated, defective, undamped and
+    resonant spectra need no special case. The last coefficient is a ball that contains the neglected tail.
     """
 
     def __init__(self, system: ExactSystem, stuck, bits: int):
@@ -118,7 +118,7 @@ class Flow:
         return Fraction(REACH) / self.norm
 
     def size(self, vector) -> arb:
-        """Return the upper bound of the weighted norm of s; norm times it bounds the accelerations |X1''|, |X2''|."""
+        """Return an upper bound of the weighted norm of s; times norm, it bounds |X1''| and |X2''|."""
         largest = arb(0)
         for weight, entry in zip(self._weights, vector, strict=True):
             largest = largest.max(abs(weight * entry))
@@ -150,9 +150,9 @@ def rate_matrix(system: ExactSystem, stuck) -> list:
 
 
 def _weighted_norm(rate):
-    """Return the weights >= 1 of the six entries of s and the row-sum norm of the rate matrix in them.
+    """Return weights >= 1 of the six entries of s, and the row-sum norm of the rate matrix in these weights.
 
-    Weighing displacements by about the highest natural frequency keeps the norm near that frequency.
+    Weighting displacements by about the highest natural frequency keeps the norm near that frequency.
     """
     stiffness = max(sum(abs(entry) for entry in row[:2]) for row in rate[2:4])
     frequency = Fraction(max(1, math.ceil(8 * math.sqrt(stiffness)) / 8))

@@ -1,4 +1,4 @@
-"""The event loop of the reference simulation: flights, impacts, chatter, sticking and release in ball arithmetic."""
+"""Event loop of the reference simulation in ball arithmetic: flights, impacts, chatter, sticking and release."""
 
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -11,18 +11,18 @@ from vibroimpact.accuracy.reference.roots import Undecidable, first_root, refine
 from vibroimpact.accuracy.reference.taylor_models import ExactSystem, Flow, to_ball, to_fraction
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
-# Of the infinitely many impacts of a completed chatter those with a slower rebound |W'| are not listed.
+# Impacts of a completed chatter with a slower rebound |W'| are not listed.
 LISTED_SPEED = Fraction(1, 10**12)
-GUARD_BITS = 64  # carried beyond the digits asked for
-SEARCH_BITS = 96  # enough to exclude and bracket events nearly always; where not, the full precision is used
+GUARD_BITS = 64  # beyond the requested digits
+SEARCH_BITS = 96  # sufficient to exclude and bracket most events; otherwise the full precision is used
 
 
 @dataclass
 class _Ball:
-    """One module's ball seen from its box: gap W, rate W', and the wall it touches, if any.
+    """Ball of one module relative to its box: gap W, rate W', and the wall it touches, if any.
 
-    order: number of leading Taylor coefficients that vanish, of 1 - wall W for a ball that leaves the wall (1 after
-    an impact, 2 or more after a release) and of the contact force for a stuck one (None: no force ever).
+    order: number of vanishing leading Taylor coefficients, of 1 - wall W for a ball that leaves the wall (1 after an
+    impact, 2 or more after a release), or of the contact force for a stuck ball (None: the force is zero forever).
     """
 
     gap: arb
@@ -43,7 +43,7 @@ class _Ball:
 
 @dataclass(frozen=True)
 class _Candidate:
-    """An event that may end the flight: the first root of a distance (or contact force) of a module."""
+    """Event that may end the flight: the first root of a distance or contact force of a module."""
 
     module: int
     wall: int
@@ -52,10 +52,10 @@ class _Candidate:
 
 @dataclass
 class Trajectory:
-    """A simulation in progress; every method runs at the working precision that the caller has set.
+    """Simulation in progress; every method runs at the working precision set by the caller.
 
-    record: [(tau, module 0 or 1, wall, kind, state after)]; samples: states in the order asked for. Numbers are
-    exact midpoints (flint.arb); see reference_run for the rest.
+    record: [(tau, module 0 or 1, wall, kind, state after)]; samples: states in the requested order. Numbers are exact
+    midpoints (flint.arb); see reference_run for the other attributes.
     """
 
     system: ExactSystem
@@ -88,19 +88,19 @@ class Trajectory:
 
     def _sample_queue(self):
         times = [] if self.sample_times is None else list(self.sample_times)
-        # A float in a grid of times was computed, not written: it stands for its binary value.
+        # A float in a grid of times is the result of a computation, so that it has its binary value.
         rational = [Fraction(float(t)) if isinstance(t, float) else to_fraction("sample_times", t) for t in times]
         if any(later < earlier for earlier, later in pairwise(rational)):
-            raise ValueError("sample_times: not ascending")
+            raise ValueError("sample_times: must be ascending")
         balls = [to_ball(t).mid() for t in rational]
         if balls and (balls[0] < self.tau - self.tolerance or balls[-1] > self.end + self.tolerance):
-            raise ValueError(f"sample_times: leave the window [{float(self.tau)}, {float(self.end)}]")
+            raise ValueError(f"sample_times: must be within the window [{float(self.tau)}, {float(self.end)}]")
         return balls[::-1]
 
     # -- the loop ----------------------------------------------------------------------------------------
 
     def run(self):
-        """Fill record, samples and the closing state."""
+        """Compute record, samples and the final state."""
         self._meet_walls_at_start()
         while self.tau < self.end:
             self._fly()
@@ -150,9 +150,9 @@ class Trajectory:
         self.record.append((self.tau, module, self.balls[module].wall, kind, tuple(self.state())))
 
     def _point(self, value):
-        """Return the midpoint of an enclosure, where the next flight starts; the radius goes into local_error."""
+        """Return the midpoint of an enclosure, where the next flight starts; record the radius in local_error."""
         if not value.rad() < self.tolerance:
-            raise Undecidable(f"a flight's enclosure has radius {value.rad()}, wider than the digits asked for")
+            raise Undecidable(f"a flight's enclosure has radius {value.rad()}, too wide for the requested digits")
         self.local_error = self.local_error.max(value.rad())
         return value.mid()
 
@@ -193,7 +193,7 @@ class Trajectory:
     # -- the next event ----------------------------------------------------------------------------------
 
     def _next_events(self, series, search_series, longest):
-        """Return the earliest event within the longest step, with all that coincide with it to the digits."""
+        """Return the earliest event within the longest step, and all events that coincide with it within the digits."""
         try:
             with ctx.workprec(SEARCH_BITS):
                 found = self._bracket(search_series, longest)
@@ -226,7 +226,7 @@ class Trajectory:
 
         It is the distance to a wall, or the force that holds a stuck ball.
 
-        At a wall just left (or a force just set) the vanishing leading coefficients are divided out.
+        For a wall just left, or a force just set, the vanishing leading coefficients are divided out.
         """
         module, wall = key
         ball = self.balls[module]
@@ -261,7 +261,7 @@ class Trajectory:
         """
         ball = self.balls[module]
         if not ball.wall * ball.rate > -self.tolerance:
-            raise Undecidable("an impact whose approach speed is not positive to the digits")
+            raise Undecidable("the approach speed of an impact is not positive within the digits")
         self.box[2 + module] = self._point(self.box[2 + module] - self.impulse * ball.rate)
         ball.rate, ball.order = self._point(-self.kappa * ball.rate), 1
         self._note(module, IMPACT)
@@ -274,10 +274,10 @@ class Trajectory:
         self._note(module, STICK)
 
     def _settle(self, *modules, started=False):
-        """Release every stuck ball whose contact force w X'' is no longer that of a wall that pushes.
+        """Release every stuck ball whose contact force w X'' no longer pushes it.
 
-        The first coefficient of the force that does not vanish to the digits decides, so this serves a force
-        that has just fallen through zero, one that an impact of the other module has made jump, and a start.
+        The first coefficient of the force that does not vanish within the digits decides. This covers a force that has
+        just fallen through zero, a jump due to an impact of the other module, and the start.
         """
         for module in modules or range(2):
             ball = self.balls[module]
@@ -289,14 +289,15 @@ class Trajectory:
             if ball.order is None or force[ball.order] > 0:
                 continue
             ball.stuck = False
-            ball.order += 2  # in free flight the gap opens as t^2 times the force
+            ball.order += 2  # in free flight the gap grows like t^2 times the force
             if not started:
                 self._note(module, RELEASE)
 
     # -- chatter -----------------------------------------------------------------------------------------
 
     def _follow_chatter(self, contacts):
-        """Add the impacts of this instant to the chatter they continue, and complete it once it is known."""
+        """Add the impacts of this instant to the chatter they continue; complete the chatter once its limit is
+        known."""
         if self.chatter is None or self.chatter.contacts != contacts:
             self.chatter = Chatter(contacts, self.system.kappa) if contacts else None
         if not contacts or any(self.balls[module].stuck for module, _ in contacts):
@@ -308,7 +309,7 @@ class Trajectory:
             self._complete(contacts, others)
 
     def _is_complete(self, contacts):
-        """Return the limit is known to the digits, and nothing else can happen before the impacts accumulate."""
+        """Return True if the limit is known to the digits and no other event occurs before the impacts accumulate."""
         if not self.chatter.change < self.tolerance:
             return False
         if any(abs(self.balls[module].rate) > to_ball(LISTED_SPEED) for module, _ in contacts):
@@ -320,7 +321,7 @@ class Trajectory:
         return bool(time > 0 and self.tau + time < next_stop + self.tolerance and self._is_undisturbed(contacts, time))
 
     def _is_undisturbed(self, contacts, time):
-        """Return the contact forces keep their sign and other balls stay off the walls, with a wide margin."""
+        """Return True if contact forces keep their sign and other balls stay off the walls, with a wide margin."""
         flow, vector = self._flow(SEARCH_BITS), self._vector()
         acceleration = flow.size(vector) * to_ball(flow.norm)
         series = flow.series(vector)
@@ -356,21 +357,21 @@ class Trajectory:
 
 
 def _relative(ball, motion):
-    """Return W = X - Y of a ball in free flight as a power series: that of X from the second order on."""
+    """Return W = X - Y of a ball in free flight as a power series; from second order on it is that of X."""
     relative = arb_poly(motion)
     relative[0], relative[1] = ball.gap, ball.rate
     return relative
 
 
 def _force(ball, motion):
-    """Return w X'' as a power series, the acceleration that wall w gives a ball that rests on it."""
+    """Return w X'', the acceleration by wall w of a ball that rests on it, as a power series."""
     return ball.wall * motion.derivative().derivative()
 
 
 def _parabola_hint(distance, longest):
-    """Return twice the root of the distance's first two terms, where that is far nearer than the longest step.
+    """Return twice the root of the first two terms of the distance, if it is far nearer than the longest step.
 
-    It separates the short flights of a chatter from the long step in one split.
+    This hint separates the short flights of a chatter from the long step in one split.
     """
     height, slope = distance[0], distance[1]
     if not (height > 0 and slope < 0):
@@ -380,7 +381,7 @@ def _parabola_hint(distance, longest):
 
 
 def _earliest(found, tolerance):
-    """Return the pairs (key, ball) whose ball may be the earliest, or comes within the tolerance of it."""
+    """Return the pairs (key, ball) whose ball may be the earliest, or is within the tolerance of it."""
     if not found:
         return []
     first = min(ball.upper() for _, ball in found)

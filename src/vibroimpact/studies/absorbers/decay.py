@@ -1,4 +1,4 @@
-"""Free decay with balls: the time after an impulse, and the impulse after which it is shortest."""
+"""Compute the decay time of an impulse with balls, and the impulse with the shortest decay."""
 
 import math
 
@@ -15,35 +15,47 @@ from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.stored_energy import stored
 
 AT_ONCE = 50
-"""Cycles that are simulated before looking."""
+"""Cycles simulated between two checks."""
 NEARLY, FINER, REFINED = 1.2, 48, 8
-"""The quickest decay is looked for from the first to the last impulse after which it takes so many times the least time
-at most, at so many times as many impulses; so many of the least times found there are followed to their minimum."""
+"""Search for the shortest decay: range of impulses with at most NEARLY times the shortest time; factor of refinement of
+the impulses in it; number of the shortest times refined to their minimum."""
 
 
 def decay_time(system: System, impulse: float, module: int = 1, fraction: float = 0.1, cycles: int = 10_000) -> float:
-    """Return the time tau after an impulse on a box, until a fraction of the energy is left; the forces are left out.
+    """Return the time tau after an impulse on a box until a fraction of the energy is left.
 
-    Before, all is at rest, the balls in the middle of their boxes. Without force energy only falls, so it passes the
-    fraction once, in a flight (the root is found on its closed form) or in an impact.
+    The forces are left out. Before the impulse all is at rest, with the balls in the middle of their boxes. Without
+    forces the energy decreases monotonically, so that it passes the fraction once, in a flight (the root is found on
+    its closed form) or in an impact.
 
     Parameters
     ----------
+    system : System
+        Dimensionless parameters.
     impulse : float
-        Velocity that it gives to the box (of mass 1), dimensionless: in units of L omega_10.
+        Velocity of the box (of mass 1) after the impulse, in units of L omega_10.
     module : int, default 1
-        1 or 2.
+        Module of the box, 1 or 2.
     fraction : float, default 0.1
-        Between 0 and 1, of the energy at the start.
+        Fraction of the initial energy, between 0 and 1.
     cycles : int, default 10000
-        Forcing periods after which the search is given up; then the time is inf.
+        Largest number of forcing periods.
+
+    Returns
+    -------
+    float
+        Time tau, dimensionless; inf if it exceeds `cycles` forcing periods.
 
     Raises
     ------
     ValueError
         If an argument is malformed.
     ArithmeticError
-        As `simulate`.
+        As for `simulate`.
+
+    Examples
+    --------
+    >>> vi.decay_time(system, impulse=1.0)  # doctest: +SKIP
     """
     free = instance("system", system, System).with_(f10_hat=0.0, f20_hat=0.0)
     state, impulse, start = np.zeros(8), real("impulse", impulse), 0.0
@@ -64,19 +76,19 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
 
 
 def quickest_decay(system: System, impulses, times, module: int = 1, fraction: float = 0.1) -> tuple[float, float]:
-    """Return the impulse after which a fraction of the energy is left soonest, and the time that it takes.
+    """Return the impulse with the shortest decay to a fraction of the energy, and its decay time.
 
-    The time jumps where an impact comes or goes, and has many minima in between. The search is as fine as `FINER` says:
-    what is quicker over a narrower range of impulses is not seen.
+    The decay time jumps where an impact appears or vanishes, and has many minima in between. `FINER` sets the
+    resolution of the search; minima over narrower ranges of impulses are missed.
 
     Parameters
     ----------
     system, module, fraction
         As for `decay_time`.
     impulses
-        (n,) ascending, to look between.
+        Ascending impulses between which to search, shape (n,).
     times
-        (n,) those of `decay_time` after them.
+        Results of `decay_time` for them, shape (n,).
 
     Raises
     ------
@@ -124,8 +136,8 @@ def _time_within(system, flight, target):
         speeds = np.where(stuck, later[2:], balls[2:])
         return stored(system.stiffness2, system.alpha12, system.epsilon, later, [0.0, 0.0, *speeds]) - target
 
-    if _energies(system, flight[BEFORE:AFTER]) <= target:  # in the impact before
+    if _energies(system, flight[BEFORE:AFTER]) <= target:  # reached in the impact before
         return 0.0
-    if excess(flight[LENGTH]) > 0:  # within rounding of the end
+    if excess(flight[LENGTH]) > 0:  # reached within rounding of the end
         return float(flight[LENGTH])
     return brentq(excess, 0.0, float(flight[LENGTH]))

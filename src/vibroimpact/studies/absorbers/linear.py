@@ -1,4 +1,4 @@
-"""A linear system of boxes and masses attached to them, in the units of (10.2): steady response and free decay."""
+"""Steady response and free decay of a linear system of boxes and attached masses, in the units of (10.2)."""
 
 import math
 from dataclasses import dataclass
@@ -10,16 +10,21 @@ from scipy.optimize import brentq, minimize_scalar
 from vibroimpact.system.arguments import pair, real, whole
 
 POINTS = 400
-"""Frequencies looked at in a band, the natural ones besides; every hump among them is searched for its peak."""
+"""Frequencies sampled in a band besides the natural ones; each local maximum is refined to its peak."""
 LONGEST = 40
-"""Powers of two: a decay that takes longer than 2**40 units of tau counts as none."""
+"""Exponent of the longest decay: a decay over more than 2**40 units of tau has the time inf."""
 
 
 @dataclass(frozen=True, eq=False)
 class Linear:
-    """M X'' + C X' + K X = F sin(Omega tau); the first two of the n coordinates are the boxes.
+    """Linear system M X'' + C X' + K X = F sin(Omega tau), dimensionless.
 
-    mass, damping, stiffness: (n, n); force: (n,); all dimensionless.
+    Attributes
+    ----------
+    mass, damping, stiffness : ndarray
+        Matrices M, C, K, each (n, n); the first two coordinates are the boxes.
+    force : ndarray
+        Amplitudes F, (n,).
     """
 
     mass: np.ndarray
@@ -35,19 +40,19 @@ class Linear:
         Raises
         ------
         numpy.linalg.LinAlgError
-            If it is driven at an undamped resonance.
+            If the system is driven at an undamped resonance.
         """
         return np.abs(self._responses(Omega)[..., :2])
 
     def strokes(self, Omega) -> np.ndarray:
-        """Return the largest |X_i - Y_i| of the steady response, shape (..., 2): strokes of absorbers in their boxes.
+        """Return the largest |X_i - Y_i| of the steady response, shape (..., 2), the strokes of the absorbers.
 
         Raises
         ------
         ValueError
             If there are no absorbers.
         numpy.linalg.LinAlgError
-            If it is driven at an undamped resonance.
+            If the system is driven at an undamped resonance.
         """
         if len(self.force) != 4:
             raise ValueError(f"strokes: needs two boxes with an absorber each, got {len(self.force)} coordinates")
@@ -67,7 +72,7 @@ class Linear:
         Raises
         ------
         ValueError
-            If the band is none.
+            If the band is invalid.
         """
         return self._highest(self.amplitudes, band)
 
@@ -79,7 +84,7 @@ class Linear:
         Raises
         ------
         ValueError
-            If the band is none, or there are no absorbers.
+            If the band is invalid, or if there are no absorbers.
         """
         return self._highest(self.strokes, band)
 
@@ -114,12 +119,13 @@ class Linear:
 
         The impulse acts on one box of a system at rest.
 
-        Without force energy only falls, so it passes the fraction once. It does not depend on the impulse.
+        The energy decreases monotonically, so that it passes the fraction once. The time does not depend on the
+        impulse.
 
         Raises
         ------
         ValueError
-            If module is not 1 or 2, or the fraction not between 0 and 1.
+            If module is not 1 or 2, or if fraction is not between 0 and 1.
         """
         i, n = whole("module", module, 1, 2) - 1, len(self.force)
         left = np.linalg.solve(self.mass, np.eye(n)[i])
@@ -141,7 +147,7 @@ class Linear:
 
 
 def _height(measure, low, high):
-    """Return the largest value between two frequencies with one hump between them."""
+    """Return the largest value between two frequencies with one local maximum between them."""
     best = minimize_scalar(
         lambda Omega: -measure(Omega).max(), bounds=(low, high), method="bounded", options={"xatol": 1e-10}
     )
@@ -149,16 +155,16 @@ def _height(measure, low, high):
 
 
 def checked_band(band) -> tuple[float, float]:
-    """Return two frequencies, the first above 0 and the second above it.
+    """Return two frequencies, 0 < first < second.
 
     Raises
     ------
     ValueError
-        If they are not.
+        If the band is invalid.
     """
     low, high = pair("band", band)
     if not 0 < low < high:
-        raise ValueError(f"band: ({low}, {high}) is no band of frequencies; needs 0 < low < high")
+        raise ValueError(f"band: needs 0 < low < high, got ({low}, {high})")
     return low, high
 
 
@@ -168,7 +174,7 @@ def checked_fraction(fraction) -> float:
     Raises
     ------
     ValueError
-        If it is none.
+        If the fraction is invalid.
     """
     fraction = real("fraction", fraction)
     if not 0 < fraction < 1:

@@ -1,4 +1,4 @@
-"""Linear systems for comparison: no balls, balls fixed to their boxes, linear absorbers of their mass."""
+"""Linear systems for comparison: without balls, with fixed balls, with linear absorbers of their mass."""
 
 from dataclasses import dataclass
 
@@ -12,10 +12,18 @@ from vibroimpact.system.matrices import damping_matrix, masses, stiffness_matrix
 
 @dataclass(frozen=True)
 class Tuning:
-    """Linear absorbers, one on each box, each of the mass epsilon of a ball.
+    """Linear absorbers, one on each box, each with the mass epsilon of a ball.
 
-    frequency: (2,), natural frequency of an absorber on a box at rest, sqrt(stiffness / epsilon), dimensionless.
-    damping: (2,), its damping ratio, damping / (2 epsilon frequency).
+    Parameters
+    ----------
+    frequency : tuple of float
+        Natural frequency of each absorber on a box at rest, sqrt(stiffness / epsilon), dimensionless, (2,).
+    damping : tuple of float
+        Damping ratio of each absorber, damping / (2 epsilon frequency), (2,).
+
+    Examples
+    --------
+    >>> tuning = vi.Tuning(frequency=(1.0, 1.0), damping=(0.1, 0.1))
     """
 
     frequency: tuple[float, float]
@@ -23,23 +31,42 @@ class Tuning:
 
 
 def without_balls(system) -> Linear:
-    """Return the boxes alone, of mass 1."""
+    """Return the boxes without balls, of mass 1."""
     return Linear(np.diag(masses(system)), damping_matrix(system), stiffness_matrix(system), system.forcing)
 
 
 def fixed_balls(system) -> Linear:
-    """Return the boxes with their balls fixed in them, of mass 1 + epsilon."""
+    """Return the boxes with fixed balls, of mass 1 + epsilon."""
     stuck = np.diag(masses(system, (True, True)))
     return Linear(stuck, damping_matrix(system), stiffness_matrix(system), system.forcing)
 
 
 def tuned(system, tuning: Tuning) -> Linear:
-    """Return the boxes, each with a linear absorber in place of its ball; coordinates (X1, X2, Y1, Y2).
+    """Return the boxes with linear absorbers in place of the balls.
+
+    The coordinates are (X1, X2, Y1, Y2).
+
+    Parameters
+    ----------
+    system : System
+        Dimensionless parameters.
+    tuning : Tuning
+        Frequencies and damping ratios of the absorbers.
+
+    Returns
+    -------
+    Linear
+        Linear system with .peak(band), .stroke(band), .amplitudes(Omega) and .decay_time().
 
     Raises
     ------
     ValueError
-        If a frequency is not above 0 or a damping ratio below 0.
+        If a frequency is not above 0 or a damping ratio is below 0.
+
+    Examples
+    --------
+    >>> linear = vi.tuned(system, vi.textbook_tuning(system))
+    >>> linear.peak((0.9, 1.1))  # doctest: +SKIP
     """
     frequency, damping = _pair("frequency", tuning.frequency), _pair("damping", tuning.damping)
     if not (frequency > 0).all() or not (damping >= 0).all():

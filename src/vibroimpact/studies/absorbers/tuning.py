@@ -1,4 +1,4 @@
-"""Tuning of the linear absorbers: by the textbook, and by optimisation."""
+"""Tune linear absorbers by the textbook rule and by optimisation."""
 
 import numpy as np
 from scipy.optimize import minimize
@@ -7,10 +7,10 @@ from vibroimpact.studies.absorbers.linear import POINTS, Linear, checked_band
 from vibroimpact.studies.absorbers.references import Tuning, fixed_balls, tuned, without_balls
 
 STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
-"""Starts of the search for the best tuning, as multiples of the textbook's frequencies."""
+"""Starting points of the optimisation, as multiples of the textbook frequencies."""
 FARTHEST = 100.0
-"""The best tuning is looked for within so many times the textbook's, either way. In a narrow band, or one without a
-resonance, the least peak is that of an absorber with as little damping, or stiffness, as may be."""
+"""Bounds of the optimisation: factor of the textbook tuning, up and down. In a narrow band, or without a resonance in
+it, the optimum has the least damping or stiffness allowed."""
 
 
 def den_hartog(system) -> Tuning:
@@ -20,7 +20,7 @@ def den_hartog(system) -> Tuning:
     (1946).
 
     It makes both fixed points of the response of a single undamped box equally high, sqrt(1 + 2 / epsilon) of its
-    static deflection, and nearly its peaks. Each box is taken as if it were alone: where boxes are damped or coupled
+    static deflection, and makes its peaks almost as low. Each box is treated separately: for damped or coupled boxes
     the rule is approximate.
 
     The textbook prints the damping as c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the natural
@@ -34,21 +34,21 @@ def den_hartog(system) -> Tuning:
 
 
 def best(system, band: tuple[float, float]) -> Tuning:
-    """Return the tuning with the lowest peak (`Linear.peak`) over a band of frequencies, the forces kept.
+    """Return the tuning with the lowest peak (`Linear.peak`) over a band of frequencies, with the same forces.
 
-    The peak is a largest value, which has kinks: a bound on all values in the band is minimised instead, by sequential
-    quadratic programming from three starts. It is a local optimum from each, the best of which is returned.
+    Since the peak is a maximum with kinks, a bound on all values in the band is minimised instead, by sequential
+    quadratic programming from three starting points. The best of the three local optima is returned.
 
     Raises
     ------
     ValueError
-        If the band is none, or no force acts.
+        If the band is invalid, or if no force acts.
     ArithmeticError
-        If no start led to an optimum.
+        If no starting point leads to an optimum.
     """
     frequencies = np.linspace(*checked_band(band), POINTS)
     if not system.forcing.any():
-        raise ValueError("system: no force acts on it, so that there is no response to reduce")
+        raise ValueError("system: no force acts, so there is no response to reduce")
     book = den_hartog(system)
     textbook = np.log([*book.frequency, *book.damping])
     found = []
@@ -67,7 +67,7 @@ def best(system, band: tuple[float, float]) -> Tuning:
         if result.success:
             found.append(_tuning(result.x[:4]))
     if not found:
-        raise ArithmeticError(f"no best tuning was found in the band ({frequencies[0]}, {frequencies[-1]})")
+        raise ArithmeticError(f"the optimisation failed in the band ({frequencies[0]}, {frequencies[-1]})")
     return min(found, key=lambda tuning: tuned(system, tuning).peak(band))
 
 

@@ -9,7 +9,7 @@ from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.studies.claims.finding import Finding
 from vibroimpact.studies.regimes.classification import IDLE, STRONGLY_MODULATED
-from vibroimpact.studies.regimes.epsilon_limit import compare
+from vibroimpact.studies.regimes.epsilon_limit import distance_to_orbit
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import stays_within_walls
@@ -255,6 +255,8 @@ def _points_beside_orbits(system, kappa, force):
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)
     roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))
-    ratios = [np.divide(*(compare(system.with_(epsilon=e), point).distance for e in SMALL)) for point in points]
+    ratios = [
+        np.divide(*(distance_to_orbit(system.with_(epsilon=e), point).distance for e in SMALL)) for point in points
+    ]
     motions = int((roots[:, 2:] > 0).all(axis=1).sum())
     return points, motions == len(points) and np.allclose(ratios, SMALL[0] / SMALL[1], rtol=0.05)

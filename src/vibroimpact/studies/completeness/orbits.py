@@ -30,7 +30,7 @@ from vibroimpact.system.extras import need
 
 need("reference", "flint")
 
-from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the word on what is missing)
+from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the dependency check)
 
 _NARROWEST = 2.0**-24  # of the half period; float64's 53 bits in arb leave room below that
 _FIRST = 8

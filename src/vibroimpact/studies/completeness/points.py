@@ -3,10 +3,10 @@
 The conditions |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on each pair of charts, over the whole square |x_i| <= 1:
 every real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). The square is quartered until in each box a
 condition excludes 0 or a contraction settles how many zeros there are: none, or exactly one in the box of twice the
-width (Krawczyk's test; Neumaier 1990). The functions of a chart are formed anew from the parameters, in intervals, and
-expanded to second order about the centre of a box, the second order enclosed over its reach. Where Delta excludes 0 the
-phases follow uniquely. What stays open at the smallest width is reported. A module that takes no part has the condition
-x_i = 0 in place of its own, and q_i = 1.
+width (Krawczyk's test; Neumaier 1990). The functions of a chart are computed again from the parameters, in intervals,
+and expanded to second order about the centre of a box, the second order enclosed over its reach. Where Delta excludes 0
+the phases follow uniquely. What stays open at the smallest width is reported. A module that takes no part has the
+condition x_i = 0 in place of its own, and q_i = 1.
 """
 
 import functools
@@ -24,13 +24,13 @@ from vibroimpact.theory.fixed_points.symmetric_points import search
 
 need("reference", "flint")
 
-from flint import acb, arb, arb_series, ctx  # noqa: E402 (after the word on what is missing)
+from flint import acb, arb, arb_series, ctx  # noqa: E402 (after the dependency check)
 
 SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
 _BITS = 128
 _REACH = 2  # a box is tested at this many times its width, so that zeros on an edge are settled
 _NARROWEST = 2.0**-24
-_KNOWN = 2.0**-20  # half-width at which a zero is known well enough to be told from the others
+_ISOLATED_WIDTH = 2.0**-20  # half-width at which a zero is distinguished from the others
 _MOST = 20_000  # boxes to look at in a pair of charts: the rest is reported as undecided
 _TERMS = 30
 _TAIL = arb(0, 2.0**-150)  # for |v^2| <= 2: the terms left out, and their derivatives, are below 5^30 100^2 / 60!
@@ -179,9 +179,9 @@ def _narrowed(conditions, x, y, half):
 
     The result is None where the box cannot be narrowed.
     """
-    while half > _KNOWN:
+    while half > _ISOLATED_WIDTH:
         _, (x, y, half) = conditions.count(x, y, half)
-        half = max(half, _KNOWN)
+        half = max(half, _ISOLATED_WIDTH)
         if conditions.count(x, y, half)[0] != 1:
             return None
     return (x, y, half) if conditions.phases_follow(x, y, half) else None

@@ -249,7 +249,7 @@ def _row(system, case, name, point, label, way, fit_below):
     epsilon = np.array([station.system.epsilon for station in way])
     small = epsilon < fit_below
     fitted = order(epsilon[small], distance[small]) if np.count_nonzero(small) > 1 else (np.nan, np.nan)
-    last = asymmetric_limit.compare(way[-1], point)
+    last = asymmetric_limit.distance_to_limit(way[-1], point)
     slow_error = np.abs(last.rates - last.predicted).max()
     fast_error = np.abs(last.multipliers - last.predicted_multipliers)[len(last.predicted) :].max()
     onset = asymmetric_limit.onset(way) if not point.real else 0.0

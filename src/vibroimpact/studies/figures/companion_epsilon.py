@@ -9,7 +9,7 @@ from matplotlib.patches import Polygon
 
 from vibroimpact.accuracy.second_term import NoOrbit, first_order
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
-from vibroimpact.studies.regimes.epsilon_limit import compare, order
+from vibroimpact.studies.regimes.epsilon_limit import distance_to_orbit, order
 from vibroimpact.tables import curve, join
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
 
@@ -120,7 +120,7 @@ def _compared(system, point, epsilon):
     """Yield the comparisons at every epsilon at which there is an orbit."""
     for value in epsilon:
         with suppress(NoOrbit):
-            yield compare(system.with_(epsilon=value), point)
+            yield distance_to_orbit(system.with_(epsilon=value), point)
 
 
 def _errors(found):

@@ -1,4 +1,4 @@
-"""Attractors and their basins on a line or a plane of starts, in one call."""
+"""Find attractors and their basins on a line or a plane of initial states."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -14,18 +14,24 @@ from vibroimpact.system.arguments import instance, reals
 from vibroimpact.system.state import NAMES, states_array
 
 _PLACES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
-"""Coordinates of starts, and their places in the state; W_i = X_i - Y_i moves ball i."""
+"""Coordinates of initial states, and their indices in the state; W_i = X_i - Y_i moves ball i."""
 
 
 @dataclass(frozen=True, eq=False)
 class Basins:
-    """Attractors that starts end in, and the label of each start.
+    """Attractors, and the label of the attractor of each initial state.
 
-    labels: integers in the shape of the starts, from 1, in the order in which attractors are met; -1 where a start has
-        not settled (as in Attractors.jl).
-    attractors: Attractor by label: .regime, .cycles, .states (k, 8), its stroboscopic section.
-    shares: part of the starts by label, in all 1.
-    axes: values of the coordinates that were moved, by name; none if the starts were listed.
+    Attributes
+    ----------
+    labels : ndarray
+        Integers in the shape of the initial states, from 1 in the order in which attractors are met; -1 for a state
+        that has not settled (as in Attractors.jl).
+    attractors : dict of int to Attractor
+        Attractor by label: .regime, .cycles, .states (k, 8), its stroboscopic section.
+    shares : dict of int to float
+        Fraction of the initial states by label; the sum is 1.
+    axes : dict of str to ndarray
+        Values of the varied coordinates by name; empty if the states were listed.
     """
 
     labels: np.ndarray
@@ -34,7 +40,18 @@ class Basins:
     axes: dict[str, np.ndarray]
 
     def rows(self, number: int = 0) -> list[dict]:
-        """Return a row per start: its moved coordinates, or its number, its label and the regime."""
+        """Return a row per initial state: its varied coordinates, or its number, its label and the regime.
+
+        Parameters
+        ----------
+        number : int, default 0
+            Ignored; `to_frame` passes the position in a list.
+
+        Returns
+        -------
+        list of dict
+            One row per initial state.
+        """
         grid = np.meshgrid(*self.axes.values(), indexing="ij") if self.axes else [np.arange(len(self.labels))]
         columns = dict(zip(self.axes or ["start"], (values.ravel().tolist() for values in grid), strict=True))
         labels = self.labels.ravel().tolist()
@@ -44,24 +61,25 @@ class Basins:
 
 
 def attractors(system: System, states, observation: Observation | None = None, progress: bool = True) -> Basins:
-    """Return the attractors that starts end in, with a label and the share of each.
-
-    >>> from vibroimpact import starts
-    >>> found = attractors(system, starts(6, seed=1))
-    >>> [found.attractors[label].regime for label in found.shares]
-    ['asymmetric', 'asymmetric']
+    """Return the attractors of a list of initial states, with labels and shares.
 
     Parameters
     ----------
-    states
-        (n, 8) starts at tau = 0. What they have for a module that takes no part (`PhysicalSystem.single`) does not
-        count: it is put at rest.
+    system : System
+        Dimensionless parameters.
+    states : array_like
+        Initial states at tau = 0, shape (n, 8). A module that takes no part (`PhysicalSystem.single`) is put at rest.
     observation : Observation, optional
-        How long each start is looked at, see `Observation`: up to `rounds` times `cycles` forcing periods, until it
-        repeats. At equal forces 400 cycles leave most starts changing, 2000 none; a ball at rest may never meet a wall
+        Length of the runs, see `Observation`: up to `rounds` times `cycles` forcing periods, until a motion repeats. At
+        equal forces most motions still change after 400 cycles, none after 2000. A ball at rest may never meet a wall
         (docs/howto.md).
     progress : bool, default True
-        Count the starts on standard error, if that is a terminal.
+        Count the initial states on standard error, if it is a terminal.
+
+    Returns
+    -------
+    Basins
+        Labels in the shape (n,), attractors and shares.
 
     Raises
     ------
@@ -69,6 +87,13 @@ def attractors(system: System, states, observation: Observation | None = None, p
         If an argument is malformed.
     ArithmeticError
         If a run could not be finished.
+
+    Examples
+    --------
+    >>> from vibroimpact import starts
+    >>> found = attractors(system, starts(6, seed=1))
+    >>> [found.attractors[label].regime for label in found.shares]
+    ['asymmetric', 'asymmetric']
     """
     states = states_array("states", states)
     if states.ndim != 2 or states.shape[1] != 8 or not len(states):
@@ -83,35 +108,41 @@ def basins(
     observation: Observation | None = None,
     progress: bool = True,
 ) -> Basins:
-    """Return the basins of attraction on a plane (or line) of starts: labels, attractors and shares as Attractors.jl
-    has them.
+    """Return the basins of attraction on a line or plane of initial states.
 
-    >>> W = np.linspace(-0.8, 0.8, 3)
-    >>> found = basins(system, {"W1": W, "W2": W})
-    >>> found.labels.shape, sum(found.shares.values())
-    ((3, 3), 1.0)
+    Labels, attractors and shares are as in Attractors.jl.
 
     Parameters
     ----------
+    system : System
+        Dimensionless parameters.
     axes : mapping
         Values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2, where
         W_i = X_i - Y_i places ball i between its walls, -1 < W_i < 1.
-    state : optional
-        (8,) start at tau = 0, which gives the other coordinates; by default at rest.
+    state : array_like, optional
+        State at tau = 0 with the other coordinates, shape (8,); at rest by default.
     observation, progress
         As for `attractors`.
 
     Returns
     -------
     Basins
-        `Basins`, with labels in the shape of the axes. `to_frame([found])` is a table, a row per start.
+        Labels in the shape of the axes, attractors and shares. `to_frame([found])` returns a table with a row per
+        initial state.
 
     Raises
     ------
     ValueError
-        If an argument is malformed, or a ball would start beyond a wall.
+        If an argument is malformed, or if a ball would start beyond a wall.
     ArithmeticError
         If a run could not be finished.
+
+    Examples
+    --------
+    >>> W = np.linspace(-0.8, 0.8, 3)
+    >>> found = basins(system, {"W1": W, "W2": W})
+    >>> found.labels.shape, sum(found.shares.values())
+    ((3, 3), 1.0)
     """
     if not isinstance(axes, Mapping) or not 1 <= len(axes) <= 2:
         raise ValueError("axes: needs values of one or two coordinates, such as {'W1': [-0.5, 0.5], 'W2': [-0.5, 0.5]}")

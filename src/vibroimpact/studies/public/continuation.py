@@ -1,4 +1,4 @@
-"""Branches of motions over a parameter, and curves of their special points in a plane of two, in one call."""
+"""Continue branches of motions in one parameter, and their special points in two."""
 
 import warnings
 from collections.abc import Callable, Sequence
@@ -24,52 +24,59 @@ FAMILIES = {
 }
 _MOST_SEEDS = 1000
 _STEPS, _CURVE_STEPS = 10, 20
-"""Longest steps over a range, of a branch and of a curve of special points."""
+"""Number of longest steps over a range, for branches and for curves of special points."""
 
 
 def branches(
     system: System, along: str | Sequence[str], between, of: str = "both", seeds: int = 5, progress: bool = True
 ) -> list[Branch]:
-    """Return all branches of 1:1 motions over a parameter, with stability and special points; `to_frame` makes them a
-    table.
+    """Return all branches of 1:1 motions over a parameter, with stability and special points.
 
-    Pseudo-arclength continuation (Keller 1977), through folds and branch points; the branches that leave these, and the
-    asymmetric orbits that leave symmetric ones, are followed too. Each branch is cut at its special points: folds,
-    branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf, grazing. Where it ends inside `between`,
-    the last one says why: speed zero, symmetry breaking, or lost.
-
-    >>> found = branches(system, "f20_hat", between=(0.9, 1.1), of="theory")
-    >>> len(found), found[0].family.name
-    (3, 'fixed point')
+    Pseudo-arclength continuation (Keller 1977) passes folds and branch points. It also follows the branches that
+    emanate from branch points, and asymmetric orbits that emanate from symmetric ones. Each branch is divided at its
+    special points: folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf, grazing. If a branch
+    ends inside `between`, the last special point gives the reason: speed zero, symmetry breaking, or lost.
 
     Parameters
     ----------
     system : System
-        Gives the other parameters.
+        The other parameters.
     along : str or sequence of str
-        The parameter of System, or several that move together.
-    between
-        First and last value. A branch that passes none of the `seeds` values there and leaves no other one is missed.
+        A parameter of System, or several that vary together.
+    between : tuple of float
+        First and last value of the parameter.
     of : str, default 'both'
         "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
+    seeds : int, default 5
+        Number of values in `between` at which to search for motions. Branches that pass none of these values and
+        emanate from no other branch are missed.
     progress : bool, default True
-        Tell family and parameter on standard error, if that is a terminal; "exact" takes some ten seconds.
+        Report family and parameter on standard error, if it is a terminal; "exact" takes about ten seconds.
 
     Returns
     -------
     list of Branch
-        Each branch has .family, .nodes in their order, of which the first and last may lie one step beyond `between`,
-        .special, the special ones, and .closed, True if it returns to its first node, which is then its last one too. A
-        node has .p, the parameter, .amplitudes C_1, C_2, .kind (what is special, or ""), .stable and .admissible. The
-        table has a row per node of each piece between special points; these belong to both pieces.
+        Each branch has .family; .nodes in order, of which the first and last may lie one step beyond `between`;
+        .special, the special ones; and .closed, True if it returns to its first node, which is then its last one too. A
+        node has .p, the parameter, .amplitudes C_1, C_2, .kind (the type of special point, or ""), .stable and
+        .admissible. `to_frame` returns a row per node of each piece between special points; these belong to both
+        pieces.
 
     Raises
     ------
     ValueError
-        If an argument is malformed, or there is no system at an end.
+        If an argument is malformed, or if an end of the range does not give a valid system.
 
-    Warns:
-        UserWarning: motions cannot be sought at a seed, where undamped boxes are in resonance, say.
+    Warns
+    -----
+    UserWarning
+        If motions cannot be computed at a seed, for example because undamped boxes are in resonance.
+
+    Examples
+    --------
+    >>> found = branches(system, "f20_hat", between=(0.9, 1.1), of="theory")
+    >>> len(found), found[0].family.name
+    (3, 'fixed point')
     """
     names = (along,) if isinstance(along, str) else tuple(along)
     path = Path(_with(system, names), names)
@@ -91,40 +98,43 @@ def branches(
 def bifurcation_curves(
     system: System, along: tuple[str, str], between, of: str = "theory", seeds: int = 3, progress: bool = True
 ) -> list[BifurcationCurve]:
-    """Return the curves of folds and of symmetry breaking in the plane of two parameters; `to_frame` makes them a
-    table.
+    """Return the curves of folds and of symmetry breaking in the plane of two parameters.
 
-    They bound where a motion exists and where it is symmetric. Special points are found on branches along the first
-    parameter at some values of the second, then followed through the plane.
-
-    >>> found = bifurcation_curves(system, ("f10_hat", "f20_hat"), between=[(0.8, 1.2), (0.6, 1.1)])
-    >>> sorted({curve.kind for curve in found})[0]
-    'fold'
+    The curves bound the regions in which a motion exists and in which it is symmetric. Special points are found on
+    branches along the first parameter at several values of the second, then followed through the plane.
 
     Parameters
     ----------
     system : System
-        Gives the other parameters.
-    along : tuple[str, str]
+        The other parameters.
+    along : tuple of str
         Two parameters of System.
-    between
+    between : tuple of tuple of float
         First and last value of each, ((low, high), (low, high)).
     of : str, default 'theory'
         "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
     seeds : int, default 3
-        Values of the second parameter, evenly spaced inside its range; a curve that passes none is missed.
+        Number of values of the second parameter, evenly spaced inside its range; a curve that passes none of them is
+        missed.
     progress : bool, default True
-        Tell what is followed on standard error, if that is a terminal; "exact" takes minutes.
+        Report the current family and parameters on standard error, if it is a terminal; "exact" takes minutes.
 
     Returns
     -------
     list of BifurcationCurve
         Each curve has .family, .kind, .points (n, 2), the values of both parameters, and .amplitudes (n, 2), C_1, C_2.
+        `to_frame` returns a table.
 
     Raises
     ------
     ValueError
-        If an argument is malformed, or there is no system at a corner.
+        If an argument is malformed, or if a corner does not give a valid system.
+
+    Examples
+    --------
+    >>> found = bifurcation_curves(system, ("f10_hat", "f20_hat"), between=[(0.8, 1.2), (0.6, 1.1)])
+    >>> sorted({curve.kind for curve in found})[0]
+    'fold'
     """
     names = (along,) if isinstance(along, str) else tuple(along)
     if len(names) != 2 or len(set(names)) != 2:
@@ -165,12 +175,12 @@ def bifurcation_curves(
 
 
 def with_parameters(known, names) -> tuple[str, ...]:
-    """Return the names, if these are among the known parameters of System.
+    """Return the names if they are parameters of System.
 
     Raises
     ------
     ValueError
-        If one of them is not.
+        If a name is not a parameter.
     """
     for name in names:
         if name not in known:
@@ -179,7 +189,7 @@ def with_parameters(known, names) -> tuple[str, ...]:
 
 
 def _with(system, names) -> System:
-    """Return the system, if it has parameters of these names."""
+    """Return the system if it has parameters of these names."""
     with_parameters(asdict(instance("system", system, System)), names)
     return system
 
@@ -198,7 +208,7 @@ def _families(of):
 
 
 def _report(words, progress) -> Callable:
-    """Return a function that reports parameters after some words."""
+    """Return a function that reports values of parameters after the words given."""
     return lambda *values: (
         wants_progress(progress) and write_line(f"{words} {', '.join(f'{value:.4g}' for value in values)}")
     )

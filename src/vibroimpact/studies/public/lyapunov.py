@@ -1,4 +1,4 @@
-"""Lyapunov exponents from any start, in one call."""
+"""Compute Lyapunov exponents from any initial state."""
 
 from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.exact.engine.simulation import checked_state
@@ -11,35 +11,48 @@ _MOST = 10_000_000
 
 
 def largest_lyapunov(system: System, state, cycles: int = 2000, settle: int = 1000, blocks: int = 20) -> Exponent:
-    """Return the largest Lyapunov exponent of the motion that a start ends in: its mean and error, in nats per period.
+    """Return the largest Lyapunov exponent of the motion reached from an initial state, in nats per period.
 
-    Above 0 by more than some three errors: chaos. On a periodic motion it is the log of the modulus of the largest
-    Floquet multiplier, over the period. From the exact Jacobian through impacts, chatter and sticking (Benettin et al.
-    1980; saltation: Mueller 1995), of the modules that take part. The error includes what growth in proportion to
-    time would show, as that of a ball at rest.
-
-    >>> exponent = largest_lyapunov(system.with_(f10_hat=0.5, f20_hat=0.5), [0, 0, 0, 0, 0, 0.5, 0, -0.5])
-    >>> bool(exponent.mean > 3 * exponent.error)
-    True
+    An exponent above about three errors indicates chaos. For a periodic motion it is the logarithm of the modulus of
+    the largest Floquet multiplier, over the period. It is computed from the exact Jacobian through impacts, chatter and
+    sticking, for the modules that take part.
 
     Parameters
     ----------
-    state
-        (8,) start at tau = 0; from rest a ball may stay idle for good.
+    system : System
+        Dimensionless parameters.
+    state : array_like
+        Initial state at tau = 0, shape (8,); from rest a ball may stay idle forever.
     cycles : int, default 2000
-        Forcing periods that are averaged over, a multiple of `blocks`.
+        Forcing periods to average over, a multiple of `blocks`.
     settle : int, default 1000
-        Those before them. Raise `settle` where a motion settles slowly; the start decides where several motions attract
-        (`basins`).
+        Forcing periods of the transient. Increase it for slow transients. With several attractors the initial state
+        decides (`basins`).
     blocks : int, default 20
-        Parts of `cycles`, at least 2, whose scatter gives the error.
+        Number of blocks of `cycles`, at least 2, whose scatter gives the error.
+
+    Returns
+    -------
+    Exponent
+        .mean and .error. The error includes the apparent rate of a perturbation that grows linearly in time, as for a
+        ball at rest.
 
     Raises
     ------
     ValueError
         If an argument is malformed.
     ArithmeticError
-        If the run could not be finished, or the motion forgets every perturbation.
+        If the run could not be finished, or if every perturbation vanishes.
+
+    References
+    ----------
+    Benettin et al. 1980; Mueller 1995 (saltation matrices).
+
+    Examples
+    --------
+    >>> exponent = largest_lyapunov(system.with_(f10_hat=0.5, f20_hat=0.5), [0, 0, 0, 0, 0, 0.5, 0, -0.5])
+    >>> bool(exponent.mean > 3 * exponent.error)
+    True
     """
     blocks = whole("blocks", blocks, 2, _MOST)
     cycles = whole("cycles", cycles, blocks, _MOST)
@@ -49,21 +62,24 @@ def largest_lyapunov(system: System, state, cycles: int = 2000, settle: int = 10
 
 
 def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000) -> Spectrum:
-    """Return all Lyapunov exponents of the motion that a start ends in, largest first, in nats per forcing period.
+    """Return all Lyapunov exponents of the motion reached from an initial state, in nats per period.
 
-    `.exponents` (8,), or (4,) if one module takes part (`PhysicalSystem.single`), `.errors(block)`, `.dimension`
-    (Kaplan-Yorke), `.without_double_sticks()`: a ball that sticks loses two directions for good, whose exponents are
-    -inf. They are those of the map from one period to the next; the time itself, exponent 0, is not among them. A
-    perturbation that grows with time t, as that of a ball at rest, shows ln(t) / t, which no error covers.
-
-    >>> spectrum = lyapunov_spectrum(system, [0.0] * 8, cycles=200, settle=600)
-    >>> bool(spectrum.exponents[0] < 0)  # a periodic motion attracts
-    True
+    They are the exponents of the map from one forcing period to the next; the exponent 0 of the time itself is not
+    included. A ball that sticks loses two directions, whose exponents are -inf. A perturbation that grows linearly in
+    time t, as for a ball at rest, has the apparent exponent ln(t) / t, which no error covers.
 
     Parameters
     ----------
+    system : System
+        Dimensionless parameters.
     state, cycles, settle
         As for `largest_lyapunov`.
+
+    Returns
+    -------
+    Spectrum
+        .exponents, largest first, shape (8,), or (4,) if one module takes part (`PhysicalSystem.single`);
+        .errors(block); .dimension (Kaplan-Yorke); .without_double_sticks().
 
     Raises
     ------
@@ -71,6 +87,12 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
         If an argument is malformed.
     ArithmeticError
         If the run could not be finished.
+
+    Examples
+    --------
+    >>> spectrum = lyapunov_spectrum(system, [0.0] * 8, cycles=200, settle=600)
+    >>> bool(spectrum.exponents[0] < 0)  # a periodic motion attracts
+    True
     """
     cycles = whole("cycles", cycles, 1, _MOST)
     return lyapunov.spectrum(system, _settled(system, state, settle), cycles)

@@ -1,4 +1,4 @@
-"""Stroboscopic sections of many runs at once."""
+"""Compute stroboscopic sections of many runs."""
 
 import numpy as np
 
@@ -8,43 +8,44 @@ from vibroimpact.system.arguments import whole
 from vibroimpact.system.progress import track
 from vibroimpact.system.state import takes_part
 
-_STEP = 100  # cycles of the transient between two lines of progress
+_STEP = 100  # cycles of the transient per line of progress
 
 
 def sections(systems, states, cycles: int, settle: int = 0, progress: bool = True) -> np.ndarray:
-    """Return the stroboscopic Poincare sections of many runs: their states at the end of every forcing cycle once
-    settled.
+    """Return stroboscopic Poincare sections of many runs: states at the end of every cycle once settled.
 
-    Over a list of systems in which one parameter moves this is a bifurcation diagram:
+    For a list of systems with one varied parameter, the result is a bifurcation diagram.
 
+    Parameters
+    ----------
+    systems, states : System or array_like, array_like
+        Combined as by `ensemble`: one System or an array of them, and initial states (..., 8) at tau = 0. A module that
+        takes no part (`PhysicalSystem.single`) is put at rest.
+    cycles : int
+        Forcing periods of each run.
+    settle : int, default 0
+        Forcing periods of the transient among them, which are omitted.
+    progress : bool, default True
+        Count the steps (of 100 cycles, then of 1) on standard error, if it is a terminal.
+
+    Returns
+    -------
+    ndarray
+        States (..., cycles - settle, 8), dimensionless, in the broadcast shape; nan once a run has failed (`ensemble`
+        gives the reason).
+
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, or if systems and states do not broadcast.
+
+    Examples
+    --------
     >>> forces = np.linspace(0.90, 0.96, 4)
     >>> found = sections([system.with_(f20_hat=f) for f in forces], [0.0] * 8, cycles=320, settle=300)
     >>> X2 = found[:, :, 2]  # plot this over forces[:, None]
     >>> X2.shape
     (4, 20)
-
-    Parameters
-    ----------
-    systems, states
-        Combined as by `ensemble`: one System or an array of them, and starts (..., 8) at tau = 0. A module that takes
-        no part (`PhysicalSystem.single`) is put at rest.
-    cycles : int
-        Forcing periods of each run.
-    settle : int, default 0
-        Those of them that are left out.
-    progress : bool, default True
-        Count the steps, of 100 cycles and then of 1, on standard error, if that is a terminal.
-
-    Returns
-    -------
-    ndarray
-        States (..., cycles - settle, 8), dimensionless, in the shape of the combination; nan once a run has failed
-        (`ensemble` says why).
-
-    Raises
-    ------
-    ValueError
-        If an argument is malformed, or systems and states cannot be combined.
     """
     cycles = whole("cycles", cycles, 1, MOST_CYCLES)
     settle = whole("settle", settle, 0, cycles - 1)

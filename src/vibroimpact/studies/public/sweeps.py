@@ -1,4 +1,4 @@
-"""Sweeps over one or two parameters in one call."""
+"""Sweep one or two parameters."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
@@ -31,44 +31,54 @@ def sweep(
     observation: Observation | None = None,
     progress: bool = True,
 ) -> list[dict]:
-    """Return a row per point of a grid: the parameters that move and the observations; `to_frame` makes a table of
-    them.
+    """Return observations at all points of a grid of one or two parameters.
 
-    A point where something cannot be computed has the reason under "failed", and does not cost the others.
-
-    >>> rows = sweep(system, {"f20_hat": [0.6, 1.0]}, ["fixed_points"])
-    >>> [row["fixed_points"] for row in rows]
-    [1, 3]
+    If an observation fails at a point, the row has the reason under "failed"; other rows are not affected.
 
     Parameters
     ----------
     system : System
-        Gives the other parameters.
+        The other parameters.
     axes : mapping
-        The values of one or two parameters, by name.
+        Values of one or two parameters, by name.
     observe : sequence of str
         Any of "amplitudes" (largest |X_i|, root mean square, mean ball speeds), "envelopes" (amplitude per cycle, 5 %
-        and 95 %), "energy" (share of the work that impacts take), "peaks" (what one cycle in a hundred exceeds along a
-        band), "regimes" (share of the starts that end in each; where rest ends), all of which simulate from every
-        start; "fixed_points" (their number, and that of those called stable by the theory) and "orbits" (number of
-        exact 1:1 orbits, and of stable ones).
-    starts, seed
-        Number of starts, spread evenly, the first at rest; what scrambles them. From rest a ball may stay idle that
-        moves from any other start.
-    cycles, settle
-        Forcing periods of each run, and those of them that are left out; not of "regimes", which have those of
-        `observation`. At equal forces 400 leave most starts changing, 2000 none (docs/howto.md).
+        and 95 % quantiles), "energy" (share of the impacts in the work of the forces), "peaks" (amplitude exceeded by
+        one cycle in a hundred along a band), "regimes" (share of the initial states that end in each, and the regime
+        reached from rest), which simulate all initial states; "fixed_points" (their number, and the number of stable
+        ones by the theory) and "orbits" (number of exact 1:1 orbits, and of stable ones).
+    starts : int, default 5
+        Number of initial states, evenly spread, the first at rest. From rest a ball may stay idle that moves from any
+        other initial state.
+    seed : int, default 0
+        Seed of the scrambling of the initial states.
+    cycles : int, default 1000
+        Forcing periods of each run; "regimes" uses those of `observation`.
+    settle : int, default 800
+        Forcing periods of the transient among them. At equal forces most motions still change after 400, none after
+        2000 (docs/howto.md).
     band : mapping, optional
-        Of "peaks": the values of the parameter along which the highest peak is sought, by name.
+        For "peaks": values, by name, of the parameter along which the highest peak is searched.
     observation : Observation, optional
-        Of "regimes": how long a start is looked at.
+        For "regimes": length of the runs.
     progress : bool, default True
-        Count the points on standard error, if that is a terminal.
+        Count the points on standard error, if it is a terminal.
+
+    Returns
+    -------
+    list of dict
+        One row per point with the varied parameters and the observations; `to_frame` returns a table.
 
     Raises
     ------
     ValueError
-        If an argument is malformed or missing, or there is no system at a point.
+        If an argument is malformed or missing, or if a point does not give a valid system.
+
+    Examples
+    --------
+    >>> rows = sweep(system, {"f20_hat": [0.6, 1.0]}, ["fixed_points"])
+    >>> [row["fixed_points"] for row in rows]
+    [1, 3]
     """
     known = asdict(instance("system", system, System))
     grid = Grid(system, _axes("axes", axes, known))
@@ -90,7 +100,7 @@ def sweep(
         band=_band(band, known, axes) if PEAKS in observe or band is not None else None,
         observation=asdict(instance("observation", observation or Observation(), Observation)),
     )
-    for number in range(len(grid)):  # every point has a system, or none is computed
+    for number in range(len(grid)):  # raise before any computation if a point has no valid system
         grid.system(number)
     return list(rows(grid, spec, track(range(len(grid)), "sweep: point", progress)))
 
@@ -110,10 +120,10 @@ def _axes(name, given, known) -> list[Axis]:
 def _band(given, known, axes) -> dict:
     """Return the arguments of `grid.axis` for the band of peaks."""
     if given is None:
-        raise ValueError("band: missing; 'peaks' are sought along it, such as band={'sigma_e_hat': [-1.0, 0.0, 1.0]}")
+        raise ValueError("band: missing; 'peaks' requires a band, such as band={'sigma_e_hat': [-1.0, 0.0, 1.0]}")
     found = _axes("band", given, known)
     if len(found) != 1:
         raise ValueError(f"band: {len(found)} parameters; needs one")
     if found[0].along[0] in axes:
-        raise ValueError(f"band: {found[0].along[0]} moves along the axes already")
+        raise ValueError(f"band: {found[0].along[0]} varies along the axes already")
     return {"along": found[0].along, "listed": found[0].values}

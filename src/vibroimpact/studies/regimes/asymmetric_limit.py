@@ -98,7 +98,7 @@ def onset(stations) -> float:
     return max(0.0, float(epsilon @ weights))
 
 
-def compare(station, point) -> Comparison:
+def distance_to_limit(station, point) -> Comparison:
     """Return the places and multipliers of an orbit against those of a fixed point."""
     system = station.system
     exact = asymmetric_orbit(system, station.root).multipliers

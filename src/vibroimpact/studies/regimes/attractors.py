@@ -1,4 +1,4 @@
-"""Tell the attractors apart that several starts end in."""
+"""Distinguish the attractors that several initial states end in."""
 
 from dataclasses import dataclass
 
@@ -8,17 +8,24 @@ from vibroimpact.studies.regimes.classification import UNSETTLED, Regime
 from vibroimpact.system.state import takes_part
 
 OPEN = -1
-"""Label of a start that has not settled, as in Attractors.jl."""
+"""Label of an initial state that has not settled, as in Attractors.jl."""
 _SAME, _SAME_IDLE = 1e-6, 1e-4
-"""Largest difference of displacements of one motion: known to rounding; with a ball at rest only to its decay."""
+"""Largest difference of displacements of equal motions; the second if a ball is at rest, where decay limits
+accuracy."""
 
 
 @dataclass(frozen=True, eq=False)
 class Attractor:
-    """A motion that starts end in.
+    """An attractor.
 
-    regime: its name, one of `regimes.classification.REGIMES`. cycles: forcing periods after which it repeats, or None.
-    states: (k, 8), its stroboscopic section: all `cycles` points, or, where it does not repeat, those of a window.
+    Attributes
+    ----------
+    regime : str
+        One of `vibroimpact.studies.regimes.classification.REGIMES`.
+    cycles : int or None
+        Forcing periods after which it repeats, or None.
+    states : ndarray
+        Stroboscopic section, shape (k, 8): all `cycles` points or, if it does not repeat, those of a window.
     """
 
     regime: str
@@ -31,9 +38,9 @@ def attractors(regimes: list[Regime]) -> tuple[np.ndarray, list[Attractor]]:
 
     Labels count from 1 in the order in which the attractors are met.
 
-    Periodic motions are one attractor if their displacements agree, at some shift by whole periods; mirror images are
-    two. Motions that do not repeat are told apart by their regime only. A ball at rest may rest anywhere: its place
-    does not count.
+    Periodic motions are the same attractor if their displacements agree after a shift by whole periods; mirror images
+    are two attractors. Motions that do not repeat are distinguished only by their regime. The position of a ball at
+    rest is ignored.
     """
     labels, known = np.full(len(regimes), OPEN), []
     for k, regime in enumerate(regimes):
@@ -59,6 +66,6 @@ def _same(one, other):
 
 
 def _moving(regime):
-    """Return the columns of the displacements of modules that take part, without those of balls at rest."""
+    """Return the displacements of modules that take part, without those of balls at rest."""
     samples, moves = regime.run.samples, takes_part(regime.run.system)
     return np.array([k for k in range(4) if moves[k] and (k in (0, 2) or samples[:, 4 + k].any())])

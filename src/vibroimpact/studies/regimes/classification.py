@@ -191,24 +191,35 @@ def _of_modules(system, places):
 
 
 def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
-    """Return the starts spread evenly over displacements, relative displacements and velocities, and the start from
-    rest.
+    """Return initial states evenly spread over positions and velocities, the first at rest.
 
-    Shape (count, 8): rest first, then scrambled Halton points with |X_i|, |X_i'|, |Y_i'| <= reach, |W_i| < 1.
+    The others are scrambled Halton points with |X_i|, |X_i'|, |Y_i'| <= reach and |W_i| < 1.
 
     Parameters
     ----------
     count : int
-        From 1 on.
+        Number of initial states, at least 1.
     seed : int, default 1
-        What scrambles them.
+        Seed of the scrambling.
+    reach : float, default 1.0
+        Largest displacement and velocity of the boxes, and velocity of the balls, dimensionless.
+
+    Returns
+    -------
+    ndarray
+        Initial states, shape (count, 8).
 
     Raises
     ------
     ValueError
         If an argument is malformed.
+
+    Examples
+    --------
+    >>> vi.starts(6, seed=1).shape
+    (6, 8)
     """
-    from scipy.stats import qmc  # takes a second to load, and few who classify draw starts
+    from scipy.stats import qmc  # takes a second to load, and is rarely needed
 
     count, seed, reach = whole("count", count, 1, _MOST_STARTS), whole("seed", seed, 0, MOST_SEED), real("reach", reach)
     unit = 2 * qmc.Halton(8, rng=seed).random(count - 1) - 1

@@ -1,7 +1,7 @@
-"""The ways in which both balls may lean, from weak to strong coupling, and the power that impacts take.
+"""Patterns of asymmetric flights of both balls, from weak to strong coupling, and the power dissipated by impacts.
 
-A ball leans if its two flights take unequal time; v is the difference of the flight times over the period. Both balls
-may lean the same way or opposite ways, each with a mirror image (docs/derivation.md, section 14).
+The flight asymmetry v of a ball is the difference of its two flight times over the period. The balls may be asymmetric
+in phase (SAME) or in antiphase (OPPOSITE), each with a mirror image (docs/derivation.md, section 14).
 """
 
 from collections.abc import Iterator
@@ -24,9 +24,9 @@ from vibroimpact.studies.regimes.families import (
 SAME, OPPOSITE = "the same way", "opposite ways"
 STRAIGHT = "a ball no longer leans"
 SOUGHT = (1.0, 14.0, 30.0)
-"""Couplings at which stable orbits of each pattern are looked for."""
+"""Couplings at which stable orbits of each pattern are searched."""
 LEANING = 0.05
-"""|v| of both modules from which both lean."""
+"""Smallest |v| of both modules in an asymmetric pattern."""
 STEP, SHARP = 0.1, 3e-5
 """Longest and shortest step in the logarithm of the coupling."""
 _HARMONICS = 2 * np.arange(1, 200)
@@ -35,19 +35,25 @@ _SAME_BRANCH, _AT_THE_END = 0.1, 5e-3
 
 
 def coupled(system, alpha12_hat: float, held: bool = False):
-    """Return the system with another coupling spring, and its damper in proportion or held as it is."""
+    """Return the system with another coupling spring.
+
+    The coupling damper changes in proportion, or stays the same if `held`.
+    """
     scale = 1.0 if held or not system.alpha12_hat else alpha12_hat / system.alpha12_hat
     return system.with_(alpha12_hat=alpha12_hat, gamma12_hat=system.gamma12_hat * scale)
 
 
 def lean(orbit) -> np.ndarray:
-    """Return v_1, v_2 of an orbit, shape (2,): time from wall -1 to +1 less that from +1 to -1, over the period."""
+    """Return the flight asymmetry (v_1, v_2) of an orbit, shape (2,).
+
+    v is the time from wall -1 to +1 minus that from +1 to -1, over the period.
+    """
     plus, minus = orbit.ball_speeds.T
     return (plus - minus) / (plus + minus)
 
 
 def pattern(orbit) -> str | None:
-    """Return SAME or OPPOSITE, or None if a ball does not lean."""
+    """Return SAME or OPPOSITE, or None if a ball has no flight asymmetry."""
     v = lean(orbit)
     return None if not _both_lean(v) else SAME if v.prod() > 0 else OPPOSITE
 
@@ -57,7 +63,7 @@ def _both_lean(v):
 
 
 def patterns(system) -> dict[str, np.ndarray]:
-    """Return the root (6,) of a stable orbit of each pattern, one of two mirror images."""
+    """Return the root (6,) of a stable orbit of each pattern, for one of two mirror images."""
     leaning = [root for root in AsymmetricOrbits.roots(system) if _both_lean(1 - 2 * flight_fractions(system, root))]
     roots = [(root, AsymmetricOrbits.member(system, root)) for root in leaning]
     stable = [(root, one) for root, one in roots if one.admissible and AsymmetricOrbits.stable(system, one)]
@@ -65,12 +71,14 @@ def patterns(system) -> dict[str, np.ndarray]:
 
 
 def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
-    """Yield each pattern found at SOUGHT with the couplings over which it is stable, its damper in proportion.
+    """Yield each pattern found at SOUGHT with the range of couplings in which it is stable.
+
+    The coupling damper changes in proportion.
 
     Parameters
     ----------
     limits
-        Least and largest alpha12_hat.
+        Smallest and largest alpha12_hat.
 
     Yields (pattern, where it was found, [(alpha12_hat, Orbit), ...] ascending, how it ends below and above): a fold,
     Neimark-Sacker, a period doubling, grazing, STRAIGHT; "" at a limit.
@@ -105,7 +113,7 @@ def _followed(system, root, value, name, limit):
 
 
 def _end(orbit):
-    """Return the how a pattern ends, from its last stable orbit."""
+    """Return the way in which a pattern ends, from its last stable orbit."""
     mu = orbit.multipliers[0]
     if np.abs(lean(orbit)).min() < LEANING + _AT_THE_END:
         return STRAIGHT
@@ -117,11 +125,11 @@ def _end(orbit):
 
 
 def splitting(system, root) -> np.ndarray:
-    """Return what tells the patterns apart, to leading order: root (6,) minus that with ball 2 mirrored, aligned.
+    """Return the difference of the patterns to leading order: root (6,) minus the root with ball 2 mirrored.
 
-    Only even harmonics of the coupling do: they change their sign where one of the modules is mirrored. Both roots are
-    taken with the phases of ball 2 where they are after mirroring (`mirrored`). Twice the inverse Jacobian of the exact
-    conditions, times the even harmonics that cross the coupling.
+    Only even harmonics of the coupling contribute, since they change sign if one module is mirrored. Both roots have
+    the phases of ball 2 after mirroring (`mirrored`). The result is twice the inverse Jacobian of the exact conditions
+    times the even harmonics that cross the coupling.
     """
     conditions = AsymmetricConditions(system)
     times, strengths = root[:4].reshape(2, 2), root[4:]
@@ -140,18 +148,18 @@ def splitting(system, root) -> np.ndarray:
 
 
 def mirrored(system, root) -> np.ndarray:
-    """Return a root (6,) with ball 2 mirrored: its walls change roles half a period later."""
+    """Return a root (6,) with ball 2 mirrored: its walls exchange roles half a period later."""
     return root[[0, 1, 3, 2, 4, 5]] + np.array([0, 0, 1, 1, 0, 0]) * system.period / 2
 
 
 def leaning_orbits(system, both: bool = True) -> list:
-    """Return the stable asymmetric orbits of a system; those alone whose balls both lean, or all."""
+    """Return the stable asymmetric orbits of a system, or only those with two asymmetric balls if `both`."""
     found = [one for one in orbits(system) if not one.symmetric and one.admissible and one.stable]
     return [one for one in found if pattern(one) or not both]
 
 
 def shares(leaning, states, cycles: int) -> dict[str, float]:
-    """Return the part of the starts (n, 8) that ends on each pattern among stable orbits after so many cycles."""
+    """Return the fraction of the initial states (n, 8) that end on each pattern after `cycles` forcing cycles."""
     ends = finals(leaning[0].system, states, cycles)
     near = {name: np.zeros(len(ends), bool) for name in (SAME, OPPOSITE)}
     for orbit in leaning:
@@ -160,6 +168,9 @@ def shares(leaning, states, cycles: int) -> dict[str, float]:
 
 
 def impact_power(system, states, cycles: int, settle: int = 0) -> np.ndarray:
-    """Return the mean power that all impacts take, of each start (n, 8), shape (n,), in M L^2 omega_10^3."""
+    """Return the mean power dissipated by all impacts for each initial state (n, 8), shape (n,).
+
+    The unit is M L^2 omega_10^3.
+    """
     runs = ensemble(system, states, cycles, settle=settle, energy=True)
     return runs["energy"]["impacts"].sum(axis=-1) / ((cycles - settle) * system.period)

@@ -37,7 +37,7 @@ class Comparison:
         return float(np.linalg.norm(self.offset))
 
 
-def compare(system, point) -> Comparison:
+def distance_to_orbit(system, point) -> Comparison:
     """Compare a fixed point with the nearest symmetric orbit.
 
     Raises

@@ -1,13 +1,13 @@
-"""Lyapunov exponents of a motion, from the exact Jacobian of the flow through impacts, chatter and sticking.
+"""Compute Lyapunov exponents from the exact Jacobian through impacts, chatter and sticking.
 
-A frame of perturbations is carried along by the Jacobian of every cycle, saltation matrices included (Müller 1995), and
-made orthonormal again, by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990): the logarithms of the diagonal
-of R are the growth of that cycle. The time of a start is no perturbation: a flow in the extended phase space has one
-exponent more, 0, and its attractor one dimension more.
+The Jacobian of every cycle, saltation matrices included (Müller 1995), propagates a frame of perturbations, which is
+orthonormalised by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990). The logarithms of the diagonal of R
+are the growth of that cycle. The initial time is not perturbed: the flow in the extended phase space has one more
+exponent, 0, and its attractor one more dimension.
 
-A ball that sticks loses two directions, both at once lose four. If that happens with a positive frequency, however low,
-almost every point of the attractor has it in its past: four exponents are -inf, and the dimension is at most 4. Runs
-without it see more, `Spectrum.without_double_sticks`.
+A ball that sticks loses two directions; two balls that stick at once lose four. If that happens with a positive
+frequency, almost every point of the attractor has it in its past: four exponents are -inf, and the dimension is at most
+4. `Spectrum.without_double_sticks` excludes such cycles.
 """
 
 from dataclasses import dataclass
@@ -32,9 +32,9 @@ _MOST_RESAMPLES = 1_000_000
 class Exponent(NamedTuple):
     """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
-    error: the root of the sum of two squares, of the standard error from block means and of ln(t1 / t0) / (t1 - t0),
-    the apparent rate between the ends t0 and t1 of the blocks of a perturbation that grows linearly in time. The true
-    exponent of such a perturbation, of a ball at rest for example, is 0.
+    The error is the root of the sum of two squares: of the standard error from block means, and of ln(t1 / t0) / (t1 -
+    t0), the apparent rate between the ends t0 and t1 of the blocks of a perturbation that grows linearly in time. The
+    true exponent of such a perturbation, for example of a ball at rest, is 0.
     """
 
     mean: float
@@ -75,7 +75,7 @@ def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 1
         raise ValueError(f"blocks: {blocks} is below 2, which a standard error needs")
     factors = np.array([grown.factors for grown in _frame_growth(system, state, [cycles] * (discarded + blocks), 1)])
     if not factors.all():
-        raise ArithmeticError("the perturbation vanished, so that it has no growth rate")
+        raise ArithmeticError("the perturbation vanished, so it has no growth rate")
     rates = np.log(factors[discarded:]).mean(axis=(1, 2))
     mean, scatter = rates.mean(), rates.std(ddof=1) / np.sqrt(blocks)
     first, last = max(discarded * cycles, 1), (discarded + blocks) * cycles
@@ -87,12 +87,17 @@ def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 1
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """All Lyapunov exponents of a motion, of the map from one forcing cycle to the next, largest first.
+    """All Lyapunov exponents of the map from one forcing cycle to the next, largest first.
 
-    growth: (n, 8) of the eight directions in each of n cycles, (n, 4) if one module takes part; where a ball sticks,
-        how it came to its wall is forgotten: -inf for two of them, for four where both stick at once.
-    contraction: (n,) of volume in each cycle, in closed form: what the growths add up to.
-    stuck: (n,) most balls that stick at one time in each cycle.
+    Attributes
+    ----------
+    growth : ndarray
+        Growth of the eight directions in each of n cycles, (n, 8), or (n, 4) if one module takes part. A ball that
+        sticks loses the memory of how it came to its wall: two growths are -inf, or four if both balls stick at once.
+    contraction : ndarray
+        Contraction of volume in each cycle in closed form, (n,), the sum of the growths.
+    stuck : ndarray
+        Largest number of balls that stick at one time in each cycle, (n,).
     """
 
     growth: np.ndarray
@@ -107,15 +112,15 @@ class Spectrum:
     def without_double_sticks(self) -> "Spectrum":
         """Return the spectrum over the cycles in which the balls do not both stick at once.
 
-        It hardly depends on how many such cycles a run meets. Of four of its directions each sets in anew behind one,
-        and turns to where it grows as it should within some ten cycles, which count.
+        It depends little on the number of such cycles in a run. Four of its directions start again after each of them
+        and align within about ten cycles, which are included.
         """
         others = self.stuck < BOTH
         return Spectrum(_largest_first(self.growth[others]), self.contraction[others], self.stuck[others])
 
     @property
     def exponents(self) -> np.ndarray:
-        """(8,), or (4,) if one module takes part, per forcing period, in nats."""
+        """Lyapunov exponents, (8,), or (4,) if one module takes part, per forcing period, in nats."""
         return self.growth.mean(axis=0)
 
     @property
@@ -124,28 +129,28 @@ class Spectrum:
         return kaplan_yorke(self.exponents)
 
     def errors(self, block: int, resamples: int = 200, seed: int = 1) -> tuple[np.ndarray, float]:
-        """Return the standard errors of the exponents, in their shape, nan where they are -inf, and of the dimension.
+        """Return the standard errors of the exponents (nan for -inf) and of the dimension.
 
-        By the circular block bootstrap (Politis and Romano 1992): the n cycles are drawn anew in n / block stretches of
-        `block` cycles, which keep what one cycle has to do with the next.
+        The circular block bootstrap (Politis and Romano 1992) resamples the n cycles in n / block stretches of `block`
+        cycles, which preserve the correlation of successive cycles.
 
         Parameters
         ----------
         block : int
-            From 1 to n / 2.
+            Cycles per stretch, from 1 to n / 2.
         resamples : int, default 200
             Number of draws, at least 2.
         seed : int, default 1
-            Of the draws.
+            Seed of the draws.
 
         Raises
         ------
         ValueError
-            If an argument is malformed; there are fewer than 2 cycles.
+            If an argument is malformed, or if there are fewer than 2 cycles.
         """
         n, forgotten = len(self.growth), np.isneginf(self.exponents)
         if n < 2:
-            raise ValueError(f"growth: {n} cycles have no scatter; errors need at least 2")
+            raise ValueError(f"growth: errors need at least 2 cycles, got {n}")
         block, resamples = whole("block", block, 1, n // 2), whole("resamples", resamples, 2, _MOST_RESAMPLES)
         seed = whole("seed", seed, 0, MOST_SEED)
         finite = np.where(forgotten, 0.0, self.growth)
@@ -167,7 +172,7 @@ def spectrum(system, state, cycles: int, discarded: int = 100) -> Spectrum:
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
         rates = np.log(factors)
-    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # in floats, rounding
+    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # rounding in floats
     return Spectrum(_largest_first(rates), contraction(system, impacts, stuck), stuck)
 
 
@@ -177,8 +182,6 @@ def _largest_first(rates):
 
 def contraction(system, impacts, stuck) -> np.ndarray:
     """Return the logarithm of the contraction of volumes of states in each cycle, shape (n,).
-
-    Only impacts and sticking balls are counted, not the damping.
 
     A flight contracts volumes by exp(-tr D t), D being the damping matrix of the modules that take part. An impact
     contracts them by kappa^2: in the coordinates gap, rate of the gap and motion of the centre of mass, its saltation

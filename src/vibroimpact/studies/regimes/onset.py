@@ -32,15 +32,7 @@ def predicted(path, values) -> np.ndarray:
 
 
 def observed(values, p, names) -> np.ndarray:
-    """Return True where a start ends in a modulated or chaotic response, shape (n,).
-
-    Parameters
-    ----------
-    values
-        (n,).
-    p, names
-        Parameter and regime of each start.
-    """
+    """Return True, shape (n,), where an initial state ends in a modulated or chaotic response."""
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
 

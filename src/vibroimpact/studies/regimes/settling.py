@@ -1,6 +1,7 @@
-"""Find the regime that each start ends in.
+"""Find the regime that each initial state ends in.
 
-A motion is followed in rounds until it repeats; one that does not is named, and longer runs test the name.
+A motion is followed in rounds until it repeats. A motion that does not repeat is classified, and longer runs test the
+classification.
 """
 
 from dataclasses import dataclass, replace
@@ -28,16 +29,29 @@ MOST_WITNESSES = 5
 
 @dataclass(frozen=True)
 class Observation:
-    """Settings of an observation: lengths of runs, in cycles, and tolerance.
+    """Settings of an observation: lengths of runs and tolerance.
 
-    cycles, rounds: a start is given so many cycles, up to so many times, until it repeats. window, nearness: as in
-    `classify_after`. blocks, block: of the Lyapunov exponent of what does not repeat, so many blocks of so many cycles.
-    retest: cycles over which such a name is tried.
+    Parameters
+    ----------
+    cycles, rounds : int
+        Each initial state runs for up to `rounds` times `cycles` forcing periods, until it repeats.
+    window : int
+        Forcing periods in which a repetition is searched, see `classify_after`.
+    nearness : float
+        Tolerance of displacements, see `classify_after`.
+    blocks, block : int
+        Number of blocks and forcing periods per block for the Lyapunov exponent of a motion that does not repeat.
+    retest : int
+        Forcing periods of the test of such a motion.
 
     Raises
     ------
     ValueError
-        If one of them is not a number, or below the least with a meaning.
+        If a setting is not a number, or too small.
+
+    Examples
+    --------
+    >>> observation = vi.Observation(cycles=400, rounds=5)
     """
 
     cycles: int = 250
@@ -56,26 +70,27 @@ class Observation:
 
 
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
-    """Return the regime that each start ends in, one per start, in their order.
+    """Return the regime that each initial state ends in, in order.
 
-    A name for a motion that does not repeat has to last: of the starts with this name one, the witness, runs on for
-    `retest` cycles; up to MOST_WITNESSES do where another start has become periodic, so that chaos may be a transient.
-    If all witnesses stay with a name of this kind, all starts bear the name of a longer run. If one ends elsewhere, so
-    may the others: each runs on as long, and is unsettled if it has ended nowhere by then. Unsettled ones run on, too.
+    The classification of a motion that does not repeat is tested: one of the initial states with this name, the
+    witness, continues for `retest` cycles; up to MOST_WITNESSES do if another one has become periodic, since chaos may
+    be transient. If all witnesses keep a name of this kind, all members get the name of a longer run. If a witness ends
+    elsewhere, all members continue for as long; those that have not settled by then are unsettled. Unsettled ones
+    continue as well.
 
     Parameters
     ----------
     states
-        (n, 8) starts at tau = 0; a module that takes no part is put at rest.
+        Initial states (n, 8) at tau = 0; a module that takes no part is put at rest.
     observation : Observation
-        How long they are looked at.
+        Lengths of the runs.
     progress : bool, default False
-        Count them on standard error, if that is a terminal.
+        Count the initial states on standard error, if it is a terminal.
     """
     first = _rounds(system, idle_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        now = first if name in CHAOS else regimes  # with what chaos has turned into since
+        now = first if name in CHAOS else regimes  # replaced by what chaos has turned into
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
             _try(system, regimes, members, observation, progress)
@@ -83,7 +98,10 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
 
 
 def _rounds(system, states, observation, progress):
-    """Return the regimes after the rounds; those that do not repeat are named, and run on if that fails."""
+    """Return the regimes after the rounds.
+
+    Motions that do not repeat are classified, and continue if that fails.
+    """
     found: list[Regime | None] = [None] * len(states)
     waiting, now = np.arange(len(states)), states
     for number in range(1, observation.rounds):
@@ -92,7 +110,7 @@ def _rounds(system, states, observation, progress):
             found[place] = classify_after(system, state, observation.window, observation.nearness)
         passing = [_passing(found[place]) for place in waiting]
         waiting, now = waiting[passing], now[passing]
-    # the last round, with the events that a name needs
+    # the last round, with the events needed for the classification
     for place, state in track([*zip(waiting, now, strict=True)], "starts: last round,", progress):
         found[place] = named(simulate(system, state, observation.cycles), observation)
         if found[place].name == UNSETTLED:
@@ -101,7 +119,7 @@ def _rounds(system, states, observation, progress):
 
 
 def named(run, observation: Observation) -> Regime:
-    """Return the regime at the end of a run, with a name for one that does not repeat."""
+    """Return the regime at the end of a run, with a classification of motions that do not repeat."""
     regime = classify_after(run.system, run.final, observation.window, observation.nearness)
     if regime.name == UNSETTLED:
         return replace(regime, name=name_aperiodic(run, observation.blocks, observation.block))
@@ -139,5 +157,5 @@ def _run_on(system, regimes, places, observation, progress):
 
 
 def _same_kind(before, after):
-    """Return True if a motion has kept its kind: chaos may turn out to be in resonance more or less often."""
+    """Return True if a motion is still of the same kind; the degree of resonance of chaos may change."""
     return before == after or (before in CHAOS and after in CHAOS)

@@ -24,7 +24,7 @@ class Axis:
     values: tuple[float | tuple[float, ...], ...]
 
     def place(self, value) -> dict[str, float]:
-        """Return the value of each parameter, by name, at one of the values."""
+        """Return the value of each parameter of the axis, by name, at one of its values."""
         return dict(zip(self.along, np.broadcast_to(value, len(self.along)).tolist(), strict=True))
 
 
@@ -73,7 +73,7 @@ class Grid:
         return math.prod(self.shape)
 
     def place(self, number: int) -> dict[str, float]:
-        """Return the value of every parameter that moves, by name, at a point."""
+        """Return the value of every varied parameter, by name, at a point."""
         places = np.unravel_index(number, self.shape)
         at = zip(self.axes, places, strict=True)
         return {name: value for axis, k in at for name, value in axis.place(axis.values[k]).items()}
@@ -94,10 +94,13 @@ class Grid:
             raise ValueError(f"at {where}: {error}") from None
 
     def tile(self, number: int, tiles: int) -> range:
-        """Return the points of a tile, counted from 1: every tiles-th, so that all take about the same time."""
+        """Return the points of a tile, counted from 1.
+
+        A tile has every `tiles`-th point, so that all tiles take about the same time.
+        """
         return range(number - 1, len(self), tiles)
 
     def spread(self, most: int) -> list[int]:
-        """At most a number of different points, spread evenly over the grid."""
+        """Return at most `number` different points, evenly spread over the grid."""
         steps = np.outer(np.arange(most) + 0.5, LEAPS[len(self.shape)]) % 1.0
         return sorted({int(np.ravel_multi_index((step * self.shape).astype(int), self.shape)) for step in steps})

@@ -35,12 +35,9 @@ LOW, HIGH = 0.05, 0.95
 
 
 def observed(system, spec: Spec) -> dict:
-    """Return the columns of all observations at one point, as Python numbers; a module that takes no part is at rest.
+    """Return the columns of all observations at one point, as Python numbers.
 
-    Raises
-    ------
-    ArithmeticError, RuntimeError, ValueError
-        If one of them cannot be had there.
+    A module that takes no part is at rest.
     """
     states = idle_at_rest(system, spread_starts(spec.starts, spec.seed)) if spec.runs else None
     row = {}
@@ -50,7 +47,7 @@ def observed(system, spec: Spec) -> dict:
 
 
 def _regimes(system, states, spec):
-    """Return the shares of the starts, and where the first of them, rest, ends."""
+    """Return the shares of the regimes of all initial states, and the regime reached from rest."""
     names = [regime.name for regime in settle(system, states, Observation(**spec.observation))]
     return *(names.count(name) / len(names) for name in REGIMES), names[0]
 
@@ -91,10 +88,7 @@ def _peaks(system, states, spec):
 
 
 def _one_ball(runs):
-    """Return the peak of runs from rest, if the same one ball is still there in all of them; else nan.
-
-    A ball that meets no wall stays where it is, to the bit, and the box is as if it had none.
-    """
+    """Return the peak of runs from rest if the same ball is idle in all of them, else nan."""
     still = [not runs.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
     return peak_of(runs.largest[:, :1]).max() if sum(still) == 1 else np.nan
 

@@ -94,7 +94,7 @@ def slope_change(v, kappa):
 
 
 def trace(squared, kappa):
-    """Return the trace of the map of small changes over one cycle (two impacts); its determinant is kappa^4."""
+    """Return the trace of the map of perturbations over one cycle (two impacts); its determinant is kappa^4."""
     squared = np.asarray(squared, dtype=float)
     G = 1 - squared - (1 - squared) / amplitudes(squared, kappa)[0]  # (2 v / pi) cot(pi v / 2)
     tangent = (np.tan(np.pi / 2 * np.sqrt(squared.astype(complex))) ** 2).real
@@ -119,12 +119,15 @@ def period_doubling(kappa: float) -> float:
 
 
 def stable(squared: float, kappa: float) -> str:
-    """Return the verdict "stable", "unstable" or "undecided": stable with both multipliers inside the unit circle."""
+    """Return the verdict "stable", "unstable" or "undecided".
+
+    A point is stable if both multipliers are inside the unit circle.
+    """
     return verdict(1 + kappa**4 - abs(trace(squared, kappa)), _ROUNDING)
 
 
 def overshoot(v: float, kappa: float) -> float:
-    """Return the largest |W_0| - 1 over a cycle; 0 where the ball stays between the walls.
+    """Return the largest |W_0| - 1 over a cycle, 0 if the ball stays between the walls.
 
     Flights turn where W_0' = 0.
     """
