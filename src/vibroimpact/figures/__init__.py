@@ -1,4 +1,4 @@
-"""The figures: compute(...) -> tables, draw(tables) -> Figure."""
+"""Figures of the chapter: compute(...) -> tables, draw(tables) -> Figure."""
 
 from vibroimpact.system.extras import need
 

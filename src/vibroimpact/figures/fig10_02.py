@@ -25,7 +25,7 @@ X_LEVEL, Y_LEVEL, L_LEVEL = 41.0, 35.0, 4.0
 
 
 def compute() -> dict:
-    """Return no tables: a drawing to scale has no numbers."""
+    """Return no tables, since a drawing to scale has no numbers."""
     return {}
 
 

@@ -57,7 +57,7 @@ def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the impacts: instant tau_0, level Z, and time since the impact before."""
+    """Return the impacts: instant tau_0, level Z, and time since the previous impact."""
     impacts = select(table, "Z", "impacts")[["tau0", "Z"]]
     return impacts.assign(after=impacts["tau0"].diff()).reset_index(drop=True)
 

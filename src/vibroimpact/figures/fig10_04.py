@@ -51,7 +51,7 @@ def compute(kappa: float, C_max: float) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """Return where the stable branch begins, and the lowest point of the manifold."""
+    """Return the border of stability and the lowest point of the manifold."""
     stable = select(table, "SIM", "SIM stable")[["C", "B"]]
     points = stable.loc[[stable["C"].idxmin(), stable["B"].idxmin()]]
     return points.set_axis(["border of stability, (10.26)", "fold (C_min, B_min), (10.25)"])

@@ -58,7 +58,7 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
-    """For evenly spaced kappa: the border of stability, C_min, and the piece of the left arm that is stable."""
+    """Return the border of stability, C_min and the stable piece of the left arm, for evenly spaced kappa."""
     fold = select(table, "regions", "C_min")["C"].to_numpy()
     border = select(table, "regions", "stable").iloc[: len(fold)]
     rows = np.linspace(0, len(fold) - 1, values).astype(int)

@@ -52,15 +52,15 @@ SPEC = {
 MODULES = (1, 2)
 NAME = {"fontsize": 10, "color": BLACK}
 ZOOM = {"xlim": (0.85, 1.25), "ylim": (0.0, 0.34)}
-"""The part of a plane around the fold; where several points lie in it, it is drawn again, larger, at INSET."""
+"""Part of a plane around the fold; if it contains several points, it is drawn enlarged in INSET."""
 INSET = (0.13, 0.5, 0.44, 0.46)
 ROW_HEIGHT, ENDS = 38.0, 11.0
-"""Height in mm of a row of planes, and of the heads above and labels below them all."""
+"""Height in mm of a row of planes, and of the headings and labels in all."""
 MARKERS = {
     "S": {"marker": "s", "color": "0.3", "markersize": 4.6, "markerfacecolor": "0.75", "markeredgewidth": 0.7},
     "P": {"marker": "o", "color": BLACK, "markersize": 4.2, "markeredgecolor": "white", "markeredgewidth": 0.4},
 }
-"""In drawing order: a circle close to a square lies on top of it, and the square is the larger one."""
+"""In drawing order: circles are drawn above the larger squares."""
 
 
 def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd.DataFrame:
@@ -71,10 +71,10 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
     points : DataFrame
         The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
     model : str, default 'slow_flow'
-        slow_flow; or exact_orbit, by which P_i is that of the exact orbit next to the fixed point, and S_i belongs to
-        this; a fixed point without an orbit has no row.
+        slow_flow or exact_orbit. With exact_orbit, P_i is that of the exact orbit next to the fixed point, and S_i
+        belongs to it; a fixed point without an orbit has no row.
     C_max
-        The manifold is shown for 0 <= C_i <= C_max, one number or one per module; further where a fixed point lies
+        End of the manifold shown, 0 <= C_i <= C_max, one number or one per module; increased if a fixed point lies
         beyond.
 
     Returns columns panel (label and module: "a1", "a2", ...), series ("SIM stable", "SIM unstable", "P_i", "S_i", and
@@ -83,7 +83,7 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
     Raises
     ------
     ValueError
-        If C_max does not reach beyond the fold of the manifold; another model.
+        If C_max is not beyond the fold of the manifold, or if the model is unknown.
     """
     found = motions(system, labelled_points(points), model)
     return join(planes(system, [motion.point for motion in found], C_max))
@@ -119,7 +119,7 @@ def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({}))
     Parameters
     ----------
     chapter : mapping, optional
-        The chapter's verdicts by label, which the heads show where (10.26) gives another one.
+        The chapter's verdicts by label; the headings show those that differ from (10.26).
     """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + ENDS)
@@ -133,7 +133,7 @@ def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({}))
         for axes, module in zip(row, MODULES, strict=True):
             names |= draw_plane(axes, table, f"{label}{module}")
     for axes, module in zip(grid[0], MODULES, strict=True):
-        axes.set_title(f"module {module}\n", pad=4)  # a line above the head of the row
+        axes.set_title(f"module {module}\n", pad=4)  # one line above the heading of the row
     for axes, module in zip(grid[-1], MODULES, strict=True):
         axes.set_xlabel(f"$C_{module}$")
     name_curves(figure, names, **NAME)
@@ -156,7 +156,7 @@ def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
     module = panel[-1]
     stable = select(table, panel, "SIM stable")
     end, top = stable.iloc[-1], max(stable["B"].iloc[-1], select(table, panel, "SIM unstable")["B"].iloc[0])
-    # Rounded, because Matplotlib's choice of ticks would change with the last digit of an end such as 2.
+    # Round the limit, since Matplotlib's ticks depend on the last digit of an end such as 2.
     axes.set(xlim=(0.0, round(end["C"], 9)), ylim=(0.0, 1.08 * top), ylabel=f"$B_{module}$")
     axes.locator_params(nbins=4, steps=[1, 2, 5, 10])
     points = [
@@ -175,7 +175,7 @@ def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
         own = [one for one in lines if pane is not axes or len(panes) == 1 or one[0] not in close]
         names[pane] = [(f"${kind}_{module}$", line) for (kind, _, _), line in own]
     if len(select(table, panel, f"S_{module} beyond")):
-        # The point lies further up the manifold than the frame reaches.
+        # The point lies beyond the frame.
         axes.annotate(
             rf"$S_{module}\!\nearrow$", (end["C"], end["B"]), (-2, -38), textcoords="offset points", ha="right", **NAME
         )

@@ -44,7 +44,7 @@ COORDINATES = {
     "W": {"color": BLACK, "linestyle": "-", "linewidth": 1.2},
     "Y": {"color": BLACK, "linestyle": (0, (5, 2)), "linewidth": 1.0},
 }
-"""U_i and X_i grey, W_i and Y_i black, as in the chapter; within a colour the line style tells them apart."""
+"""U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style distinguishes curves of one colour."""
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, model: str = "slow_flow") -> pd.DataFrame:
@@ -65,7 +65,7 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
     Raises
     ------
     ValueError
-        If there is no fixed point of that label, or no motion of it by the model; or periods is not above 0.
+        If the label is unknown, if the model gives no motion, or if periods is not above 0.
     """
     if not periods > 0:
         raise ValueError(f"periods: {periods} is not above 0")
@@ -81,7 +81,7 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
 
 
 def _times(first: float, period: float, end: float, points: int = 401) -> np.ndarray:
-    """Return the evenly spaced times in [0, end] and the impacts among them, each half a period after the one before.
+    """Return evenly spaced times in [0, end] and the impacts among them, which are half a period apart.
 
     first: time of an impact; NaN if there is none.
     """
@@ -111,6 +111,6 @@ def draw_response(axes, table: pd.DataFrame, module: int) -> None:
 
 
 def key(figure) -> None:
-    """Name the coordinates below the panels: curves so close to each other have no room for names."""
+    """Name the coordinates below the panels, since the curves are too close for direct labels."""
     handles = [Line2D([], [], **look, label=f"${name}_i$") for name, look in COORDINATES.items()]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), handlelength=2.4)

@@ -27,12 +27,15 @@ SPEC = {
 __all__ = ["compute", "draw"]
 
 CHAPTER = {"a": "unstable", "b": "unstable", "c": "stable"}
-"""Verdicts in the chapter's caption."""
+"""Verdicts in the caption of the chapter."""
 PLACE_OF_B = {"b1": 0.957, "b2": 1.665}
 """C of point b at the chapter's parameters, which these verdicts are about, in planes of both modules."""
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute` as figure 10.6; at the chapter's parameters with its verdicts, where others."""
+    """Draw the table of `compute` as in figure 10.6.
+
+    At the chapter's parameters, the headings also show the chapter's verdicts that differ.
+    """
     found = [abs(select(table, plane, f"P_{plane[1]}")["C"] - C) < 1e-3 for plane, C in PLACE_OF_B.items()]
     return fig10_06.draw(table, CHAPTER if all(len(near) and near.all() for near in found) else {})

@@ -33,11 +33,11 @@ SPEC = {
 }  # fmt: skip
 
 DIGITS = range(2, 15)
-"""The depths are 10 to the power of minus these."""
+"""Negative decimal exponents of the depths."""
 
 
 def compute() -> pd.DataFrame:
-    """Return a row per method and depth, for the methods that are drawn: the numbers of `stress_tests.judge`."""
+    """Return a row per drawn method and depth, with the columns of `stress_tests.judge`."""
     system, methods = System(**CHAPTER), [method for method in METHODS if method.name in LOOKS]
     rows = [{"digits": digits} | row for digits in DIGITS for row in judge(grazing(system, -1, digits), methods)]
     table = pd.DataFrame(rows)[[name for names in SPEC["columns"] for name in names.split(", ")]]

@@ -1,4 +1,4 @@
-"""The chapter's claims, each judged by a check that computes."""
+"""Judge the claims of the chapter, each by a check that computes."""
 
 from vibroimpact.system.extras import need
 

@@ -13,23 +13,23 @@ from vibroimpact.studies.claims.finding import Finding
 
 CHECKS = ("efficient", "absorbs_rapidly", "suppresses_shocks", "can_be_optimised")
 IMPULSES = np.geomspace(0.5, 20.0, 13)
-"""Velocities that a shock gives to box 1, in units of L omega_10; the first bring no ball to a wall."""
+"""Velocities of box 1 after a shock, in units of L omega_10; at the first ones no ball reaches a wall."""
 FAINT = 1e-3
-"""One after which the boxes move as without balls."""
+"""A shock after which the boxes move as without balls."""
 SWINGS = 3
-"""Cycles within which the largest swing after a shock is over."""
+"""Cycles that contain the largest swing after a shock."""
 NOTICED = 0.99
-"""A time is called shorter, or a swing lower, from a hundredth on."""
+"""Smallest relative difference at which a time counts as shorter, or a swing as lower."""
 PATIENCE = 10_000
-"""Forcing periods after which a decay is given up."""
+"""Largest number of forcing periods of a decay."""
 HALF = 0.5
-"""More than this share of the energy is most of it."""
+"""Share of the energy above which it counts as most of it."""
 SURE = 2
-"""Spreads by which a peak has to be lower than another."""
+"""Number of standard errors by which a peak must be lower than another."""
 
 
 def efficient(evidence):
-    """Peaks over a band of frequencies, at the best clearance of those tried, against those without balls and fixed.
+    """Compare the peaks over a band, at the best clearance, with those without balls and with fixed balls.
 
     The chapter cites others and sets no measure of "very efficient": where balls lower the peak, that part is left
     open. How far linear absorbers go is told beside.
@@ -48,7 +48,7 @@ def efficient(evidence):
 
 
 def absorbs_rapidly(evidence):
-    """Shocks from weak to strong: energy dissipated by impacts, and time, until a tenth of the energy is left.
+    """Measure the energy dissipated by impacts, and the time, until a tenth of the energy of a shock is left.
 
     Shocks that bring no ball to a wall are left out of the parts.
     """
@@ -70,7 +70,7 @@ def absorbs_rapidly(evidence):
 
 
 def suppresses_shocks(evidence):
-    """Over shocks from weak to strong: time until a tenth of the energy is left, and the largest swing per impulse."""
+    """Measure the time until a tenth of the energy is left, and the largest swing per impulse, over shocks."""
     system = evidence.system
     times = _times(system) / without_balls(system).decay_time()
     shocks = np.array([FAINT, *IMPULSES])
@@ -95,12 +95,12 @@ def _free(system):
 
 
 def _struck(impulse):
-    """At rest, box 1 with the velocity of an impulse."""
+    """Return the state at rest with the velocity of an impulse for box 1."""
     return np.array([0.0, 0.0, 0.0, 0.0, impulse, 0.0, 0.0, 0.0])
 
 
 def can_be_optimised(evidence):
-    """Peaks lowered by a clearance inside the tried range, and by another restitution coefficient beyond their spread.
+    """Check that peaks are reduced by a clearance inside the range, and by another restitution coefficient.
 
     Both at the clearance that is best for each coefficient, measured again there. Over small coefficients the lowest
     peak is level: which of them is best is left to chance.

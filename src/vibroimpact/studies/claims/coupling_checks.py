@@ -15,7 +15,7 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 CHECKS = ("strong_coupling", "one_sided_impacts", "harvesting")
 SETTLED, OBSERVED = 1500, 500
 SAME_POWER = 1e-3
-"""Relative difference of powers of one and the same motion."""
+"""Largest relative difference of powers of the same motion."""
 
 
 def errors(system) -> list[dict]:
@@ -43,7 +43,10 @@ def errors(system) -> list[dict]:
 
 
 def strong_coupling(evidence, case, couplings):
-    """Errors of fixed points with the coupling spring stronger than in the case, its damper in proportion or held."""
+    """Measure the errors of fixed points with a coupling spring stronger than in the case.
+
+    The coupling damper changes in proportion, or stays the same.
+    """
     system = evidence.systems[case]
     ours = max(row["error"] for row in errors(system))
     parts, numbers = {}, {"largest error at the coupling of the case": ours}
@@ -61,14 +64,14 @@ def strong_coupling(evidence, case, couplings):
 
 
 def one_sided_impacts(evidence):
-    """Nothing to judge: with one wall the ball of this model leaves its box for good."""
+    """Leave the claim open, since with one wall the ball of this model leaves its box forever."""
     return Finding({"one-sided impacts need another model, with a force on the ball": None})
 
 
 def harvesting(evidence, cases, number, seed):
-    """Mean power at the impacts of all starts that end on no 1:1 response, against such responses at the same forces.
+    """Compare the mean impact power of motions other than 1:1 responses with that of 1:1 responses.
 
-    These are the stable leaning response and the symmetric one next to it; the only symmetric one where none leans.
+    These are the stable asymmetric response and the symmetric one next to it, or the only symmetric one.
     """
     begun, parts, numbers = starts(number, seed), {}, {}
     for case in cases:

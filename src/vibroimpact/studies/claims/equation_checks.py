@@ -24,17 +24,17 @@ CHECKS = (
 ROUNDING = 1e-12
 KAPPAS = (0.05, 0.3, 0.65, 0.95)
 _TERMS = {"one term": "distance", "two terms": "two terms"}
-"""Terms of (10.7) that are kept -> panel of the table of orders with the distance that they leave."""
+"""Panel of the table of orders with the remaining distance, by the number of terms of (10.7)."""
 
 
 def small_balls(evidence):
-    """M << m, against epsilon = m / M << 1."""
+    """Compare M << m as printed with epsilon = m / M << 1."""
     epsilon = evidence.system.epsilon
     return as_printed(1 / epsilon < 1, epsilon < 1, **{"M / m": 1 / epsilon, "m / M": epsilon})
 
 
 def weak_coupling(evidence):
-    """Coupling spring and damper against those to ground; the stiffer of two counts for each."""
+    """Compare the coupling spring and damper with those to ground, of which the stiffer of two counts."""
     system = evidence.system
     spring = system.alpha12 / min(1.0, system.stiffness2)
     damper = system.gamma12 / min(system.gamma1, system.gamma2)
@@ -42,14 +42,17 @@ def weak_coupling(evidence):
 
 
 def own_frequency(evidence):
-    """(10.1) has the natural frequency omega_10 in the first force, so that Omega_1 would be 1, against (10.5)."""
+    """Check the frequency of the first force in (10.1) against (10.5).
+
+    (10.1) has the natural frequency omega_10 there, so that Omega_1 would be 1.
+    """
     system = evidence.system
     corrected = abs(system.Omega - (1 + system.epsilon * system.sigma_e_hat)) < ROUNDING
     return as_printed(system.Omega == 1, corrected, Omega=system.Omega)
 
 
 def bound_of_the_balls(evidence):
-    """-L <= y_i <= L with the absolute displacement, against the relative one, on all simulated motions."""
+    """Check -L <= y_i <= L, and the same bound on relative displacements, on all simulated motions."""
     samples = [simulation.samples for simulation in evidence.simulations.values()]
     absolute = max(table[["Y1", "Y2"]].abs().to_numpy().max() for table in samples)
     relative = max((table[f"X{i}"] - table[f"Y{i}"]).abs().max() for table in samples for i in (1, 2))
@@ -57,7 +60,10 @@ def bound_of_the_balls(evidence):
 
 
 def common_impact_instants(evidence):
-    """One sequence tau_j for both modules in (10.2), against one for each: distance of each ball from its wall."""
+    """Check one sequence tau_j for both modules in (10.2) against one sequence for each.
+
+    The measure is the distance of each ball from its wall.
+    """
     own, other = [], []
     for simulation in evidence.simulations.values():
         impacts = simulation.impacts
@@ -72,7 +78,9 @@ def common_impact_instants(evidence):
 
 
 def equations_in_U_and_W(evidence):
-    """(10.3) line by line at random states between impacts, the accelerations being those of (10.2); then impacts.
+    """Check (10.3) line by line at random states between impacts, then at impacts.
+
+    The accelerations are those of (10.2).
 
     Line W1 has the force on box 2 as printed, that on box 1 as corrected.
     """
@@ -103,7 +111,7 @@ def equations_in_U_and_W(evidence):
 
 
 def _errors_of_jumps(system):
-    """Largest errors at random impacts: of no jump of U', and of the jump -(1 + kappa) W' of W'."""
+    """Return the largest errors of the jumps at random impacts: 0 of U', and -(1 + kappa) W' of W'."""
     box, ball = np.random.default_rng(2).uniform(-1, 1, (2, 100))
     X, Y = after_impact(system.epsilon, system.kappa, box, ball)
     U = np.abs(X + system.epsilon * Y - box - system.epsilon * ball).max()
@@ -112,7 +120,7 @@ def _errors_of_jumps(system):
 
 
 def leading_order_solution(evidence):
-    """(10.9)-(10.11) in (10.8), by its own conditions, with B and phase by (10.16), (10.17); (10.19) by quadrature."""
+    """Check (10.9)-(10.11) in (10.8), with B and phase by (10.16), (10.17), and (10.19) by quadrature."""
     t, found = np.linspace(0.1, np.pi - 0.1, 50), []
     for kappa, C in product(KAPPAS, (0.3, 0.9, 1.1, 1.6)):
         B, phase, slope = B_of_C(C, rho(kappa)), impact_phase(C, rho(kappa)), 2 * C / np.pi
@@ -124,14 +132,14 @@ def leading_order_solution(evidence):
 
 
 def _vanish(found, **others):
-    """Finding that all residuals vanish to rounding: of each name the largest of those found, then the others."""
+    """Return the finding that all residuals vanish to rounding, with the largest residual of each name."""
     worst = {name: max(np.abs(residuals[name]).max() for residuals in found) for name in found[0]} | others
     parts = {name: value < ROUNDING for name, value in worst.items()}
     return Finding(parts, {f"residual of {name}": value for name, value in worst.items()})
 
 
 def manifold_from_impact_conditions(evidence):
-    """(10.15) and (10.16) against (10.12) and (10.14) at random phases: the same relation, and (10.17) with it."""
+    """Check (10.15), (10.16) and (10.17) against (10.12) and (10.14) at random phases."""
     found = []
     for kappa in KAPPAS:
         r = rho(kappa)
@@ -149,7 +157,7 @@ def manifold_from_impact_conditions(evidence):
 
 
 def _error_of_the_harmonics():
-    """Largest error of the first coefficients of (10.19), by quadrature, even ones included."""
+    """Return the largest error of the first coefficients of (10.19), by quadrature, even ones included."""
     off = 0.0
     for n in range(1, 8):
         found = 2 / np.pi * quad(lambda t, n=n: float(sawtooth(t, 1.0, 0.0)) * np.cos(n * t), 0, np.pi)[0]
@@ -158,7 +166,7 @@ def _error_of_the_harmonics():
 
 
 def orders_of_the_expansion(evidence):
-    """(10.7): the error of one term falls like epsilon, that of two like epsilon^2; fitted orders.
+    """Check the orders of (10.7): the error of one term is O(epsilon), that of two is O(epsilon^2).
 
     The chapter gives the first term, the fixed point; the second is the exact orbit's derivative by epsilon at 0.
     """

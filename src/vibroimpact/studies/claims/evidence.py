@@ -1,4 +1,4 @@
-"""The results of a build that the checks of claims read: the cases and the tables that the pipeline has written."""
+"""Results of a build for the checks of claims: the cases and the tables that the pipeline wrote."""
 
 from dataclasses import dataclass, field
 
@@ -9,7 +9,7 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 
 OF_CASES = dict.fromkeys(("fixed_points", "orbits", "modulation", "epsilon_orders", "special_points"), tuple(CASES))
 OF_CASES |= {"absorber": ("equal",), "clearance": ("equal",), "verdict_grid": ()}
-"""The cases that a whole table depends on."""
+"""Cases that a whole table depends on."""
 
 
 class NotOfTheChapter(Exception):

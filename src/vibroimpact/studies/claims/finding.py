@@ -1,4 +1,4 @@
-"""The finding of a check on a claim: a verdict that follows from its parts, and the numbers behind it."""
+"""Finding of a check: a verdict that follows from its parts, and the supporting numbers."""
 
 from dataclasses import dataclass, field
 
@@ -25,8 +25,8 @@ class Finding:
 
     def __post_init__(self):
         if not self.parts:
-            raise ValueError("parts: a finding without parts says nothing")
-        # Plain numbers, so that a finding can be written down, whatever NumPy made them.
+            raise ValueError("parts: a finding needs at least one part")
+        # Convert NumPy numbers to plain numbers, so that a finding can be written to a file.
         object.__setattr__(self, "parts", {name: _plain(value) for name, value in self.parts.items()})
         object.__setattr__(self, "numbers", {name: _plain(value) for name, value in self.numbers.items()})
 
@@ -51,6 +51,6 @@ def _plain(value):
 
 
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
-    """Return the finding on a statement as printed, with the verdict on the corrected one beside it."""
+    """Return the finding on a statement as printed, with the verdict on the corrected statement."""
     numbers["as corrected"] = HOLDS if corrected else REFUTED
     return Finding({"as printed": holds}, numbers, corrected=bool(corrected))

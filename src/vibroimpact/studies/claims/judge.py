@@ -1,4 +1,4 @@
-"""The chapter's claims, each judged by a check that computes: the verdict is never written by hand.
+"""Judge the claims of the chapter, each by a check that computes; no verdict is written by hand.
 
 A claim is a mapping with id, place, statement, check (name of a function of the modules below), arguments (optional,
 of that function), refuted_by (what would refute it) and fact (optional: why it does not hold, the same text for claims
@@ -25,7 +25,10 @@ FIELDS = ("id", "place", "statement", "check", "refuted_by")
 
 
 def problems(claims: list[dict]) -> list[str]:
-    """Return problems of a list of claims, a line each: missing or unknown fields, ids given twice, unknown checks."""
+    """Return problems of a list of claims, a line each.
+
+    Problems are missing or unknown fields, repeated ids and unknown checks.
+    """
     found = []
     ids = [claim.get("id") for claim in claims]
     for place, claim in enumerate(claims, start=1):
@@ -40,7 +43,7 @@ def problems(claims: list[dict]) -> list[str]:
 
 
 def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
-    """Return the claims, each with its verdict, the parts that hold or do not, and the numbers.
+    """Return the claims, each with its verdict, its parts and the supporting numbers.
 
     One that reads evidence which is not about the chapter is not judged, and has the reason.
 
@@ -65,7 +68,10 @@ def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
 
 
 def to_markdown(judged: list[dict], unlike=()) -> str:
-    """Return a readable table of judged claims, after counts of verdicts and facts; and why some were not judged."""
+    """Return a table of judged claims in Markdown, with counts of verdicts and facts.
+
+    Reasons are given for claims that were not judged.
+    """
     verdicts = (*VERDICTS, NOT_JUDGED) if unlike else VERDICTS
     counts = {verdict: sum(claim["verdict"] == verdict for claim in judged) for verdict in verdicts}
     lines = [
@@ -84,7 +90,7 @@ def to_markdown(judged: list[dict], unlike=()) -> str:
 
 
 def facts(judged: list[dict]) -> dict[str, list[dict]]:
-    """Return the facts that refute claims, in their order, each with all claims that do not hold because of it.
+    """Return the facts that refute claims, in order, each with all claims that it refutes.
 
     A refuted claim that names none counts as a fact of its own: what would refute it does.
     """

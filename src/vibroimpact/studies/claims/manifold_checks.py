@@ -1,4 +1,4 @@
-"""Checks of section 10.3 on the manifold: its fold, where the ball stays inside, and which part of it is stable."""
+"""Checks of section 10.3 on the manifold: its fold, the admissible C, and its stable part."""
 
 from itertools import product
 
@@ -27,20 +27,20 @@ _SURPLUS = 1e-9
 
 
 def fold_of_the_manifold(evidence):
-    """(10.25) against a minimisation of (10.16)."""
+    """Check (10.25) against a minimisation of (10.16)."""
     place, level = 0.0, 0.0
     for kappa in KAPPAS:
         r = rho(kappa)
         found = minimize_scalar(lambda C, r=r: B_of_C(C, r) ** 2, bracket=(0.0, 0.8, 2.0), tol=1e-10)
         place = max(place, abs(found.x - C_min(r)))
         level = max(level, abs(np.sqrt(found.fun) - B_min(r)))
-    # The place of a minimum is known to the square root of rounding, its level to rounding.
+    # The position of a minimum is known to the square root of rounding, its level to rounding.
     numbers = {"largest error of C_min": place, "of B_min": level}
     return Finding({"C_min": place < 1e-6, "B_min": level < 1e-12}, numbers)
 
 
 def no_penetration(evidence):
-    """|W_0| <= 1 by sampling a cycle: for C < 0, for the fixed points, for large C."""
+    """Check |W_0| <= 1 by sampling a cycle: for C < 0, for the fixed points and for large C."""
     kappa = evidence.system.kappa
     points = evidence.fixed_points[["C1", "C2"]].to_numpy()
     end = largest_C(kappa)
@@ -60,7 +60,7 @@ def _furthest(C, kappa):
 
 
 def printed_condition(evidence):
-    """(10.26) against the multipliers of the impact map: at the limit, and all the way above it.
+    """Check (10.26) against the multipliers of the impact map, at the limit and above it.
 
     It would be a misprint if it held with other exponents, 4 / (4 + pi^p rho^q). Beside: the limits that the chapter's
     own captions allow, and the exponents that lead there.
@@ -101,7 +101,9 @@ def printed_condition(evidence):
 
 
 def _limits_of_the_captions(evidence):
-    """Open interval of lower limits in C with which every caption on a point holds and the left arm is stable in part.
+    """Return the open interval of lower limits in C that agree with all captions.
+
+    Every caption on a point holds, and a part of the left arm is stable.
 
     A point is unstable if one C_i is below the limit. Which point bears which letter does not matter to the interval.
     """
@@ -118,17 +120,17 @@ def _largest_multiplier(C, kappa):
 
 
 def _stable(C, kappa):
-    """True where the impact map at C, kappa is stable, arrays (n,) or numbers, shape (n,)."""
+    """Return True where the impact map at C, kappa is stable, shape (n,); arguments are arrays (n,) or numbers."""
     return np.array([_largest_multiplier(*one) < 1 for one in np.broadcast(C, kappa)])
 
 
 def _stable_above(limit, kappa):
-    """True where motions above a limit that stay between the walls are stable, shape (499,)."""
+    """Return True where admissible motions above a limit are stable, shape (499,)."""
     return _stable(np.linspace(limit, largest_C(kappa), 500)[1:], kappa)
 
 
 def two_branches(evidence):
-    """Pieces of the curve that are stable, and that are unstable: one of each."""
+    """Check that the curve has one stable and one unstable piece."""
     kappa = evidence.system.kappa
     stable = _stable(np.linspace(0.0, largest_C(kappa), 4001)[1:], kappa)
     first = np.append(True, stable[1:] != stable[:-1])  # of each piece
@@ -138,7 +140,7 @@ def two_branches(evidence):
 
 
 def right_arm_is_stable(evidence):
-    """The right arm, from the fold to where it still is a motion."""
+    """Check the stability of the right arm, from the fold to the end of admissible motions."""
     kappa = evidence.system.kappa
     fold, end = lower_limit(kappa), largest_C(kappa)
     C = np.linspace(fold, end, 2002)[1:-1]
@@ -148,7 +150,7 @@ def right_arm_is_stable(evidence):
 
 
 def left_arm_has_a_stable_piece(evidence):
-    """The left arm, and its piece right of (10.26) above all."""
+    """Check the stability of the left arm, and of its piece right of (10.26)."""
     kappa = evidence.system.kappa
     limit, fold = printed_limit(rho(kappa)), lower_limit(kappa)
     piece = _stable(np.linspace(limit, fold, 502)[1:-1], kappa)
@@ -158,7 +160,7 @@ def left_arm_has_a_stable_piece(evidence):
 
 
 def stability_regions(evidence):
-    """The regions of Fig. 10.5 that (10.26) divides: the share of each with C from 0.5 to 1.1 that is as drawn.
+    """Measure the share of each region of Fig. 10.5, C from 0.5 to 1.1, that is as drawn.
 
     The border itself is drawn below the curve C_min(kappa) throughout.
     """

@@ -1,4 +1,4 @@
-"""Modulated and other regimes in numbers, with uncertainties over starts, and their Lyapunov spectra."""
+"""Tabulate measures of modulated and other regimes, with uncertainties over initial states, and Lyapunov spectra."""
 
 import numpy as np
 import pandas as pd
@@ -19,13 +19,13 @@ from vibroimpact.studies.regimes.settling import Observation, settle
 
 EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
 SHOWN = 4
-"""Starts of a regime that are observed over the longest of the windows."""
+"""Number of initial states of a regime that are observed over the longest window."""
 
 
 def modulation_tables(
     systems: dict, starts: int, seed: int, cycles: int, blocks: int, block: int, windows: list[int], observation: dict
 ) -> dict:
-    """Return the measures of every regime that starts end in, case by case; the start from rest is kept apart.
+    """Return the measures of every regime, case by case; the motion from rest is kept separate.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
 
 
 def _windows(case, system, states, windows):
-    """Return the measures of the envelope over windows of several lengths, which begin together."""
+    """Return the measures of the envelope over windows of several lengths with a common start."""
     runs = [sampled(system, state, max(windows)) for state in states]
     rows = []
     for module in (1, 2):

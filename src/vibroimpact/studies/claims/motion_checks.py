@@ -29,18 +29,18 @@ CHECKS = (
     "restitution_far_from_unity",
 )
 SIMILAR = 0.1
-"""Largest relative difference of amplitudes that are called similar here: what a figure of the chapter shows."""
+"""Largest relative difference of similar amplitudes, as visible in a figure of the chapter."""
 LARGE = 0.5 / np.sqrt(2)
-"""Standard deviation over mean of the amplitudes 1 + d cos of a beat of depth d = 1/2, largest 3 times smallest."""
+"""Standard deviation over mean of the amplitudes 1 + d cos of a beat with d = 1/2 (largest 3 times smallest)."""
 PER_CYCLE = 2
 SMALL = 2e-4, 1e-4
-"""Two epsilon, each small enough that the distance of theory and truth is proportional to it."""
-SAYINGS = [STABLE, UNSTABLE]
+"""Two values of epsilon, so small that the error of the theory is proportional to epsilon."""
+VERDICT_LABELS = [STABLE, UNSTABLE]
 DISPLACEMENTS = ["X1", "Y1", "X2", "Y2"]
 
 
 def steady_two_impacts(evidence, case):
-    """The simulated window repeats every cycle, and each ball meets each wall once in it."""
+    """Check that the simulated window repeats every cycle with one impact of each ball at each wall."""
     simulation = evidence.simulations[case]
     cycles = simulation.summary["settings"]["window_cycles"]
     change = simulation.summary["largest_change_after_cycles"]["1"]
@@ -49,14 +49,14 @@ def steady_two_impacts(evidence, case):
     alternate = all((np.diff(impacts.loc[impacts["module"] == i, "wall"]) != 0).all() for i in (1, 2))
     parts = {
         "repeats every cycle": change < 1e-6,
-        # One may lie on the edge of the window.
+        # One impact may lie on the edge of the window.
         "two impacts per cycle": all(abs(count - PER_CYCLE * cycles) <= 1 for count in counts) and alternate,
     }
     return Finding(parts, {"change after a cycle": change, "impacts": counts, "cycles": cycles})
 
 
 def numerical_results_are_similar(evidence, case, label):
-    """A simulated response against the predicted one: amplitudes C and B, and the symmetry that the prediction has."""
+    """Compare a simulated response with the predicted one: amplitudes C and B, and the symmetry."""
     row, simulation = evidence.points(case).loc[label], evidence.simulations[case]
     tau, displacements = (simulation.samples.iloc[:-1][names].to_numpy() for names in ("tau", DISPLACEMENTS))
     measured = measure(evidence.systems[case], tau, displacements, simulation.impacts)
@@ -75,7 +75,7 @@ def numerical_results_are_similar(evidence, case, label):
 
 
 def transients_are_long(evidence, case):
-    """Cycles in which the slowest perturbation of the attracting orbit shrinks to a tenth."""
+    """Count the cycles in which the slowest perturbation of the attracting orbit shrinks to a tenth."""
     motions = evidence.motions(case)
     stable = motions[motions["exact"] == STABLE]
     cycles = (np.log(0.1) / np.log(stable["modulus_1"])).max()
@@ -83,7 +83,9 @@ def transients_are_long(evidence, case):
 
 
 def only_possible_behaviour(evidence, case):
-    """No stable 1:1 response, and where starts end: those spread evenly, and the one from rest.
+    """Check that no 1:1 response is stable, and find the regimes that motions end in.
+
+    Initial states are spread evenly, and one is at rest.
 
     A motion with one ball idle is called that before anything else; how modulated its box is is told beside.
     """
@@ -104,7 +106,7 @@ def only_possible_behaviour(evidence, case):
 
 
 def no_practical_importance(evidence, case, label):
-    """The orbit of an unstable fixed point is not observed: it is unstable itself, and nothing stays near it."""
+    """Check that the orbit of an unstable fixed point is unstable and that no motion stays near it."""
     partner = evidence.points(case).loc[label, "orbit"]
     orbit = evidence.motions(case).set_index("label").loc[partner]
     parts = {"its orbit is not stable": orbit["exact"] != STABLE}
@@ -112,7 +114,7 @@ def no_practical_importance(evidence, case, label):
 
 
 def resonant_intervals(evidence, case):
-    """Bursts of resonant flights, and shorter gaps between them, irregular by the largest Lyapunov exponent."""
+    """Check for bursts of resonant flights with shorter gaps, and for irregularity by the Lyapunov exponent."""
     share, burst = (
         evidence.measured(case, "spread", quantity).set_index("module")["mean"].loc[[1, 2]].to_numpy()
         for quantity in ("resonant share", "burst length")
@@ -129,7 +131,7 @@ def resonant_intervals(evidence, case):
 
 
 def beating(evidence, case):
-    """Amplitudes of each box vary more than in a sinusoidal beat whose largest is 3 times its smallest."""
+    """Check that amplitudes of each box vary more than in a beat whose largest is 3 times its smallest."""
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
     found = rows["mean"].loc[[1, 2]]
     parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > LARGE for i in (1, 2)}
@@ -137,7 +139,7 @@ def beating(evidence, case):
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
-    """From case to case: fixed points stable by theory and by their exact orbits, and where the last motion ends."""
+    """Count stable fixed points from case to case, and find the regime of the last motion."""
     points = [evidence.points(case) for case in sequence]
     in_theory = [int((rows["theory"] == STABLE).sum()) for rows in points]
     exactly = [int((rows["exact"] == STABLE).sum()) for rows in points]
@@ -158,7 +160,7 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
 
 
 def unstable_means_modulated(evidence, case):
-    """The unstable case: the exact orbits of its fixed points are unstable, and spread starts end modulated.
+    """Check that the exact orbits of the unstable case are unstable and that motions end modulated.
 
     The chapter does not say it of every case; the shares of all cases without a stable fixed point stand beside.
     """
@@ -173,7 +175,10 @@ def unstable_means_modulated(evidence, case):
 
 
 def periodic_solutions(evidence, f10_hat, f20_hat):
-    """Every fixed point has an exact orbit that stays between the walls: of the cases, over a grid, at given forces."""
+    """Check that every fixed point has an admissible exact orbit.
+
+    The fixed points are those of the cases, of a grid, and of given forces.
+    """
     both = evidence.fixed_points.merge(
         evidence.orbits, left_on=["case", "orbit"], right_on=["case", "label"], suffixes=("", "_exact")
     )
@@ -199,13 +204,15 @@ def periodic_solutions(evidence, f10_hat, f20_hat):
 
 
 def _at_epsilon(evidence):
-    """The grid of verdicts at the epsilon of the cases."""
+    """Return the grid of verdicts at the epsilon of the cases."""
     grid = evidence.verdict_grid
     return grid[grid["epsilon"] == evidence.system.epsilon]
 
 
 def assesses_stability(evidence):
-    """Share of right verdicts of each criterion over a grid of forces, against the multipliers of the exact orbits.
+    """Measure the share of right verdicts of each criterion over a grid of forces.
+
+    The reference is the multipliers of the exact orbits.
 
     Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable. Points
     without an exact orbit are counted beside, stable then unstable.
@@ -215,12 +222,12 @@ def assesses_stability(evidence):
     for name, criterion in {"(10.26)": "printed_10_26", "fast and slow": "theory"}.items():
         for epsilon, rows in grid.groupby("epsilon", sort=False):
             found = pd.crosstab(rows[criterion], rows["exact"])
-            found = found.reindex(index=SAYINGS, columns=[*SAYINGS, NO_ORBIT], fill_value=0)
-            matrix = found[SAYINGS]
+            found = found.reindex(index=VERDICT_LABELS, columns=[*VERDICT_LABELS, NO_ORBIT], fill_value=0)
+            matrix = found[VERDICT_LABELS]
             numbers[f"{name}, epsilon = {epsilon}"] = matrix.to_numpy().tolist()
             numbers[f"{name}, epsilon = {epsilon}, no orbit"] = found[NO_ORBIT].to_list()
             if epsilon == evidence.system.epsilon:
-                for saying in SAYINGS:
+                for saying in VERDICT_LABELS:
                     right, predicted = matrix.loc[saying, saying], matrix.loc[saying].sum()
                     parts[f"{saying} by {name} is right, mostly"] = 2 * right > predicted
                     numbers[f"{saying} by {name}, share right"] = right / predicted if predicted else None
@@ -232,7 +239,9 @@ def assesses_stability(evidence):
 
 
 def restitution_far_from_unity(evidence, kappas, forces):
-    """At restitution coefficients from small to large: fixed points next to exact orbits, and balls between walls.
+    """Compare fixed points with exact orbits at restitution coefficients from small to large.
+
+    The balls must also stay between the walls.
 
     A fixed point is next to an orbit if their distance falls like epsilon; there must be as many of both. Where equal
     forces have no fixed point nothing is judged, so that each coefficient needs one at some of them.
@@ -251,7 +260,7 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
 
 def _points_beside_orbits(system, kappa, force):
-    """Fixed points at equal forces, and True if they are the limits of exact orbits, with no orbit left over."""
+    """Return the fixed points at equal forces, and True if they are the limits of all exact orbits."""
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)
     roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))

@@ -35,7 +35,7 @@ STEPS = 111
 
 
 def number_of_fixed_points(evidence, case, number):
-    """The list, proved complete in interval arithmetic."""
+    """Check the number of fixed points; interval arithmetic proves that the list is complete."""
     proof = evidence.proofs[case]["fixed_points"]
     listed = len(evidence.points(case))
     parts = {f"{number} with C1, C2 >= 0": listed == number and proof["complete"]}
@@ -43,7 +43,10 @@ def number_of_fixed_points(evidence, case, number):
 
 
 def phases_can_be_eliminated(evidence):
-    """Equations in B_i and C_i alone lead to all fixed points: each solves (10.23), and none is missing."""
+    """Check that equations in B_i and C_i alone lead to all fixed points.
+
+    Each solution satisfies (10.23), and none is missing.
+    """
     worst, complete = 0.0, True
     for case, system in evidence.systems.items():
         complete &= evidence.proofs[case]["fixed_points"]["complete"]
@@ -54,7 +57,7 @@ def phases_can_be_eliminated(evidence):
 
 
 def label_of_a_point(evidence, case, label, says):
-    """A caption's verdict on a point: against the theory with both time scales, and against its exact orbit."""
+    """Check a caption's verdict on a point against the theory and against its exact orbit."""
     row = evidence.points(case).loc[label]
     theory = row["theory"]
     parts = {
@@ -66,7 +69,7 @@ def label_of_a_point(evidence, case, label, says):
 
 
 def stable_points(evidence, case, number):
-    """The number of stable fixed points of a case: by each criterion of the theory, and by their exact orbits.
+    """Count the stable fixed points of a case by each criterion of the theory, and by their exact orbits.
 
     The fast criterion, derived, is what the chapter means: stability of the impacts with B and phase held. It is held
     against the captions too.
@@ -86,19 +89,22 @@ def stable_points(evidence, case, number):
 
 
 def _captions_right(verdicts, case):
-    """Number of a case's captions that agree with the verdicts on its points, by label."""
+    """Return the number of captions of a case that agree with the verdicts on its points, by label."""
     return sum(verdicts.get(label) == caption for label, caption in CAPTIONS[case].items())
 
 
 def on_the_left_arm(evidence, case, label, modules):
-    """Projections of a point against the fold of the manifold."""
+    """Compare the projections of a point with the fold of the manifold."""
     row, fold = evidence.points(case).loc[label], C_min(rho(evidence.systems[case].kappa))
     parts = {f"P{i}": row[f"C{i}"] < fold for i in modules}
     return Finding(parts, {"C": row[list(NAMES)].tolist(), "C_min": fold})
 
 
 def points_move_left(evidence, before, after):
-    """Every projection, from one case to the other, label by label; also the best that any pairing can do."""
+    """Compare all projections from one case to the other, label by label.
+
+    The best result of any pairing is reported as well.
+    """
     first, last = (evidence.points(case)[list(NAMES)] for case in (before, after))
     parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
     pairings = [int((last.loc[list(order)].to_numpy() < first.to_numpy()).sum()) for order in permutations(last.index)]
@@ -107,7 +113,7 @@ def points_move_left(evidence, before, after):
 
 
 def stable_point_moves_down_the_right_arm(evidence, before, after, label):
-    """Both projections of the point that the captions call stable in both cases, by its letter and by continuation.
+    """Compare both projections of the stable point of two captions, by label and by continuation.
 
     The point that bears the letter after is another one than that which continues it as the second amplitude falls.
     """
@@ -124,7 +130,10 @@ def stable_point_moves_down_the_right_arm(evidence, before, after, label):
 
 
 def _followed(evidence, before, after, C):
-    """C of the fixed point that continues another one, from case to case in small steps of the second amplitude."""
+    """Return the C of the fixed point that continues another one from case to case.
+
+    The second amplitude changes in small steps.
+    """
     start, end = evidence.systems[before], evidence.systems[after]
     for f20 in np.linspace(start.f20_hat, end.f20_hat, STEPS)[1:]:
         points = np.array([point.C for point in fixed_points(end.with_(f20_hat=f20))])
@@ -133,7 +142,10 @@ def _followed(evidence, before, after, C):
 
 
 def singular_and_bifurcating(evidence, case, f20_range):
-    """Does P_i on S_i go with a bifurcation? Where a point is singular, and where two of them merge."""
+    """Check if P_i on S_i coincides with a bifurcation.
+
+    The points at which a point is singular and at which two points merge are compared.
+    """
     system = evidence.systems[case]
     meeting = brentq(lambda f: _determinant_on_branch(system, f), *f20_range, xtol=1e-12)
     here = system.with_(f20_hat=meeting)
@@ -156,20 +168,23 @@ def singular_and_bifurcating(evidence, case, f20_range):
 
 
 def _determinant_on_branch(system, f20):
-    """The determinant of (10.24) at the point labelled like the second of the case with unequal forces."""
+    """Return the determinant of (10.24) at the point labelled like the second of the unequal case."""
     there = system.with_(f20_hat=f20)
     points = sorted(fixed_points(there), key=lambda point: point.C[1])
     return determinant(there, points[-2].C)
 
 
 def _nearest_singular(system, point):
-    """Distance in C of the nearer of both projections from its nearest singular point."""
+    """Return the distance in C of the nearer projection from its nearest singular point."""
     gaps = [np.abs(singular_points(system, point, i)[:, 0] - point.C[i - 1]) for i in (1, 2)]
     return np.concatenate(gaps).min(initial=np.inf)
 
 
 def places_of_singular_points(evidence, case, label):
-    """S_1 by two eliminations that both lead from (10.23) to equations in B_i, C_i; (10.24) is not printed."""
+    """Compare S_1 by two eliminations that both lead from (10.23) to equations in B_i, C_i.
+
+    (10.24) itself is not printed.
+    """
     system = evidence.systems[case]
     listed = fixed_points(system)
     point = next(p for name, p in zip(labels(system, listed), listed, strict=True) if name == label)
@@ -183,7 +198,7 @@ def places_of_singular_points(evidence, case, label):
 
 
 def _other_determinant(system, C):
-    """|K|^4 - |a_1 a_2|^2 (docs/derivation.md, section 8), times |z_1 z_2|^2, which keeps it finite."""
+    """Return |K|^4 - |a_1 a_2|^2 (docs/derivation.md, section 8), times |z_1 z_2|^2, which keeps it finite."""
     balance = Balance.of(system)
     z, q = balance.at(C)
     p = q + balance.K * z

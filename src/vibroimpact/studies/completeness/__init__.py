@@ -1,1 +1,1 @@
-"""Proofs that no fixed point and no symmetric orbit is missing."""
+"""Prove that no fixed point and no symmetric orbit is missing."""

@@ -1,4 +1,4 @@
-"""Proof that the list of symmetric 1:1 responses is complete, in interval arithmetic (python-flint's arb).
+"""Prove in interval arithmetic (python-flint's arb) that the list of symmetric 1:1 responses is complete.
 
 The equations of symmetric.py, P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))), are reduced
 once more. Eliminating the phase leaves one complex equation linear in the real C_1, C_2,
@@ -12,10 +12,10 @@ alone,
 
 Where D is not 0 the roots of F are exactly the solutions, each with one C and one phase. F is smooth on [0, T/2] and on
 [T/2, T]. These are bisected until on each interval F excludes 0, or F' and D do, so that the signs of F at the two ends
-tell whether there is one root or none. The domain is thereby everything: any lag, any phase, any real C. What stays
-open at the smallest width (a double root, a root at a kink) is reported.
+show if there is one root or none. The domain is complete: any lag, any phase, any real C. Intervals that are undecided
+at the smallest width (a double root, a root at a kink) are reported.
 
-Of a single machine, |P_kk C_k + i| = |a_k| is a quadratic equation for C_k.
+For a single machine, |P_kk C_k + i| = |a_k| is a quadratic equation for C_k.
 """
 
 import itertools
@@ -34,7 +34,7 @@ from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the depe
 
 _NARROWEST = 2.0**-24  # of the half period; float64's 53 bits in arb leave room below that
 _FIRST = 8
-_MOST = 10_000  # intervals to look at: the rest is reported as undecided
+_MOST = 10_000  # largest number of intervals; the rest is reported as undecided
 _TERMS = 3
 
 
@@ -54,9 +54,9 @@ class Proof:
 
 
 def certify(system) -> Proof:
-    """Prove how many symmetric 1:1 responses a system has, admissible or not.
+    """Prove the number of symmetric 1:1 responses of a system, admissible or not.
 
-    There is none where nothing is driven.
+    A system without forcing has none.
 
     Raises
     ------

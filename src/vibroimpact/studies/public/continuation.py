@@ -161,7 +161,7 @@ def bifurcation_curves(
             try:
                 path = Path(system.with_(**{names[1]: q}), names[:1])
             except ValueError as error:
-                warnings.warn(f"no {family.name} sought at {names[1]} = {q:.6g}: {error}", stacklevel=2)
+                warnings.warn(f"no search for {family.name} at {names[1]} = {q:.6g}: {error}", stacklevel=2)
                 continue
             values = np.linspace(low, high, count + 2)
             started += [

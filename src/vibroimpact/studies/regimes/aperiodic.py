@@ -1,4 +1,4 @@
-"""Name motions that do not repeat: by Lyapunov exponent, time in resonance, and recurrence."""
+"""Classify motions that do not repeat by Lyapunov exponent, time in resonance, and recurrence."""
 
 import numpy as np
 
@@ -8,15 +8,15 @@ from vibroimpact.studies.regimes.classification import CHAOTIC, HOPPING, QUASI_P
 from vibroimpact.studies.regimes.lyapunov import Measured, largest_exponent
 
 CERTAIN = 3.0
-"""Errors that count as the uncertainty of an exponent."""
+"""Number of standard errors used as the uncertainty of an exponent."""
 RESOLVED = 0.02
-"""Largest uncertainty, per forcing period, at which an exponent that may be 0 is called 0."""
+"""Largest uncertainty, per forcing period, at which an exponent consistent with 0 counts as 0."""
 RECURRENT = 0.1
-"""A motion recurs if it comes back to its beginning within this part of its extent, in every coordinate."""
+"""A motion recurs if it returns to its start within this fraction of its extent, in every coordinate."""
 RESONANT = (0.1, 0.9)
-"""Part of the time that a module spends in bursts: below, it is not in resonance; above, it is always."""
+"""Fractions of the time in bursts below which a module is never, and above which it is always, in resonance."""
 DISCARDED = 1
-"""Blocks before those that count."""
+"""Number of blocks of the transient."""
 LONGER = 10
 """Factor by which the second estimate of an exponent is longer, where the first leaves its sign open."""
 
@@ -31,16 +31,16 @@ NAMES = {
     (ZERO, ALWAYS): QUASI_PERIODIC,
     (ZERO, NEVER): QUASI_PERIODIC,
 }
-"""(sign of the largest exponent, when a module is in resonance) -> name; what is not listed is unsettled."""
+"""Name by (sign of the largest exponent, resonance); combinations that are not listed are unsettled."""
 
 
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
-    """Name of a motion that does not repeat, from a run over whole cycles and the motion after it.
+    """Return the name of a motion that does not repeat, from a run over whole cycles and its continuation.
 
     Parameters
     ----------
     blocks, block : int
-        Of the exponent, so many blocks of so many cycles.
+        Number of blocks of the exponent, and cycles per block.
     """
     found = sign(largest_exponent(run.system, run.final, blocks, block, DISCARDED))
     if found != POSITIVE:

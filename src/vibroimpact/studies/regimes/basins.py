@@ -1,4 +1,4 @@
-"""Basins of coexisting regimes on a plane of starts: the positions of both balls in their cavities."""
+"""Compute basins of coexisting regimes on the plane of the positions of both balls."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ def plane(state, points: int) -> np.ndarray:
 
     Boxes and all velocities are those of `state` (8,); the balls are anywhere between their walls.
 
-    W_1 = X_1 - Y_1 and W_2 take the middles of so many equal parts of (-1, 1), W_2 fastest.
+    W_1 = X_1 - Y_1 and W_2 are the midpoints of `points` equal parts of (-1, 1), W_2 fastest.
     """
     W1, W2 = (W.ravel() for W in np.meshgrid(*[centres((-1.0, 1.0), points)] * 2, indexing="ij"))
     states = np.tile(np.asarray(state, dtype=float), (points**2, 1))

@@ -1,4 +1,4 @@
-"""Curves of folds and of symmetry breaking of 1:1 responses in the plane of two parameters.
+"""Continue folds and symmetry breaking of 1:1 responses in the plane of two parameters.
 
 Along such a curve the equations of a response hold, and one function more vanishes: at a fold the determinant of their
 Jacobian; where the symmetry of an orbit breaks, that of the part of the asymmetric equations' Jacobian which maps
@@ -42,7 +42,7 @@ class Plane:
         Raises
         ------
         Lost
-            If there is none.
+            If there is no valid system.
         """
         try:
             return self.system.with_(**dict(zip(self.names, (float(p), float(q)), strict=True)))
@@ -86,7 +86,7 @@ class BifurcationCurve(Representation):
 
 
 def bifurcation_curves(
-    plane: Plane, branches: list[tuple[float, Branch]], longest: float, tell: Callable = lambda p, q: None
+    plane: Plane, branches: list[tuple[float, Branch]], longest: float, report: Callable = lambda p, q: None
 ) -> list[BifurcationCurve]:
     """Return the curves through the folds and symmetry breakings of some branches, within the rectangle.
 
@@ -96,7 +96,7 @@ def bifurcation_curves(
         Pairs of a value of the second parameter, and a Branch along the first one there.
     longest : float
         Longest step along a curve.
-    tell : callable, optional
+    report : callable, optional
         Called at each point, for a report of progress.
     """
     found, passed = [], []
@@ -108,7 +108,7 @@ def bifurcation_curves(
             curve = _curve(plane, *of)
             known = any(curve.passes(places, z) for one, places in passed if one == of)
             if plane.margin(z) >= 0 and not known:
-                points, places = curve.both_ways(z, partial(_half, plane, branch.family, curve, longest, tell))
+                points, places = curve.both_ways(z, partial(_half, plane, branch.family, curve, longest, report))
                 points = np.array(points)
                 passed.append((of, places))
                 systems = [plane(*point) for point in points[:, -2:]]
@@ -171,7 +171,7 @@ def _curve(plane, family, kind):
     return Curve(extended, same)
 
 
-def _half(plane, family, curve, longest, tell, start):
+def _half(plane, family, curve, longest, report, start):
     """Return the points and places on one side of the start, to where a ball speed vanishes or the rectangle ends."""
 
     def margin(z):
@@ -179,7 +179,7 @@ def _half(plane, family, curve, longest, tell, start):
 
     found, places = [], []
     for place in curve.trace(start, longest, inside=lambda z: margin(z) >= 0):
-        tell(*place.z[-2:])
+        report(*place.z[-2:])
         if place.determinant == 0:
             continue
         end = margin(place.z) < 0 and places and margin(places[-1].z) > 0

@@ -1,4 +1,4 @@
-"""Branches of 1:1 responses along a path through the parameters, with stability and special points."""
+"""Continue branches of 1:1 responses along a path through the parameters, with stability and special points."""
 
 import warnings
 from collections import deque
@@ -23,15 +23,15 @@ from vibroimpact.studies.regimes.families import (
 )
 from vibroimpact.system.representation import Representation, brief
 
-_EQUAL = 1e-6  # flights of unequal length differ by more; this near to an end of the interval a branch ends there
-_APART = 1e-3  # branch points less far apart are one, found again
+_EQUAL = 1e-6  # smallest difference of unequal flights; distance from the end of the interval at which a branch ends
+_APART = 1e-3  # closer branch points count as the same
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
 
 
 @dataclass(frozen=True)
 class Path:
-    """A line through the parameters: every named one has the value p, the others those of the system."""
+    """Line through the parameters: the named ones have the value p, the others those of the system."""
 
     system: object
     names: tuple[str, ...]
@@ -120,7 +120,7 @@ def branches(
     interval,
     seeds: Iterable[float],
     longest: float,
-    tell: Callable = lambda p: None,
+    report: Callable = lambda p: None,
     symmetric: Iterable[Branch] = (),
 ) -> list[Branch]:
     """Return all branches of a family within an interval of p that pass one of the seeds (values of p), or leave these.
@@ -137,7 +137,7 @@ def branches(
         Gives the system at p.
     longest : float
         Longest step along the curve.
-    tell : callable, optional
+    report : callable, optional
         Called with p at each seed and node, for a report of progress.
     symmetric : iterable of Branch, default ()
         Branches of symmetric orbits, which asymmetric ones leave.
@@ -147,8 +147,8 @@ def branches(
         return [np.append(x, z[-1]) for x in images(family, path(z[-1]), z[:-1], near[:-1])]
 
     curve = Curve(equations(family, path), same)
-    half = partial(_half, family, path, interval, curve, longest, tell)
-    starts = deque(_seeds(family, path, seeds, tell))
+    half = partial(_half, family, path, interval, curve, longest, report)
+    starts = deque(_seeds(family, path, seeds, report))
     for branch in symmetric if family is AsymmetricOrbits else ():
         breaking = [node for node in branch.special if node.kind == SYMMETRY_BREAKING]
         for node in breaking if branch.family is SymmetricOrbits else ():
@@ -161,11 +161,11 @@ def branches(
         if new and not any(curve.passes(branch.places, z) for branch in found):
             try:
                 nodes, places = curve.both_ways(z, half)
-            except Lost as error:  # other modules take part beside it, say
+            except Lost as error:  # for example, if other modules take part next to it
                 at = f"{family.name} at {' = '.join(path.names)} = {z[-1]:.6g}"
                 warnings.warn(f"{at} not followed: {error}", stacklevel=3)
                 continue
-            if len(places) > 1:  # else a seed at a branch point
+            if len(places) > 1:  # otherwise the seed is a branch point
                 found.append(Branch(family, nodes, places[-1].closing, places))
             for crossing in (np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT):
                 if all(np.abs(crossing - known).max() > _APART for known in crossings):
@@ -197,25 +197,25 @@ def images(family, system, x, near) -> list[np.ndarray]:
     return found
 
 
-def _seeds(family, path, seeds, tell):
+def _seeds(family, path, seeds, report):
     """Yield the roots z = (x, p) at the seeds."""
     for p in seeds:
-        tell(p)
+        report(p)
         try:
             roots = family.roots(path(p))
         except (ValueError, ArithmeticError) as error:
-            warnings.warn(f"no {family.name} sought at {' = '.join(path.names)} = {p:.6g}: {error}", stacklevel=4)
+            warnings.warn(f"no search for {family.name} at {' = '.join(path.names)} = {p:.6g}: {error}", stacklevel=4)
             continue
         yield from (np.append(root, p) for root in roots)
 
 
-def _half(family, path, interval, curve, longest, tell, start):
+def _half(family, path, interval, curve, longest, report, start):
     """Return the nodes and places on one side of the start."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
         z = place.z
-        tell(float(z[-1]))
+        report(float(z[-1]))
         system = path(z[-1])
         if place.determinant == 0:
             kind = SYMMETRY_BREAKING if _symmetric(family, system, z[:-1]) else BRANCH_POINT

@@ -1,4 +1,4 @@
-"""Names of regimes, and the recognition of those that repeat, from displacements and impacts over a window."""
+"""Recognise regimes that repeat, from displacements and impacts over a window."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -27,9 +27,12 @@ _PER_CYCLE = 2
 _MOST_STARTS = 1_000_000
 _NEWTON, _SETTLED = 12, 1e-11
 _SHRUNK, _LONGEST = 1e-6, 10_000
-"""A run that approaches a periodic motion is followed while the multipliers shrink its distance by so much, for so many
-cycles at most."""
-_REPEATED, _MIRRORED = 1e-8, 1e-6  # on a periodic motion known to rounding; mirror images part with a square root
+"""A run that approaches a periodic motion is followed until the multipliers shrink its distance by the factor _SHRUNK,
+for at most _LONGEST cycles."""
+_REPEATED, _MIRRORED = (
+    1e-8,
+    1e-6,
+)  # the first for a periodic motion known to rounding; the asymmetry of mirror images grows like a square root
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +62,7 @@ class Regime:
     def flight_asymmetry(self) -> float:
         """Difference of the mean times that the balls fly from wall +1 and from wall -1, over the period, summed.
 
-        It tells mirror images of an asymmetric response apart.
+        Its sign distinguishes the mirror images of an asymmetric response.
         """
         total = 0.0
         for module in (1, 2):
@@ -79,8 +82,8 @@ def classify_after(system, state, window: int, nearness: float) -> Regime:
 
     Where no displacement changes by more than `nearness` after some number of cycles, Newton's method goes from there
     to the periodic motion itself, if an attracting one is that near and the run approaches it (`_approaches`); the
-    window is then on that motion. This tells a slow spiral into a 1:1 response from a modulated motion before the
-    spiral ends. What does not repeat is called unsettled here (see `settling`).
+    window is then on that motion. This distinguishes a slow spiral into a 1:1 response from a modulated motion before
+    the spiral ends. A motion that does not repeat is unsettled here (see `settling`).
     """
     run = _window(system, state, window)
     if not _at_rest(run).any():
@@ -103,8 +106,8 @@ class Cycle(NamedTuple):
 def attracting_cycle(system, state, cycles: int, reach: float) -> Cycle | None:
     """Return the attracting periodic motion of a number of cycles that Newton's method finds near a state.
 
-    None if there is none within `reach`, or one with a multiplier on or outside the unit circle. A module that takes no
-    part keeps its state.
+    The result is None if there is none within `reach`, or if a multiplier is on or outside the unit circle. A module
+    that takes no part keeps its state.
     """
     x, moves = np.array(state), takes_part(system)
     block = np.ix_(moves, moves)
@@ -151,7 +154,7 @@ def _distance(run, samples):
 
 
 def classify(run: Run) -> tuple[str, int | None]:
-    """Name of a settled regime and number of cycles after which it repeats (None: it does not), from a window.
+    """Return the name of a settled regime and the number of cycles after which it repeats, or None.
 
     run: samples every half period, both ends included.
 
@@ -185,7 +188,7 @@ def _at_rest(run):
 
 
 def _of_modules(system, places):
-    """Return the those of some places in the state that are of modules that take part."""
+    """Return those of the given indices of the state that belong to modules that take part."""
     moves = takes_part(system)
     return [place for place in places if moves[place]]
 

@@ -1,4 +1,4 @@
-"""Forces along a path at which the response is modulated: predicted by the slow flow, and observed in simulations."""
+"""Find forces along a path at which the response is modulated: predicted by the slow flow, and simulated."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ FORMER = {"who": "source"}
 """Columns by their former names, which the table has until the next release."""
 SLOW_FLOW, SIMULATION = "slow flow", "simulation"
 _FOLLOWED = 300, 300
-"""Cycles that count, and cycles before those, in which a ball may be lost for good."""
+"""Cycles of the window and of the transient, in which a ball may leave resonance forever."""
 
 
 def predicted(path, values) -> np.ndarray:

@@ -12,8 +12,11 @@ DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 
 
 class Watched(NamedTuple):
-    """Spectrum of a motion without the cycles in which both balls stick at once; bootstrap errors of its exponents
-    and of its dimension; how many cycles were left out."""
+    """Spectrum of a motion without the cycles in which both balls stick at once.
+
+    errors, dimension_error: bootstrap errors of its exponents and of its dimension. double_sticks: number of cycles
+    left out.
+    """
 
     spectrum: Spectrum
     errors: np.ndarray
@@ -22,8 +25,10 @@ class Watched(NamedTuple):
 
 
 def watch(system, states, cycles: int, block: int) -> list[Watched]:
-    """Watch each motion over so many cycles after ten blocks of them; the blocks are those of the bootstrap, which
-    needs two."""
+    """Return the spectrum of each motion over `cycles` cycles after a transient of ten blocks.
+
+    The blocks are those of the bootstrap, which needs at least two.
+    """
     found, block = [], max(1, min(block, cycles // 2))
     for state in states:
         one = spectrum(system, state, cycles, 10 * block)

@@ -1,4 +1,4 @@
-"""The predicted cost of a sweep, and the number of tiles that it is cut into; with the standard library alone."""
+"""Predict the cost of a sweep and its number of tiles; only the standard library is used."""
 
 import math
 from collections.abc import Mapping
@@ -6,11 +6,11 @@ from collections.abc import Mapping
 CYCLE = 5e-6
 """Core seconds of a forcing cycle of one start, observed (`make benchmark`; a settled cycle has four impacts)."""
 POINT = 0.01
-"""Core seconds of a point beside its simulations: flow tables, fixed points, orbits."""
+"""Core seconds of a point without its simulations: flow tables, fixed points, orbits."""
 RETESTED = 0.1
-"""The share of starts whose motion does not repeat, so that its name is tried over `retest` cycles."""
+"""Assumed share of motions that do not repeat and are tested over `retest` cycles."""
 MOST_TILES = 10_000
-"""A file and a job each."""
+"""Largest number of tiles, each of which is a file and a job."""
 
 
 def points(axes: list[Mapping]) -> int:
@@ -19,7 +19,7 @@ def points(axes: list[Mapping]) -> int:
 
 
 def core_seconds(request: Mapping) -> float:
-    """Predict the core seconds of a sweep, within a factor of some two.
+    """Predict the core seconds of a sweep, within a factor of about two.
 
     Parameters
     ----------

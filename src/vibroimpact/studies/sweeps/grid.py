@@ -1,4 +1,4 @@
-"""The grid of a sweep: the values that parameters move through, alone or together, and the systems there."""
+"""Grid of a sweep: the values of parameters that vary alone or together, and the systems at its points."""
 
 import math
 from collections.abc import Sequence
@@ -13,12 +13,12 @@ LINEAR, LOGARITHMIC = "linear", "logarithmic"
 SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
 """Spacings of the values of an axis between its ends."""
 LEAPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
-"""Steps that, taken again and again modulo 1, spread evenly over a line, over a square (Roberts 2018)."""
+"""Steps whose multiples modulo 1 spread evenly over a line, over a square (Roberts 2018)."""
 
 
 @dataclass(frozen=True)
 class Axis:
-    """Parameters that move together through values, all dimensionless; a value is that of all, or has one for each."""
+    """Dimensionless parameters that vary together; a value applies to all, or has one number for each."""
 
     along: tuple[str, ...]
     values: tuple[float | tuple[float, ...], ...]
@@ -84,7 +84,7 @@ class Grid:
         Raises
         ------
         ValueError
-            If there is none; it says where.
+            If there is no valid system; the message names the point.
         """
         place = self.place(number)
         try:
@@ -101,6 +101,6 @@ class Grid:
         return range(number - 1, len(self), tiles)
 
     def spread(self, most: int) -> list[int]:
-        """Return at most `number` different points, evenly spread over the grid."""
+        """Return at most `most` different points, evenly spread over the grid."""
         steps = np.outer(np.arange(most) + 0.5, LEAPS[len(self.shape)]) % 1.0
         return sorted({int(np.ravel_multi_index((step * self.shape).astype(int), self.shape)) for step in steps})

@@ -1,4 +1,4 @@
-"""Observations of a sweep at a point: each is one function from a system to the numbers of its columns."""
+"""Observations of a sweep at a point; each is a function from a system to the values of its columns."""
 
 import numpy as np
 
@@ -29,9 +29,9 @@ COLUMNS = {
     FIXED_POINTS: ("fixed_points", "stable_points"),
     ORBITS: ("orbits", "stable_orbits"),
 }
-"""The columns of each observation, in their order."""
+"""Columns of each observation, in order."""
 LOW, HIGH = 0.05, 0.95
-"""An envelope leaves out so much of the cycles below, and above."""
+"""Quantiles of the amplitudes per cycle that form an envelope."""
 
 
 def observed(system, spec: Spec) -> dict:
@@ -53,7 +53,7 @@ def _regimes(system, states, spec):
 
 
 def _amplitudes(system, states, spec):
-    """Over all starts the largest |X_i|, the root mean square of X_i and the mean speed of the balls."""
+    """Return the largest |X_i|, the root mean square of X_i and the mean ball speeds, over all starts."""
     runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
     if not len(done):
@@ -94,9 +94,9 @@ def _one_ball(runs):
 
 
 def _energy(system, states, spec):
-    """Return the share of the impacts in the work of the forces, over starts with impacts; number of starts without.
+    """Return the share of the impacts in the work of the forces, and the number of starts without impacts.
 
-    A start whose balls rest is another motion, without impacts: its work is in no share.
+    Starts whose balls stay at rest are excluded from the share.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]

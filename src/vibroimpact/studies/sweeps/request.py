@@ -1,4 +1,4 @@
-"""The request of a sweep as plain data that jobs hand on: parameters, axes and observations."""
+"""Request of a sweep as plain data: parameters, axes and observations."""
 
 from collections.abc import Mapping
 
@@ -8,7 +8,7 @@ from vibroimpact.system import System
 
 
 def parsed(request: Mapping) -> tuple[Grid, Spec]:
-    """Return the grid and the observations there.
+    """Return the grid and the observations of a request.
 
     Parameters
     ----------

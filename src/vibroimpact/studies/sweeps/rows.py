@@ -1,4 +1,4 @@
-"""The table of a sweep: names of its columns, and a row per point."""
+"""Table of a sweep: names of its columns, and a row per point."""
 
 from collections.abc import Iterable, Iterator
 
@@ -16,12 +16,12 @@ def columns(grid: Grid, spec: Spec) -> list[str]:
 def rows(grid: Grid, spec: Spec, numbers: Iterable[int]) -> Iterator[dict]:
     """Yield a row for each of some points.
 
-    A point where something cannot be computed is left blank and says why: it does not cost the others.
+    If an observation fails at a point, its fields are blank and the reason is recorded; other points are not affected.
 
     Raises
     ------
     ValueError
-        If a point has no system.
+        If a point does not give a valid system.
     """
     for number in numbers:
         row = {POINT: number, **grid.place(number)}

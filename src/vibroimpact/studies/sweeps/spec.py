@@ -1,4 +1,4 @@
-"""The observations that a sweep makes at every point, and their settings; loads without the engine."""
+"""Observations of a sweep at every point, and their settings; this module does not load the engine."""
 
 from dataclasses import dataclass
 
@@ -7,9 +7,9 @@ from vibroimpact.studies.sweeps.grid import axis
 REGIMES_OF, AMPLITUDES, ENVELOPES, PEAKS, ENERGY = "regimes", "amplitudes", "envelopes", "peaks", "energy"
 FIXED_POINTS, ORBITS = "fixed_points", "orbits"
 SIMULATED = (REGIMES_OF, AMPLITUDES, ENVELOPES, ENERGY)
-"""Observations that simulate, from every start; PEAKS does, too, all along its band."""
+"""Observations that simulate every start; PEAKS does so as well, along its band."""
 POINT, FAILED = "point", "failed"
-"""Columns of every table: the number of the point, and why it could not be observed, "" if it could."""
+"""Columns of every table: the number of the point, and the reason of a failure, or ""."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,6 @@ class Spec:
 
     @property
     def runs(self) -> int:
-        """Starts that are simulated at a point, for each observation anew."""
+        """Number of runs at a point, over all observations."""
         along_band = len(axis(**self.band).values) if PEAKS in self.observe else 0
         return self.starts * (along_band + sum(name in SIMULATED for name in self.observe))
