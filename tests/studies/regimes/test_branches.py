@@ -276,10 +276,12 @@ def test_a_closed_branch_is_followed_once_round():
 def test_a_seed_at_a_resonance_is_skipped_with_its_reason(chapter):
     """Undamped boxes at their resonance, sigma_e_hat = 0, have no steady motion; the other seeds find theirs."""
     system = chapter(sigma20_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
-    with pytest.warns(UserWarning, match=r"^no search for fixed point at sigma_e_hat = 0: [^\n]*resonance[^\n]*$") as told:
+    with pytest.warns(
+        UserWarning, match=r"^no search for fixed point at sigma_e_hat = 0: [^\n]*resonance[^\n]*$"
+    ) as caught:
         found = vi.branches(system, "sigma_e_hat", (-0.1, 0.1), of="theory", seeds=3)
-    assert len(told) == 1
-    assert told[0].filename == __file__
+    assert len(caught) == 1
+    assert caught[0].filename == __file__
     for p in (-0.07, 0.04):
         roots = roots_at(FixedPoints, system.with_(sigma_e_hat=p))
         assert matched([C for one in found for C in crossings(one, p)], roots)
