@@ -48,7 +48,7 @@ def test_the_choices_are_the_two_cheapest_tested_methods_that_are_accurate_enoug
     ]
     verdicts = [("a", "right"), ("a", "silently wrong"), ("b", "right"), ("c", "right"), ("d", "right")]
     work_precision = pd.DataFrame(runs)
-    compared = compare(work_precision, pd.DataFrame(verdicts, columns=["method", "verdict"]))
+    compared = methods_table(work_precision, pd.DataFrame(verdicts, columns=["method", "verdict"]))
     found = choices(work_precision, compared)
     assert found[["error", "choice", "method", "setting", "seconds_per_cycle"]].to_numpy().tolist() == [
         [1e-6, 1, "b", "2", 1.0],

@@ -37,7 +37,7 @@ def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> p
 
 
 def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
-    """Return the two cheapest stress-tested methods for each problem and error, from two tables: `methods_table` and its input.
+    """Return the two cheapest stress-tested methods for each problem and error; `compared` is the `methods_table`.
 
     Columns problem, error (largest allowed, without missed or spurious impacts), choice (1, 2), method, setting,
     seconds_per_cycle, wrong (stress tests with a silently wrong result), tests.
