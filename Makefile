@@ -77,16 +77,19 @@ test: development  ## run linters and the test suite, including one run of the p
 test-all: export THOROUGH := 1
 test-all: test  ## run `test` and the slow tests: Slurm with faults, byte-identical rebuild, all kinds of faults
 
-matrix: set-up  ## set up, build and test on each Python with locked, lowest and newest packages (PYTHONS="3.12" PACKAGES="lock")
-	@.venv/bin/python workflow/matrix.py $(if $(PYTHONS),--python $(PYTHONS)) $(if $(PACKAGES),--packages $(PACKAGES))
+# Tools that need no place in the lock.
+TOOL = $(TEMPORARY) .venv/bin/uv tool run --cache-dir .cache/uv
+
+matrix: set-up  ## set up, build and test on each Python with locked, lowest and newest packages (NOX="--python 3.12 -k lock")
+	$(TOOL) nox==2026.10.20 --session matrix --envdir .cache/nox $(NOX)
 
 dist: set-up  ## build wheel and source distribution into dist/ and check their metadata
 	rm -rf dist
 	.venv/bin/python -m hatchling build -d dist
-	$(TEMPORARY) .venv/bin/uv tool run --cache-dir .cache/uv twine==7.0.0 check --strict dist/*
+	$(TOOL) twine==7.0.0 check --strict dist/*
 
 release: set-up  ## set the version in all files and date the changelog entry (VERSION=0.2.0)
-	@.venv/bin/python workflow/release.py "$(VERSION)"
+	$(TOOL) bump-my-version==1.8.1 bump --new-version "$(VERSION)"
 
 explore: development  ## run property-based tests with new random examples (SEED=... repeats a run)
 	@seed=$${SEED:-$$RANDOM}; again="make explore SEED=$$seed"; echo "$$again"; \

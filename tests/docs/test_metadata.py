@@ -1,6 +1,6 @@
 """What describes the project to others: citation, deposit, catalog, changelog, and the files of .github."""
 
-import itertools
+import ast
 import json
 import re
 import tomllib
@@ -9,11 +9,10 @@ import pytest
 import yaml
 from packaging.version import Version
 
-import matrix
-import release
 from pipeline_trees import ROOT
 
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
+PLACES = "pyproject.toml", "CITATION.cff", "CITATION.bib", ".zenodo.json", "codemeta.json"
 FORMS = sorted((ROOT / ".github/ISSUE_TEMPLATE").glob("*.yml"))
 
 
@@ -31,7 +30,7 @@ def bibtex(entry) -> dict[str, str]:
 
 def described(root):
     """pyproject's project, CITATION.cff, .zenodo.json, codemeta.json and CITATION.bib, each by a parser of its own."""
-    texts = [(root / name).read_text(encoding="utf-8") for name in release.PLACES]
+    texts = [(root / name).read_text(encoding="utf-8") for name in PLACES]
     parsers = (lambda text: tomllib.loads(text)["project"], yaml.safe_load, bibtex, json.loads, json.loads)
     return [parse(text) for parse, text in zip(parsers, texts, strict=True)]
 
@@ -67,55 +66,19 @@ def test_the_changelog_has_a_dated_section_for_each_version_newest_first_and_the
     assert kinds <= {"Added", "Changed", "Deprecated", "Removed", "Fixed", "Security"}
 
 
-@pytest.fixture
-def copy(tmp_path, monkeypatch):
-    """The files that bear the version, for a release."""
-    for name in (*release.PLACES, "CHANGELOG.md"):
-        (tmp_path / name).write_text(text(name), encoding="utf-8")
-    monkeypatch.setattr(release, "ROOT", tmp_path)
-    return tmp_path
-
-
-def test_a_release_is_the_same_version_everywhere_and_dated_and_the_next_one_is_not(copy, capsys):
-    release.main(["77.1.0"])
-    assert {one["version"] for one in described(copy)} == {"77.1.0"}
-    date = described(copy)[1]["date-released"]
-    assert described(copy)[2]["year"] == date[:4]
-    log = (copy / "CHANGELOG.md").read_text(encoding="utf-8")
-    assert f"## [Unreleased]\n\n## [77.1.0] - {date}\n\nThe" in log
-    assert "git tag v77.1.0" in capsys.readouterr().out
-    release.main(["--changes", "77.1.0"])
-    assert capsys.readouterr().out.strip() == text("CHANGELOG.md").split("## [Unreleased]")[1].split("\n## ")[0].strip()
-    release.main(["77.2.0.dev0"])
-    assert {one["version"] for one in described(copy)} == {"77.2.0.dev0"}
-    assert "date-released" not in described(copy)[1]
-    assert (copy / "CHANGELOG.md").read_text(encoding="utf-8") == log
-
-
-@pytest.mark.parametrize(
-    ("version", "edit", "said"),
-    [
-        ("1.0", None, "expected a version such as 0.2.0"),
-        ("77.1.0", ("CHANGELOG.md", "## [Unreleased]", "## [Unreleased]\n\n## [77.0.0] - 2026-01-01"), "no entries in"),
-        ("77.1.0", ("CHANGELOG.md", "## [Unreleased]", "## [77.1.0] - 2026-01-01"), "77.1.0 already exists"),
-        ("77.1.0", ("codemeta.json", '"version"', '"release"'), "found 0 times"),
-    ],
-)
-def test_a_release_that_cannot_be_is_refused_in_a_line_and_changes_nothing(copy, capsys, version, edit, said):
-    if edit:
-        name, old, new = edit
-        (copy / name).write_text(text(name).replace(old, new), encoding="utf-8")
-    before = {path.name: path.read_bytes() for path in copy.iterdir()}
-    with pytest.raises(SystemExit) as refused:
-        release.main([version])
-    assert said in str(refused.value) + capsys.readouterr().err
-    assert {path.name: path.read_bytes() for path in copy.iterdir()} == before
+def test_a_release_finds_each_version_and_date_once():
+    changes = tomllib.loads(text("pyproject.toml"))["tool"]["bumpversion"]["files"]
+    assert {change["filename"] for change in changes} == {*PLACES, "CHANGELOG.md"}
+    for change in changes:
+        assert len(re.findall(change["search"], text(change["filename"]), re.MULTILINE)) == 1
 
 
 def test_continuous_integration_runs_the_whole_matrix():
     asked = yaml.safe_load(text(".github/workflows/ci.yml"))["jobs"]["matrix"]["strategy"]["matrix"]
-    combinations = set(itertools.product(asked["python"], asked["packages"]))
-    assert combinations == set(itertools.product(matrix.named_pythons(ROOT), matrix.PACKAGES))
+    classifiers = tomllib.loads(text("pyproject.toml"))["project"]["classifiers"]
+    assert [f"Programming Language :: Python :: {version}" for version in asked["python"]] == classifiers[3:6]
+    sets = re.search(r"^PACKAGES = (.*)$", text("noxfile.py"), re.MULTILINE)[1]
+    assert asked["packages"] == list(ast.literal_eval(sets))
 
 
 def test_actions_are_pinned_by_commits_and_the_same_in_every_workflow():
