@@ -7,7 +7,7 @@ import nox
 
 ROOT = Path(__file__).parent
 PYTHONS = nox.project.python_versions(nox.project.load_toml(ROOT / "pyproject.toml"))
-PACKAGES = {"lock": None, "lowest": "lowest-direct", "newest": "highest"}
+PACKAGES = [nox.param(None, id="lock"), nox.param("lowest-direct", id="lowest"), nox.param("highest", id="newest")]
 """Resolution strategy of uv for each set of packages; None uses the locks."""
 PIN = (
     *("pip", "compile", "pyproject.toml", "--output-file", "environment.lock", "--upgrade", "--all-extras"),
@@ -20,15 +20,15 @@ nox.options.download_python = "never"
 
 
 @nox.session(python=PYTHONS)
-@nox.parametrize("packages", PACKAGES)
-def matrix(session, packages):
+@nox.parametrize("strategy", PACKAGES)
+def matrix(session, strategy):
     """Run the make targets in a clone, with locked, lowest or newest packages."""
     clone = Path(session.create_tmp()) / "clone"
     shutil.rmtree(clone, ignore_errors=True)
     session.run("git", "clone", "--quiet", ROOT, clone, external=True)
     python = Path(session.bin, "python")
     with session.chdir(clone):
-        if strategy := PACKAGES[packages]:
+        if strategy:
             Path("development.lock").write_text("", encoding="utf-8")
             # As `make lock` does, without packages that no target needs.
             Path("excluded.txt").write_text("snakemake-executor-plugin-slurm\njupyterlab\n", encoding="utf-8")

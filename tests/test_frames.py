@@ -3,13 +3,11 @@
 import pickle
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact import frames
-from vibroimpact.accuracy import verdict_table
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 RUN = vi.simulate(SYSTEM, [0.0] * 8, 60, tau0=2.0)
@@ -182,12 +180,3 @@ def test_parameters_that_move_together_share_a_dimension():
         vi.to_dataset(rows, ["mass"])
     with pytest.raises(ValueError, match=r"^rows: expected one row per point"):
         vi.to_dataset(rows, ["kappa"])
-
-
-def test_columns_stay_under_their_former_names_last():
-    former = verdict_table.FORMER
-    names = list(former.values())
-    table = frames.with_former_names(pd.DataFrame(np.eye(len(names)), columns=names), former)
-    assert list(table) == [*names, *former]
-    for old, new in former.items():
-        assert table[old].equals(table[new].rename(old))

@@ -3,7 +3,7 @@
 pandas, xarray and Matplotlib are imported on first use.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -57,19 +57,6 @@ def to_frame(result: Any) -> "pandas.DataFrame":
         f"result: unsupported type {kind}; expected a run, an ensemble, basins, "
         "or a list of fixed points, orbits, branches or rows"
     )
-
-
-def with_former_names(table: "pandas.DataFrame", former: Mapping[str, str]) -> "pandas.DataFrame":
-    """Return the table with some columns repeated under their former names, as the last columns.
-
-    Former names stay for one release.
-
-    Parameters
-    ----------
-    former : mapping
-        Present column name by former name.
-    """
-    return table.assign(**{old: table[name] for old, name in former.items()})
 
 
 def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dataset":

@@ -3,15 +3,12 @@
 import pickle
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
 from compiled_code import compiled_late
-from vibroimpact import frames
 from vibroimpact.cli.parser import main
-from vibroimpact.studies.regimes import onset
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 DESIGN = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9 --plot design.png"
@@ -98,14 +95,6 @@ def test_a_sweep_as_a_dataset_over_its_grid(tmp_path):
                 == row["fixed_points"]
             )
         assert data["fixed_points"].units == data["f10_hat"].units == "1"
-
-
-def test_columns_stay_under_their_former_names_last():
-    names = list(onset.FORMER.values())
-    table = frames.with_former_names(pd.DataFrame(np.eye(len(names)), columns=names), onset.FORMER)
-    assert list(table) == [*names, *onset.FORMER]
-    for old, new in onset.FORMER.items():
-        assert table[old].equals(table[new].rename(old))
 
 
 def test_a_picture_of_a_design_without_its_extra_says_so(monkeypatch, capsys):

@@ -282,9 +282,3 @@ def test_attractors_and_basins_count_their_starts_on_a_terminal(monkeypatch, cap
     vi.basins(SYSTEM, {"W1": [0.1, 0.2]}, observation=few, progress=False)
     vi.attractors(SYSTEM, states, few, progress=False)
     assert capsys.readouterr().err == ""
-
-
-def test_the_former_name_of_a_verdict_still_answers():
-    [first, *_] = vi.fixed_points(SYSTEM)
-    with pytest.deprecated_call():
-        assert first.stability.both == first.stability.theory

@@ -11,7 +11,7 @@ from vibroimpact_pipeline.jobs import running
 import pandas as pd
 
 from vibroimpact import tables
-from vibroimpact.accuracy.verdict_table import CRITERIA, FORMER, fixed_point_rows, orbit_rows
+from vibroimpact.accuracy.verdict_table import CRITERIA, fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.proof.table import proof_rows
 from vibroimpact.exact.orbits.search import search
 from vibroimpact.system import System
@@ -22,7 +22,7 @@ with running(snakemake) as out:
     points, found = fixed_point_table(case, system).drop(columns="multiple"), search(system)
     orbits = orbit_rows(case, found.orbits)
     labelled = [(point.label, point) for point in labelled_points(points)]
-    verdicts = fixed_point_rows(case, system, labelled, orbits)[["label", "admissible", "orbit", *CRITERIA, *FORMER]]
+    verdicts = fixed_point_rows(case, system, labelled, orbits)[["label", "admissible", "orbit", *CRITERIA]]
     tables.write(points.merge(verdicts, on="label", validate="one_to_one"), out.points)
     tables.write(pd.concat([orbits, proof_rows(found.orbits)], axis="columns"), out.orbits)
     listed = sum(not orbit.symmetric for orbit in found.orbits)

@@ -3,11 +3,10 @@
 import numpy as np
 
 from vibroimpact.exact.orbits.floquet import floquet
-from vibroimpact.frames import with_former_names
 from vibroimpact.system.extras import need
 from vibroimpact.system.state import NAMES
 from vibroimpact.theory import criteria
-from vibroimpact.theory.criteria import EXACT, FAST, SLOW
+from vibroimpact.theory.criteria import EXACT
 from vibroimpact.theory.manifold import stays_within_walls
 
 need("figures", "pandas")
@@ -15,8 +14,6 @@ need("figures", "pandas")
 import pandas as pd  # noqa: E402 (after the dependency check)
 
 CRITERIA = (*criteria.CRITERIA, EXACT)
-FORMER = {"masri_derived": FAST, "slow_flow": SLOW, "floquet": EXACT}
-"""Former names of columns; tables contain them as well until the next release."""
 NO_ORBIT = "no orbit"
 REACH = 1.0
 """Largest distance in C between a fixed point and its orbit. Over the grid of forces at epsilon = 0.1 the distances are
@@ -48,7 +45,7 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
         moduli[: len(orbit.multipliers)] = np.abs(orbit.multipliers)
         numbers += [*moduli, *orbit.state]
         rows.append([*kind, *numbers, orbit.residual, *(verdicts[criterion] for criterion in CRITERIA)])
-    return with_former_names(pd.DataFrame(rows, columns=_OF_ORBIT), FORMER)
+    return pd.DataFrame(rows, columns=_OF_ORBIT)
 
 
 def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.DataFrame:
@@ -79,7 +76,7 @@ def fixed_point_rows(case: str, system, labelled, orbits: pd.DataFrame) -> pd.Da
         row = {"case": case, "label": label, "admissible": within, "C1": point.C[0], "C2": point.C[1]}
         rows.append({**row, "orbit": orbit, **verdicts})
     columns = ["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA]
-    return with_former_names(pd.DataFrame(rows, columns=columns), FORMER)
+    return pd.DataFrame(rows, columns=columns)
 
 
 def partners(points, orbits) -> list[int | None]:

@@ -6,7 +6,6 @@ derived in docs/stability.md), slow (the slow flow), theory (both together) and 
 exact orbit).
 """
 
-import warnings
 from typing import NamedTuple
 
 import numpy as np
@@ -39,12 +38,6 @@ class Stability(NamedTuple):
     def theory(self) -> str:
         """Verdict of both together."""
         return all_stable(self)
-
-    @property
-    def both(self) -> str:
-        """Former name of `theory`."""
-        warnings.warn("Stability.both is deprecated; use Stability.theory", DeprecationWarning, stacklevel=2)
-        return self.theory
 
     def __str__(self) -> str:
         return f"{self.theory} (fast {self.fast}, slow {self.slow})"

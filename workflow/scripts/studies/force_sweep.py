@@ -8,12 +8,9 @@ from vibroimpact_pipeline.jobs import running
 import numpy as np
 
 from vibroimpact import tables
-from vibroimpact.accuracy.verdict_table import FORMER
 from vibroimpact.figures.plotting.style import save
-from vibroimpact.frames import with_former_names
 from vibroimpact.studies.figures.force_sweep import VERDICTS, compute, draw
 from vibroimpact.system import System
-from vibroimpact.theory.criteria import THEORY
 
 
 def for_page(found: dict, values: list) -> dict:
@@ -40,6 +37,6 @@ with running(snakemake) as out:
     values = np.round(np.linspace(*settings["range"], settings["values"]), 6).tolist()
     systems = {value: System(**parameters | {"f20_hat": value}) for value in values}
     found = compute(systems, settings["C_max"])
-    tables.write(with_former_names(found["points"], FORMER | {"fast_and_slow": THEORY}), out.csv)
+    tables.write(found["points"], out.csv)
     Path(out.json).write_text(json.dumps(for_page(found, values), separators=(",", ":")) + "\n", encoding="utf-8")
     save(draw(found), vars(out))

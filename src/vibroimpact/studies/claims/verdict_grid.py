@@ -2,11 +2,10 @@
 
 import pandas as pd
 
-from vibroimpact.accuracy.verdict_table import FORMER, NO_ORBIT, partners
+from vibroimpact.accuracy.verdict_table import NO_ORBIT, partners
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, symmetric_solutions_under
-from vibroimpact.frames import with_former_names
 from vibroimpact.studies.regimes.midpoint_grid import plane_of_forces
 from vibroimpact.theory import criteria
 from vibroimpact.theory.criteria import EXACT
@@ -36,7 +35,7 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
                 for (point, verdicts), found in zip(judged, exact, strict=True)
             ]
     columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *criteria.CRITERIA, *NO_MOTION]
-    return with_former_names(pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True), FORMER)
+    return pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True)
 
 
 def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:

@@ -17,7 +17,6 @@ from vibroimpact.figures.plotting.style import (
     new_figure,
     styled,
 )
-from vibroimpact.frames import with_former_names
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
 from vibroimpact.studies.regimes import onset
 from vibroimpact.studies.regimes.branches import Path, branches
@@ -112,7 +111,6 @@ SPEC = {
                     "without one", "unit": "dimensionless"},
                 "uncertainty": {"meaning": "of the ends: from one value of `p` to the next", "unit": "dimensionless"},
                 "agreement": {"meaning": "part of the values of `p` at which both say the same", "unit": "share"},
-                "who": {"meaning": "former name of `source`, until the next release", "unit": "text"},
             },
         },
     },
@@ -195,7 +193,7 @@ def compute(
         "attractors": pd.concat(attracting, ignore_index=True),
         "cases": pd.DataFrame(cases, columns=["panel", "case", "p"]),
         "special_points": _special_points(nodes, names),
-        "onsets": with_former_names(pd.DataFrame(onsets, columns=onset.COLUMNS), onset.FORMER),
+        "onsets": pd.DataFrame(onsets, columns=onset.COLUMNS),
     }
 
 

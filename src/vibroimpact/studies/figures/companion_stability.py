@@ -3,9 +3,7 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.accuracy.verdict_table import FORMER
 from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, new_figure, styled
-from vibroimpact.frames import with_former_names
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 SPEC = {
@@ -18,7 +16,7 @@ SPEC = {
     "method": "verdicts as computed",
     "columns": {
         "panel": {"meaning": "the case"}, "label": {"meaning": "label of the fixed point", "unit": "text"},
-        "C1, C2": {"compared": "roots"}, "printed_10_26, fast, slow, exact, masri_derived, slow_flow, floquet": {},
+        "C1, C2": {"compared": "roots"}, "printed_10_26, fast, slow, exact": {},
     },
 }  # fmt: skip
 
@@ -37,12 +35,12 @@ ROW, HEAD = 6.0, 22.0
 def compute(points: pd.DataFrame) -> pd.DataFrame:
     """Return the verdicts on all fixed points.
 
-    Columns: panel (the case), label, C1, C2, one per criterion, and the former names last.
+    Columns: panel (the case), label, C1, C2, one per criterion.
 
     points: columns case, label, C1, C2 and one per criterion, as in `fixed_points.csv`.
     """
     table = points.rename(columns={"case": "panel"})[["panel", "label", "C1", "C2", *CRITERIA]]
-    return with_former_names(table, FORMER)
+    return table
 
 
 @styled

@@ -37,8 +37,7 @@ SPEC = {
             "unit": "number"},
         "C1, B1, C2, B2": {},
         "label": {"meaning": "label (a), (b), (c) as the chapter would give it at this value", "unit": "text"},
-        "printed_10_26, fast, slow, theory, exact, masri_derived, slow_flow, floquet": {},
-        "fast_and_slow": {"meaning": "former name of `theory`, until the next release", "unit": "text"},
+        "printed_10_26, fast, slow, theory, exact": {},
     },
 }  # fmt: skip
 

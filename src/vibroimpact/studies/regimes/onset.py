@@ -7,8 +7,6 @@ from vibroimpact.studies.theory.relaxation import relax
 
 FORCES = {"f10_hat", "f20_hat"}
 COLUMNS = ["path", "source", "first", "last", "uncertainty", "agreement"]
-FORMER = {"who": "source"}
-"""Columns by their former names, which the table has until the next release."""
 SLOW_FLOW, SIMULATION = "slow flow", "simulation"
 _FOLLOWED = 300, 300
 """Cycles of the window and of the transient, in which a ball may leave resonance forever."""
