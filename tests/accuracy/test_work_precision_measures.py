@@ -113,37 +113,3 @@ def test_unavoidable_error_of_one_cycle_is_the_rounding_of_its_end():
     mp.dps = 40
     end = [mpf(text) for text in reference_run(SYSTEM, PROBLEM.state, 1, 40).final_text]
     assert benchmark.unavoidable_error(once) == pytest.approx(float(max(abs(x - float(x)) for x in end)), rel=1e-6)
-
-
-def points(problem, method, *entries, outcome="finished", reason=""):
-    """Rows of `measure` from (setting, error of the state, error of the times, time per cycle)."""
-    names = "setting", "error_state", "error_time", "seconds_per_cycle"
-    same = {"problem": problem, "method": method, "outcome": outcome, "reason": reason}
-    return [same | dict(zip(names, entry, strict=True)) for entry in entries]
-
-
-def test_in_every_panel_heyoka_is_met_where_it_is_accurate_and_where_it_is_fastest():
-    rows = [
-        *points("one", "this engine", ("float64", 1e-15, 1e-15, 1e-6)),
-        *points("one", "heyoka", ("0.01", 1e-2, 1e-4, 1e-6), ("0.001", 1e-4, 1e-5, 5e-6), ("1e-06", 1e-7, 2e-6, 4e-6)),
-        *points("one", "heyoka", ("1e-08", 1e-9, 1e-6, 9e-6)),
-        *points("one", "DOP853", ("0.001", 1e-9, 1e-9, 1e-9)),
-        *points("two", "this engine", ("float64", 1e-15, 1e-15, 2e-6)),
-        *points("two", "heyoka", ("", None, None, None), outcome="unavailable", reason="no build"),
-    ]
-    table = {row["panel"]: row for row in benchmark.panels(rows)}
-    chosen = {letter: (row["tolerance at 1e-06"], row["tolerance at its fastest"]) for letter, row in table.items()}
-    assert chosen == {"a": ("1e-06", "1e-06"), "b": ("", "")}
-    ratios = [(row["at 1e-06"], row["at its fastest"]) for row in table.values()]
-    np.testing.assert_allclose(ratios, [(4, 4), (np.nan, np.nan)])
-    assert [row["reason"] for row in table.values()] == ["", "heyoka: no build"]
-
-
-def test_the_comparison_takes_the_fastest_settings_that_suffice_and_the_most_accurate_heyoka():
-    names, rows = ("method", "us_per_impact", "error_state", "ratio"), []
-    for values in (
-        ("this engine", 0.5, 1e-15, 1.0), ("heyoka", 2.0, 1e-5, 4.0), ("heyoka", 5.0, 1e-14, 10.0),
-        ("DOP853", 400.0, 1e-5, 800.0), ("DOP853", 600.0, 1e-7, 1200.0), ("DOP853", 900.0, 1e-12, 1800.0),
-    ):  # fmt: skip
-        rows.append(dict(zip(names, values, strict=True)) | {"reason": ""})
-    assert [*benchmark.comparison(rows, unavoidable=1e-16).values()] == pytest.approx([0.5, 10.0, 10.0, 1200.0, 10.0])

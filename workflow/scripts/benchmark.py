@@ -23,50 +23,29 @@ heyoka calls the impact law in Python, which takes a sixth to a third of its tim
 sticking, where the same closed form in C++ takes 99 to 112 ns and one long run takes 222."""
 
 
-def problem_of(name: str, config: dict, settings: dict):
-    """Return the test problem for an entry in the section accuracy of the config."""
-    from vibroimpact.accuracy.work_precision import Problem
-
-    system = System(**case_parameters(config, settings["case"]))
-    return Problem(name, system, tuple(settings["initial_state"]), settings["cycles"])
-
-
 def main(config: dict, output) -> None:
-    from vibroimpact.accuracy import work_precision
-    from vibroimpact.accuracy.benchmark import OURS, TAYLOR, comparison, measure, panels, unavoidable_error
+    from vibroimpact.accuracy.benchmark import measure, unavoidable_error
     from vibroimpact.accuracy.throughput import ranges, throughput
     from vibroimpact.accuracy.timing import versions
+    from vibroimpact.accuracy.work_precision import Problem
     from vibroimpact.integrators import TIMED
 
     settings = config["accuracy"]["benchmark"]
-    problem = problem_of("benchmark", config, settings)
-    rows = measure(problem, TIMED, SECONDS)
-    table = pd.DataFrame(rows)
-    found = comparison(rows, unavoidable_error(problem))
-    weak = System(**case_parameters(config, "weak"))
-    scenes = throughput(problem.system, weak, problem.state, SECONDS)
+    system = System(**case_parameters(config, settings["case"]))
+    problem = Problem("benchmark", system, tuple(settings["initial_state"]), settings["cycles"])
+    table = pd.DataFrame(measure(problem, TIMED, SECONDS))
+    scenes = throughput(system, System(**case_parameters(config, "weak")), problem.state, SECONDS)
     many = pd.DataFrame(scenes).set_index("scene")
-    raced = [method for method in TIMED if method.name in (OURS, TAYLOR)]
-    chart = [
-        row
-        for name, entry in config["accuracy"]["problems"].items()
-        for row in work_precision.measure(problem_of(name, config, entry), raced, SECONDS)
-    ]
-    table_of_panels = pd.DataFrame(panels(chart)).to_string(index=False, float_format="{:.3g}".format)
-    compared = [f"{name}: {value:.3g}" for name, value in found.items()]
-    compared += ["many runs, ns per impact on one core:"]
-    compared += [f"{letter}: {column}" for letter, column in zip(ascii_lowercase, many.columns, strict=False)]
+    notes = [f"unavoidable error: {unavoidable_error(problem):.3g}", "many runs, ns per impact on one core:"]
+    notes += [f"{letter}: {column}" for letter, column in zip(ascii_lowercase, many.columns, strict=False)]
     many.columns = list(ascii_lowercase[: len(many.columns)])
-    compared += many.to_string(float_format="{:.3g}".format, na_rep="", index_names=False).splitlines()
-    compared += ranges(scenes)
-    compared += ["times faster than heyoka in the panels of the work-precision chart:", *table_of_panels.splitlines()]
-    compared += HANDICAPS.splitlines()
-    footer = "  ".join(f"{name} {version}" for name, version in versions().items())
-    print(table.to_string(index=False, float_format="{:.3g}".format))
-    print(*compared, footer, sep="\n")
+    notes += many.to_string(float_format="{:.3g}".format, na_rep="", index_names=False).splitlines()
+    notes += [*ranges(scenes), *HANDICAPS.splitlines()]
+    notes += ["  ".join(f"{name} {version}" for name, version in versions().items())]
+    print(table.to_string(index=False, float_format="{:.3g}".format), *notes, sep="\n")
     with replacing(output) as partial:
-        notes = "".join(f"# {line}\n" for line in (*compared, footer))
-        partial.write_text(table.to_csv(index=False, lineterminator="\n") + notes, encoding="utf-8")
+        text = table.to_csv(index=False, lineterminator="\n") + "".join(f"# {line}\n" for line in notes)
+        partial.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Measure the speed of many runs in typical scenes of the project.
 
-Ensembles, single runs, a closed form without proof and heyoka's batches are timed in turn. The share of runs with the
-events of single runs, and the errors, are reported as well.
+Ensembles, single runs and heyoka's batches are timed in turn. The share of runs with the events of single runs, and the
+error, are reported as well.
 """
 
 from functools import partial
@@ -15,7 +15,6 @@ from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.integrators.heyoka_batch import LANES, HeyokaBatch
 from vibroimpact.integrators.heyoka_taylor import heyoka
-from vibroimpact.integrators.modal import Modal
 from vibroimpact.system import System
 from vibroimpact.system.state import BALLS, BOXES, IMPACT
 
@@ -25,21 +24,8 @@ SAMPLE, SHORT = 8, 10
 """Number of runs of a scene that other methods repeat, and their cycles; errors are those after these cycles."""
 CHECKED = 64
 """Number of runs of a scene whose events and final states are compared with single runs."""
-LOOKS, TOLERANCES = 32, (1e-6, 1e-12)
-"""Samples per cycle of the closed form, at which it misses very few impacts; tolerances of heyoka."""
-BEFORE = {
-    "64 starts within 1e-2 of a settled motion, 100 cycles": (100, 212),
-    "16 such starts": (232, 324),
-    "256 starts within 0.3, 100 cycles": (192, 263),
-    "4000 random starts, 10 cycles": (285, 397),
-    "400 random starts, 100 cycles": (213, 277),
-    "weak case, 200 random starts, 500 cycles": (274, 349),
-    "300 systems x 2 starts, 250 cycles": (609, 831),
-    "300 systems x 5 starts, 250 cycles": (509, 623),
-}
-"""Earlier results: ns per impact of lanes filled by runs of one system (commit cf93e77), final state only and observed,
-on a machine where a single long run took BEFORE_UNIT."""
-BEFORE_UNIT = 222
+TOLERANCES = 1e-6, 1e-12
+"""Tolerances of heyoka."""
 
 
 class Scene(NamedTuple):
@@ -60,7 +46,7 @@ class Scene(NamedTuple):
 
 
 def scenes(equal: System, weak: System, settled) -> dict[str, Scene]:
-    """Return the scenes of BEFORE.
+    """Return scenes by description.
 
     settled: state (8,) of a motion of `equal` without sticking.
     """
@@ -70,17 +56,16 @@ def scenes(equal: System, weak: System, settled) -> dict[str, Scene]:
         for force in np.linspace(0.5, 1.5, 15)
     ]
     near, wide = _around(settled, 64, 1e-2), _around(settled, 256, 0.3)
-    found = [
-        Scene(equal, near, 100),
-        Scene(equal, near[:16], 100),
-        Scene(equal, wide, 100),
-        Scene(equal, _random(4000), 10),
-        Scene(equal, _random(400), 100),
-        Scene(weak, _random(200), 500),
-        Scene(np.array(sweep), _random(2), 250),
-        Scene(np.array(sweep), _random(5), 250),
-    ]
-    return dict(zip(BEFORE, found, strict=True))
+    return {
+        "64 starts within 1e-2 of a settled motion, 100 cycles": Scene(equal, near, 100),
+        "16 such starts": Scene(equal, near[:16], 100),
+        "256 starts within 0.3, 100 cycles": Scene(equal, wide, 100),
+        "4000 random starts, 10 cycles": Scene(equal, _random(4000), 10),
+        "400 random starts, 100 cycles": Scene(equal, _random(400), 100),
+        "weak case, 200 random starts, 500 cycles": Scene(weak, _random(200), 500),
+        "300 systems x 2 starts, 250 cycles": Scene(np.array(sweep), _random(2), 250),
+        "300 systems x 5 starts, 250 cycles": Scene(np.array(sweep), _random(5), 250),
+    }
 
 
 def _random(count):
@@ -99,8 +84,7 @@ def _around(state, count, distance):
 def throughput(equal: System, weak: System, settled, seconds: float) -> list[dict]:
     """Return one row per scene: ns per impact of each method, and ratios to a single long run.
 
-    All methods are timed in turn on one core; a single long run is timed within the same minutes. `before` holds the
-    ratios of the previous lanes.
+    All methods are timed in turn on one core; a single long run is timed within the same minutes.
 
     Parameters
     ----------
@@ -111,10 +95,7 @@ def throughput(equal: System, weak: System, settled, seconds: float) -> list[dic
     """
     with at_most(1):
         return [
-            {"scene": name}
-            | _timed(scene, partial(_long_run, equal, settled), seconds)
-            | _compared(scene)
-            | _before(name)
+            {"scene": name} | _timed(scene, partial(_long_run, equal, settled), seconds) | _compared(scene)
             for name, scene in scenes(equal, weak, settled).items()
         ]
 
@@ -124,14 +105,11 @@ def ranges(rows: list[dict]) -> list[str]:
 
     The input is the rows of `throughput`.
     """
-    lines = []
-    for name in ("final", "observed"):
-        now, before = ([row[key] for row in rows] for key in (f"{name} / long run", f"before: {name}"))
-        lines.append(
-            f"{name}: {min(now):.2f} to {max(now):.2f} of a long run's time per impact in all scenes, "
-            f"before {min(before):.2f} to {max(before):.2f}"
-        )
-    return lines
+    found = {name: [row[f"{name} / long run"] for row in rows] for name in ("final", "observed")}
+    return [
+        f"{name}: {min(ratios):.2f} to {max(ratios):.2f} of a long run's time per impact in all scenes"
+        for name, ratios in found.items()
+    ]
 
 
 def _long_run(system, state):
@@ -148,7 +126,6 @@ def _timed(scene, long_run, seconds):
         "final": (partial(ensemble, *scene, settle=scene.cycles), impacts),
         "observed": (partial(ensemble, *scene), impacts),
         "one by one": (partial(_each, simulate, systems, states), few),
-        "closed form": (partial(_each, _closed_form, systems, states), few),
     }
     flying = [one for one in zip(*scene.runs(8 * LANES), strict=True) if not ensemble(*one, SHORT)["sticks"].any()]
     if heyoka and len(flying) >= LANES:
@@ -165,10 +142,6 @@ def _timed(scene, long_run, seconds):
     return found | {"final / long run": found["final"] / unit, "observed / long run": found["observed"] / unit}
 
 
-def _before(name):
-    return dict(zip(("before: final", "before: observed"), np.divide(BEFORE[name], BEFORE_UNIT), strict=True))
-
-
 def _impacts(scene):
     return int(ensemble(*scene)["impacts"].sum())
 
@@ -178,24 +151,14 @@ def _each(method, systems, states):
         method(system, state, SHORT)
 
 
-def _closed_form(system, state, cycles):
-    return Modal().run(system, state, cycles, 0.0, LOOKS)
-
-
 def _compared(scene):
-    """Return the share of runs with the impacts of single runs, and the median errors of the final states.
-
-    The errors are those of the ensemble and of the closed form after SHORT cycles.
-    """
+    """Return the share of runs with the impacts of single runs, and the median error of the final states."""
     systems, states = scene.runs(CHECKED)
     outcomes = ensemble(systems, states, SHORT)
     singles = [simulate(system, state, SHORT) for system, state in zip(systems, states, strict=True)]
-    closed = [_closed_form(system, state, SHORT) for system, state in zip(systems, states, strict=True)]
     counts = np.array([(run.events["kind"] == IMPACT).sum() for run in singles])
     finals = np.array([run.final for run in singles])
     return {
         "same events": np.mean(outcomes["impacts"].sum(axis=1) == counts),
         "error": np.median(abs(outcomes["final"] - finals).max(axis=1)),
-        "closed form: same events": np.mean([len(run.impacts) for run in closed] == counts),
-        "closed form: error": np.median([abs(run.final - one).max() for run, one in zip(closed, finals, strict=True)]),
     }
