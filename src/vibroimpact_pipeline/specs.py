@@ -67,7 +67,8 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
         name: table | {"file": table["file"].replace(f"/{module}.", f"/{figure}.")}
         for name, table in known[module]["tables"].items()
     }
-    tables["csv"]["about"] = f"{own['title'].format_map(scene)}."
+    if "csv" in tables:
+        tables["csv"]["about"] = f"{own['title'].format_map(scene)}."
     return known[module] | own | {"tables": tables, "module": module_of(module)}
 
 

@@ -161,13 +161,14 @@ def figure_params(figure, paths, case=None, systems=False, decides=()):
     The param `config` lists all entries on which the figure depends, including those of its inputs (`decides`).
     """
     settings = entries(paths)
-    params = {"figure": figure, "module": spec(figure)["module"], "case": case, "config": settings | entries(decides)}
+    drawn_by, shared = spec(figure)["module"], map(module_of, spec(figure)["shares"])
+    params = {"figure": figure, "module": drawn_by, "case": case, "config": settings | entries(decides)}
     params["settings"] = {path.rpartition(".")[2]: entry for path, entry in settings.items()}
     if case:
         params["system"] = params["config"][f"cases.{case}"] = system_of(case)
     if systems:
         params["systems"] = params["config"]["cases"] = all_systems()
-    return params
+    return params | {"code": code("figure", drawn_by, *shared)}
 
 
 def files(figure, *marks, folder="figures"):
@@ -188,20 +189,18 @@ def of_case(figure, paths):
     return {name: path.format_map(shown) for name, path in paths.items()} if "case" in shown else {}
 
 
-def scene(figure, *others, section="figures"):
+def scene(figure, *others):
     """Return the params of a figure: its settings, other settings by path, and the system of its case.
 
     For a simulated motion, model and settings of the run belong to the inputs.
     """
     if figure not in SCENES:
         return {"settings": absent(figure)}
-    case, own_settings = SCENES[figure].get("case"), entries([f"{section}.{figure}.*"])
-    decides = (
-        [f"cases.{case}.simulation.*", f"{section}.{figure}.model"] if spec(figure)["notebook"] == "simulation" else []
-    )
+    case, own_settings = SCENES[figure].get("case"), entries([f"figures.{figure}.*"])
+    simulated = spec(figure)["notebook"] == "simulation"
+    decides = [f"cases.{case}.simulation.*", f"figures.{figure}.model"] if simulated else []
     paths = [path for path in own_settings if path not in decides]
-    params = figure_params(figure, [*paths, *others], case, decides=decides)
-    return params | {"code": code("figure", spec(figure)["module"], *map(module_of, spec(figure)["shares"]))}
+    return figure_params(figure, [*paths, *others], case, decides=decides)
 
 
 # Paths of notebooks by name.
@@ -212,7 +211,8 @@ def by_notebook(figures):
     """Return the notebooks of figures, each with the figures whose pages it makes."""
     found = {}
     for figure in figures:
-        found.setdefault(spec(figure)["notebook"], []).append(figure)
+        if notebook := spec(figure).get("notebook"):
+            found.setdefault(notebook, []).append(figure)
     return found
 
 

@@ -155,10 +155,19 @@ for figure in (name for name, own_scene in config["figures"].items() if "like" i
             "../scripts/figure.py"
 
 
-# Page of each figure: its notebook, executed on the finished tables, the picture and their inputs.
-PAGES = by_notebook(config["figures"])
+# Figures with captions; the studies add theirs.
+ALL_FIGURES = list(config["figures"])
 
-for notebook, shown in PAGES.items():
+if STUDIES:
+
+    include: "studies/figures.smk"
+
+
+config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
+config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}
+
+# Pages of figures: their notebook, executed on the finished tables, the pictures and their inputs.
+for notebook, shown in by_notebook(SCENES).items():
     pages_of, given = pages(shown)
 
     rule:
@@ -182,10 +191,4 @@ for notebook, shown in PAGES.items():
 rule figures:
     input:
         [getattr(rules, figure).output for figure in config["figures"]],
-        [getattr(rules, f"pages_{notebook}").output for notebook in PAGES],
-
-
-# Figures with captions and a reference; the studies add theirs.
-ALL_FIGURES = list(config["figures"])
-config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
-config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}
+        expand("results/notebooks/{figure}.html", figure=config["figures"]),

@@ -1,6 +1,11 @@
-"""Compute and write the tables of one figure, and draw the figure from the written tables."""
+"""Compute and write the tables of one figure, and draw the figure from the written tables.
 
+A figure of an interactive page also writes the data of the page as JSON.
+"""
+
+import json
 from importlib import import_module
+from pathlib import Path
 
 from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.jobs import running
@@ -22,5 +27,9 @@ def arguments(params, inputs) -> dict:
 
 with running(snakemake) as out:
     module = import_module(snakemake.params.module)
-    write_and_draw(module, module.compute(**arguments(snakemake.params, snakemake.input)), vars(out))
+    computed = module.compute(**arguments(snakemake.params, snakemake.input))
+    write_and_draw(module, computed, vars(out))
+    if "json" in vars(out):
+        data = module.page_data(computed, **snakemake.params.settings)
+        Path(out.json).write_text(json.dumps(data, separators=(",", ":")) + "\n", encoding="utf-8")
     provenance.write(snakemake, out)

@@ -1,27 +1,28 @@
 """Model of the chapter's config, config/config.yaml: smaller sections and conditions across sections."""
 
+import re
 from collections.abc import Iterable, Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field, ValidationError, create_model
 
 from vibroimpact.system import System
+from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.figures import Figures
 from vibroimpact_pipeline.config.messages import described, problems_of
 from vibroimpact_pipeline.config.section import Place, Section
+from vibroimpact_pipeline.specs import specs
 
 MIN_FREQUENCY = 1e-3
 """Lowest forcing frequency; the cost of simulating one cycle is inversely proportional to it."""
-PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "own_", "pages_"
-"""Reserved prefixes: rules of companions, sweeps and pages, the chapter's figures, texts of your own figures."""
+PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "pages_"
+"""Reserved prefixes: rules of companions, sweeps and pages, the chapter's figures."""
 RULES = {
-    *("accuracy", "all", "archive", "claims", "companions", "datapackage", "field", "figure_check", "figures"),
-    *("figure_check_strict", "fixed_points", "force_sweep", "gather", "grazing", "index", "method_comparison"),
-    *("models", "modulation", "nudge", "proofs", "report", "simulation", "stability", "studies"),
-    *("study_check", "study_check_strict", "sweeps", "verdict_grid", "verdicts_by_epsilon"),
-    *("stress_tests", "work_precision"),
-}
+    name
+    for path in (ROOT / "workflow").rglob("*.smk")
+    for name in re.findall(r"^ *(?:use rule \w+ as|rule) (\w+)", path.read_text("utf-8"), re.MULTILINE)
+} | {"all", *(figure for figure, spec in specs().items() if not spec["own"])}
 """Names of rules; figures and other entries that become rules cannot have these names."""
 Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 

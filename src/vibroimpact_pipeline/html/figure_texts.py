@@ -17,8 +17,9 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
     """Return the SPEC of every figure, animation and control by name, filled in for a config (see `words`)."""
     known, data = read(root)
     texts = {name: spec for name, spec in known.items() if name != "animation" and not name.startswith("fig10_")}
-    moving = config.get("report", {"animations": {}})
-    scenes = config["figures"] | moving["animations"] | {name: moving[name] for name in moving if name != "animations"}
+    moving = dict(config.get("report", {"animations": {}}))
+    scenes = {name: shown | {"like": "animation"} for name, shown in moving.pop("animations").items()}
+    scenes |= config["figures"] | moving
     for figure, scene in scenes.items():
         case = scene.get("case")
         known_case = case in config["cases"]
@@ -37,7 +38,7 @@ def words(figure: str, scene: dict, parameters: dict) -> dict:
         scene: entry of the figure in the config. parameters: parameters of the system that it shows, if any.
     """
     known = specs()
-    spec = spec_of(figure, scene, known) if figure in known or "like" in scene else known["animation"]
+    spec = spec_of(figure, scene, known)
     heading = ""
     if figure.startswith("fig10_"):
         heading = f"Figure {int(figure[3:5])}.{int(figure[6:])}. "

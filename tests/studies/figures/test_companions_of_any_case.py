@@ -67,8 +67,8 @@ def test_a_path_without_special_points_says_none(first):
 
 
 def test_a_sweep_of_a_force_without_fixed_points_shows_the_manifold():
-    tables = force_sweep.compute({value: STILL.with_(f20_hat=value) for value in (0.0, 0.01)}, 2.0)
-    assert tables["points"].empty
+    tables = force_sweep.compute(STILL, (0.0, 0.01), 2, 2.0)
+    assert tables["csv"].empty
     assert tables["manifold"]["C"].max() == pytest.approx(2.0)
     force_sweep.draw(tables)
 
@@ -137,6 +137,6 @@ def test_a_single_machine_is_compared_with_its_orbits(monkeypatch):
     tables = companion_asymmetric.compute({"single": system}, orbits, system.kappa, [0.1, 0.01], 3, 0.05, 2.5)
     assert len(tables["pairs"])
     companion_asymmetric.draw(tables)
-    tables = force_sweep.compute({value: system.with_(f10_hat=value) for value in (1.8, 2.0)}, 2.0)
-    assert tables["points"]["track"].nunique() == 1
+    tables = force_sweep.compute(system.with_(f10_hat=0.0), (1.8, 2.0), 2, 2.0)
+    assert tables["csv"]["track"].nunique() == 1
     force_sweep.draw(tables)

@@ -109,7 +109,7 @@ def test_every_rule_of_the_workflow_is_a_name_that_figures_cannot_have():
     rules = {line.strip() for line in output.splitlines() if line.strip().isidentifier()}
     own = {*GOOD["figures"], *GOOD["machines"], *GOOD["report"]["animations"]}
     assert own < rules, output
-    assert {rule for rule in rules - own if not rule.startswith(PREFIXES)} == RULES
+    assert {rule for rule in rules - own if not rule.startswith(PREFIXES)} <= RULES
 
 
 def test_the_editor_is_told_of_the_schema():

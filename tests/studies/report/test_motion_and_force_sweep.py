@@ -20,7 +20,7 @@ COORDINATES = ["X1", "Y1", "X2", "Y2"]
 
 @pytest.fixture(scope="module")
 def window():
-    """Samples and events of three cycles, with the system's period."""
+    """Samples and events of three cycles, with the system."""
     system = vi.System(**SYSTEM, f20_hat=1.0)
     times = np.linspace(60, 63, 121) * system.period
     run = vi.simulate(system, [0.0] * 8, 63, sample_times=times)
@@ -29,12 +29,12 @@ def window():
     table["kind"] = [KINDS[kind] for kind in events["kind"]]
     table[COORDINATES] = events["state"][:, :4]
     samples = pd.DataFrame(np.column_stack([times, run.samples[:, :4]]), columns=["tau", *COORDINATES])
-    return samples, table, system.period
+    return samples, table, system
 
 
 def test_frames_have_every_corner_of_the_motion(window):
-    samples, events, period = window
-    tables = animation.compute(samples, events, period, 2)
+    samples, events, system = window
+    tables = animation.compute(samples, events, system, 2)
     motion, impacts = tables["motion"], tables["impacts"]
     assert motion["t"].is_monotonic_increasing
     assert (motion["t"].iloc[0], motion["t"].iloc[-1]) == pytest.approx((0.0, 2.0), abs=1e-9)
@@ -46,9 +46,9 @@ def test_frames_have_every_corner_of_the_motion(window):
 
 def test_between_frames_the_ball_flies_straight(window):
     """Y moves uniformly between impacts, so that the frames follow it exactly, whatever their distance."""
-    samples, events, period = window
-    fine = animation.compute(samples, events, period, 2)["motion"]
-    coarse = animation.compute(samples.iloc[::20], events, period, 2)["motion"]
+    samples, events, system = window
+    fine = animation.compute(samples, events, system, 2)["motion"]
+    coarse = animation.compute(samples.iloc[::20], events, system, 2)["motion"]
     for name in ("Y1", "Y2"):
         np.testing.assert_allclose(np.interp(fine["t"], coarse["t"], coarse[name]), fine[name], atol=1e-9)
 
@@ -102,12 +102,11 @@ def test_where_no_motion_that_is_called_stable_is_unstable_there_is_nothing_to_n
 
 @pytest.fixture(scope="module")
 def swept():
-    values = np.round(np.arange(0.6, 1.3001, 0.01), 6)
-    return force_sweep.compute({value: vi.System(**SYSTEM, f20_hat=value) for value in values}, 2.5)
+    return force_sweep.compute(vi.System(**SYSTEM, f20_hat=1.0), (0.6, 1.3), 71, 2.5)
 
 
 def test_travelling_points_are_all_points_and_on_the_manifold(swept):
-    points = swept["points"]
+    points = swept["csv"]
     for value, count in ((0.6, 1), (0.89, 3), (1.0, 3)):
         assert (points["value"] == value).sum() == count
     for module in (1, 2):
@@ -116,7 +115,7 @@ def test_travelling_points_are_all_points_and_on_the_manifold(swept):
 
 def test_a_track_moves_without_jumps_and_keeps_to_one_point(swept):
     """Away from the fold at 0.69778, where two points appear and move with the square root."""
-    points = swept["points"]
+    points = swept["csv"]
     points = points[points["value"] > 0.72]
     assert points["track"].nunique() == 3
     for _, track in points.groupby("track"):
@@ -129,7 +128,7 @@ def test_the_asymmetric_orbits_are_followed_to_where_they_lose_their_stability(s
     """At 0.817, a Neimark-Sacker bifurcation: there a pair leaves the unit circle. At 1 they are those of a search."""
     pair = swept["orbits"].query("track == @force_sweep.PAIR")
     modulus = np.hypot(pair["real"], pair["imag"]).groupby(pair["value"]).max()
-    assert modulus.index.tolist() == swept["points"]["value"].unique().tolist()
+    assert modulus.index.tolist() == swept["csv"]["value"].unique().tolist()
     assert ((modulus < 1) == (modulus.index > 0.817)).all()
     crossing = pair[(pair["value"] == 0.81) & (np.hypot(pair["real"], pair["imag"]) > 1)]
     assert (crossing["imag"].abs() > 0.1).tolist() == [True, True]
@@ -144,7 +143,7 @@ def test_the_asymmetric_orbits_are_followed_to_where_they_lose_their_stability(s
 def test_multipliers_of_the_orbits_of_the_points_decide_on_their_verdict(swept):
     rows = swept["orbits"].query("track != @force_sweep.PAIR")
     modulus = np.hypot(rows["real"], rows["imag"]).groupby([rows["value"], rows["track"]]).max()
-    verdicts = swept["points"].set_index(["value", "track"])["exact"]
+    verdicts = swept["csv"].set_index(["value", "track"])["exact"]
     assert ((modulus < 1) == (verdicts[modulus.index] == "stable")).all()
 
 
@@ -157,7 +156,7 @@ def test_a_point_that_is_new_starts_a_track_of_its_own():
 
 def test_the_picture_of_the_travel_names_every_curve_once_and_with_its_own_letter(swept):
     figure = force_sweep.draw(swept)
-    points = swept["points"]
+    points = swept["csv"]
     for axes in figure.axes:
         shown = [text.get_text() for text in axes.texts]
         assert sorted(shown) == ["a", "b", "c"]

@@ -4,17 +4,24 @@
 CAPTION = "../../../report/caption.rst"
 
 
-def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()):
-    """Return inputs and params of a companion figure, or None if the config lacks an entry that it needs."""
+def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=(), folder=None):
+    """Return inputs, outputs and params of a figure, or None if the config lacks an entry that it needs.
+
+    A figure with a `folder` of its own is for an interactive page; its module also returns the data of the page.
+    """
     try:
         case = at(config, case) if case else None
-        inputs = {name: path.format(case=case) for name, path in inputs.items()}
+        inputs = {name: path.format(case=case, model="float64") for name, path in inputs.items()}
         swept = [f"sweeps.{Path(path).stem}" for path in inputs.values() if path.startswith("results/sweeps/")]
         entries([*swept, *(path.format(case=case) for path in needs)])
         params = figure_params(figure, [path.format(case=case) for path in settings], case, systems)
     except LookupError:
         return None
-    return SimpleNamespace(inputs=inputs, params=params)
+    outputs = files(figure, "Companion figures", CAPTION)
+    if folder:
+        outputs = figure_files(f"results/{folder}/{figure}", spec(figure)["tables"])
+        outputs["json"] = f"results/{folder}/{figure}.json"
+    return SimpleNamespace(inputs=inputs, outputs=outputs, params=params)
 
 
 def sweep_request(sweep):

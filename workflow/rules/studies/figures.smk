@@ -1,5 +1,9 @@
 # Companion figures. Each has a rule of the same name and a module in src/vibroimpact/studies/figures/.
 
+
+include: "common.smk"
+
+
 # Arguments of `compute` for each figure: `settings` of the config, named by the last key of their path (* stands for all
 # settings of a section except `case`); `inputs`; the system of a `case`; the `systems` of all cases. A figure is omitted
 # if the config lacks one of these entries or of `needs`.
@@ -7,11 +11,7 @@ COMPANIONS = {
     "companion_10_05": {"settings": ["stability.companion_10_05.C_range"]},
     "companion_10_08": {
         "case": "figures.fig10_08.case",
-        "inputs": {
-            "points": "results/fixed_points/{case}.csv",
-            "samples": "results/simulations/{case}/float64/samples.csv",
-            "events": "results/simulations/{case}/float64/events.csv",
-        },
+        "inputs": POINTS | MOTION,
     },
     "companion_absorber": {
         "case": "sweeps.clearance.case",
@@ -57,16 +57,29 @@ COMPANIONS = {
     "companion_response": {
         "case": "sweeps.frequency_response.case",
         "settings": ["sweeps.clearance.band"],
-        "inputs": {
-            "frequency": "results/sweeps/frequency_response.csv",
-            "force": "results/sweeps/clearance.csv",
-        },
+        "inputs": {"frequency": "results/sweeps/frequency_response.csv", "force": "results/sweeps/clearance.csv"},
     },
     "companion_stability": {"inputs": {"points": "results/fixed_points.csv"}},
+    "force_sweep": {"case": "report.force_sweep.case", "settings": ["report.force_sweep.*"], "folder": "force_sweep"},
+    "nudge": {"case": "report.force_sweep.case", "folder": "nudge"},
 }
 
 
+# Machines in SI units, each with a page like the figures of the chapter, and moving pictures of the report.
+for name in config["machines"]:
+    SCENES[name] = config["machines"][name] | {"like": "machines"}
+    COMPANIONS[name] = {"settings": [f"machines.{name}.*"]}
+for name, shown in config["report"]["animations"].items():
+    SCENES[name] = shown | {"like": "animation"}
+    COMPANIONS[name] = {
+        "case": f"report.animations.{name}.case",
+        "settings": [f"report.animations.{name}.cycles"],
+        "inputs": {table: path.replace("{model}", arithmetic(shown)) for table, path in MOTION.items()},
+        "folder": "animations",
+    }
+
 MADE = {figure: found for figure, takes in COMPANIONS.items() if (found := companion(figure, **takes))}
+MOVING = [figure for figure in MADE if COMPANIONS[figure].get("folder")]
 
 for figure, found in MADE.items():
 
@@ -76,32 +89,9 @@ for figure, found in MADE.items():
         input:
             **found.inputs,
         output:
-            **files(figure, "Companion figures", CAPTION),
+            **found.outputs,
         params:
             **found.params,
-            code=code("figure", module_of(figure)),
-        log:
-            f"results/logs/figures/{figure}.log",
-        benchmark:
-            f"results/benchmarks/figures/{figure}.tsv"
-        conda:
-            "../../envs/vibroimpact.yaml"
-        script:
-            "../../scripts/figure.py"
-
-
-# Machines in SI units, each with a page like the figures of the chapter.
-SCENES |= {name: entry | {"like": "machines"} for name, entry in config["machines"].items()}
-
-for figure in config["machines"]:
-
-    rule:
-        name:
-            figure
-        output:
-            **files(figure, "Companion figures", CAPTION),
-        params:
-            **scene(figure, section="machines"),
         log:
             f"results/logs/figures/{figure}.log",
         conda:
@@ -110,35 +100,11 @@ for figure in config["machines"]:
             "../../scripts/figure.py"
 
 
-STUDY_PAGES = by_notebook(config["machines"])
-
-for notebook, shown in STUDY_PAGES.items():
-    pages_of, given = pages(shown)
-
-    rule:
-        name:
-            f"pages_{notebook}"
-        input:
-            **read_by(notebook, shown),
-        output:
-            **pages_of,
-        params:
-            pages=given,
-            code=code("notebook", NOTEBOOKS[notebook], *(spec(figure)["module"] for figure in shown)),
-        log:
-            f"results/logs/notebooks/{notebook}.log",
-        conda:
-            "../../envs/vibroimpact.yaml"
-        script:
-            "../../scripts/notebook.py"
-
-
-STUDY_DRAWINGS = [*MADE, *config["machines"]]
+STUDY_DRAWINGS = [figure for figure in MADE if figure not in MOVING]
 ALL_FIGURES += STUDY_DRAWINGS
-config["captions"] |= {figure: caption(figure) for figure in STUDY_DRAWINGS}
 
 
 rule companions:
     input:
         [getattr(rules, figure).output for figure in STUDY_DRAWINGS],
-        [getattr(rules, f"pages_{notebook}").output for notebook in STUDY_PAGES],
+        expand("results/notebooks/{machine}.html", machine=config["machines"]),

@@ -1,10 +1,8 @@
 # Studies beyond the chapter: `snakemake --cores 2 studies`. Delete every folder and file named `studies` to remove them.
 
 
-include: "common.smk"
 include: "stability.smk"
 include: "sweeps.smk"
-include: "figures.smk"
 include: "claims.smk"
 include: "report.smk"
 include: "field.smk"

@@ -95,14 +95,13 @@ def save(figure: Figure, outputs: dict) -> None:
 
 def draw_tables(figure, read: dict) -> Figure:
     """Return the picture of a figure's module from its tables by name; `draw` of one with a single table takes that."""
-    spec = getattr(figure, "SPEC", {"columns": {}})  # that of a sweep has none
-    if spec.get("tables"):
-        return figure.draw(read)
-    return figure.draw(read["csv"]) if "columns" in spec else figure.draw()
+    if not read:
+        return figure.draw()
+    return figure.draw(read["csv"] if list(read) == ["csv"] else read)
 
 
 def write_and_draw(figure, computed, outputs: dict) -> None:
-    """Write what a figure's `compute` returned, and draw what was written: the picture is that of the files.
+    """Write the tables of a figure's `compute` that have a file, and draw them as written.
 
     Parameters
     ----------
@@ -111,9 +110,11 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
     outputs : dict
         Paths by kind of picture and by name of table.
     """
-    for name, table in _by_name(computed).items():
-        tables.write(table, outputs[name])
-    save(draw_tables(figure, {name: tables.read(outputs[name]) for name in _by_name(computed)}), outputs)
+    drawn = _by_name(computed)
+    for name in drawn.keys() & outputs.keys():
+        tables.write(drawn[name], outputs[name])
+        drawn[name] = tables.read(outputs[name])
+    save(draw_tables(figure, drawn), outputs)
 
 
 def shown(figure, inputs: dict, *args, **settings) -> tuple:

@@ -26,8 +26,8 @@ INSTANTS, ROW = 6, 15.0
 COORDINATES = ["X1", "Y1", "X2", "Y2"]
 
 
-def compute(samples: pd.DataFrame, events: pd.DataFrame, period: float, cycles: int) -> dict[str, pd.DataFrame]:
-    """Return the first so many forcing cycles of a simulated window.
+def compute(samples: pd.DataFrame, events: pd.DataFrame, system, cycles: int) -> dict[str, pd.DataFrame]:
+    """Return the first `cycles` forcing cycles of a simulated window.
 
     Parameters
     ----------
@@ -35,8 +35,6 @@ def compute(samples: pd.DataFrame, events: pd.DataFrame, period: float, cycles: 
         Columns tau, X1, Y1, X2, Y2 (others are ignored), ascending in tau.
     events : DataFrame
         Impacts, sticks and releases, columns tau, module, wall, kind and the coordinates.
-    period : float
-        Of the forcing.
 
     Returns "motion": columns t (in periods from the start), X1, Y1, X2, Y2, at all samples and events, so that straight
     lines between the rows follow every flight up to its corner; "impacts": columns t, module, wall.
@@ -46,7 +44,7 @@ def compute(samples: pd.DataFrame, events: pd.DataFrame, period: float, cycles: 
     ValueError
         If the window holds fewer cycles.
     """
-    start = samples["tau"].iloc[0]
+    start, period = samples["tau"].iloc[0], system.period
     end = start + cycles * period
     if samples["tau"].iloc[-1] < end - 1e-6 * period:
         raise ValueError(f"cycles: {cycles} asked for, the window of the simulation is shorter")
@@ -61,6 +59,13 @@ def compute(samples: pd.DataFrame, events: pd.DataFrame, period: float, cycles: 
 
 def _timed(table, start, period):
     return table.assign(t=(table["tau"] - start) / period).reset_index(drop=True)
+
+
+def page_data(tables: dict[str, pd.DataFrame], cycles: int) -> dict:
+    """Return the frames for the animation of the report; 0.001 L is less than a pixel."""
+    motion = tables["motion"].round({"t": 4} | dict.fromkeys(COORDINATES, 3))
+    impacts = tables["impacts"].round({"t": 4}).to_numpy().tolist()
+    return {"cycles": cycles, "places": list(PLACES.values()), "motion": motion.to_dict("list"), "impacts": impacts}
 
 
 @styled

@@ -56,17 +56,21 @@ PAIR = 0
 VERDICTS = (*CRITERIA, EXACT)
 
 
-def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
-    """Return all fixed points at each value of a parameter, followed from value to value, and the manifold.
+def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]:
+    """Return all fixed points at each value of f20_hat, followed from value to value, and the manifold.
 
     Parameters
     ----------
-    systems : dict
-        Value of the parameter (ascending) -> system; kappa is the same in all of them.
+    system : System
+        All parameters but f20_hat.
+    range : tuple of float
+        Ends of the interval of f20_hat.
+    values : int
+        Number of values in the interval, both ends included.
     C_max : float
         The manifold is shown for 0 <= C <= C_max, and further where a fixed point lies beyond.
 
-    Returns "points": columns value, track (from 1 on; nearest neighbours in the plane (C1, C2) share a track), C1, B1,
+    Returns "csv": columns value, track (from 1 on; nearest neighbours in the plane (C1, C2) share a track), C1, B1,
     C2, B2, label (as in the chapter: `theory.fixed_points.labels`), and VERDICTS: those of the theory's criteria, of
     both time scales together, and of the multipliers of the exact orbit, "no orbit" where there is none; "orbits": a
     row per multiplier of each exact orbit, columns value, track (that of its fixed point; PAIR of the stable asymmetric
@@ -74,6 +78,7 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
     """
     rows, last, tracks = [], np.empty((0, 2)), 0
     names, multipliers = [], []
+    systems = {value: system.with_(f20_hat=value) for value in _values(range, values)}
     for value, system in systems.items():
         points = fixed_points(system)
         now = np.array([point.C for point in points]).reshape(-1, 2)
@@ -90,9 +95,31 @@ def compute(systems: dict, C_max: float) -> dict[str, pd.DataFrame]:
         multipliers += _multipliers(value, PAIR, orbit)
     points = pd.DataFrame(rows, columns=["value", "track", "C1", "B1", "C2", "B2", "label", *VERDICTS])
     end = np.fmax(C_max, 1.05 * points[["C1", "C2"]].astype(float).max().max())
-    kappa = next(iter(systems.values())).kappa
     orbits = pd.DataFrame(multipliers, columns=["value", "track", "C1", "C2", EXACT, "real", "imag"])
-    return {"points": points, "orbits": orbits, "manifold": join(branches("SIM", kappa, end)).drop(columns="panel")}
+    manifold = join(branches("SIM", system.kappa, end)).drop(columns="panel")
+    return {"csv": points, "orbits": orbits, "manifold": manifold}
+
+
+def _values(range, values):
+    return np.round(np.linspace(*range, values), 6).tolist()
+
+
+def page_data(tables: dict[str, pd.DataFrame], range, values: int, C_max: float) -> dict:
+    """Return the data of the slider: both branches of the manifold, fixed points and exact orbits at each value."""
+    manifold = {
+        series: rows[["C", "B"]].round(4).to_numpy().tolist() for series, rows in tables["manifold"].groupby("series")
+    }
+    points = {value: [] for value in _values(range, values)}
+    orbits = {value: [] for value in points}
+    rows = tables["csv"].sort_values(["value", "label"]).round(dict.fromkeys(("C1", "B1", "C2", "B2"), 4))
+    for row in rows.to_dict("records"):
+        place = {"label": row["label"], "track": row["track"], "C": [row["C1"], row["C2"]], "B": [row["B1"], row["B2"]]}
+        points[row["value"]].append(place | {"verdicts": {name: row[name] for name in VERDICTS}})
+    for (value, track, C1, C2), rows in tables["orbits"].groupby(["value", "track", "C1", "C2"]):
+        place = {"track": track, "C": [round(C1, 4), round(C2, 4)], "exact": rows[EXACT].iloc[0]}
+        orbits[value].append(place | {"multipliers": rows[["real", "imag"]].round(4).to_numpy().tolist()})
+    lists = {"points": list(points.values()), "orbits": list(orbits.values())}
+    return {"manifold": manifold, "values": list(points), **lists}
 
 
 def _multipliers(value, track, orbit):
@@ -113,7 +140,7 @@ def _continued(names, last, now, tracks):
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     """Draw C_1 and C_2 of each track over the second force, and the exact asymmetric orbits."""
     figure = new_figure(DOUBLE_COLUMN, 84.0)
-    points, orbits = tables["points"], tables["orbits"]
+    points, orbits = tables["csv"], tables["orbits"]
     pair = orbits[orbits["track"] == PAIR].drop_duplicates(["value", "C1", "C2"])
     letters, names = _letters(points), {}
     for axes, module, letter in zip(figure.subplots(1, 2), (1, 2), "ab", strict=True):

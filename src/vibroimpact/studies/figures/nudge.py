@@ -51,7 +51,7 @@ def compute(system) -> dict:
     times = np.arange(CYCLES * PER_CYCLE + 1) / PER_CYCLE
     run = simulate(system, start, CYCLES, sample_times=times * system.period)
     samples = pd.DataFrame(run.samples, columns=NAMES).assign(tau=times * system.period)
-    shown = animation.compute(samples, to_frame(run), system.period, CYCLES)
+    shown = animation.compute(samples, to_frame(run), system, CYCLES)
     ends = shown["impacts"].query("module == 2")["t"].to_numpy()
     away = np.linalg.norm(run.samples[::PER_CYCLE] - orbit.state, axis=1)
     rows = {
@@ -60,6 +60,20 @@ def compute(system) -> dict:
         "orbit": [[label, abs(orbit.multipliers[0])]],
     }
     return shown | {name: pd.DataFrame(found, columns=COLUMNS[name]) for name, found in rows.items()}
+
+
+def page_data(tables: dict[str, pd.DataFrame]) -> dict:
+    """Return the frames of the motion, its flights and its distance from the prediction for the first page."""
+    rounded = {name: tables[name].astype(float).round(4) for name in ("motion", "impacts", "flights")}
+    return {
+        "cycles": int(tables["distance"]["t"].max()) if len(tables["distance"]) else 0,
+        "places": list(animation.PLACES.values()),
+        "motion": rounded["motion"].to_dict("list"),
+        **{name: rounded[name].to_numpy().tolist() for name in ("impacts", "flights")},
+        "distance": [float(f"{value:.3g}") for value in tables["distance"]["distance"]],
+        "multiplier": [float(f"{value:.6g}") for value in tables["orbit"]["multiplier"]],
+        "label": tables["orbit"]["label"].tolist(),
+    }
 
 
 def _called_stable(system):
