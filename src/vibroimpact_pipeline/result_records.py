@@ -158,7 +158,10 @@ def _as_recorded(path: str) -> bool:
 
 
 def _of_snakemake(folder: str, path: str) -> Path:
-    """Return the path of Snakemake's record of a result: its name in Base64, split to respect the name length limit."""
+    """Return the path of Snakemake's record of a result: its name in Base64, split to respect the name length limit.
+
+    Snakemake has no public function for it. Tested with 9.12 and 9.27.
+    """
     name = base64.urlsafe_b64encode(path.encode()).decode()
     *cut, last = (name[start : start + 254] for start in range(0, len(name), 254))
     return Path(".snakemake", folder, *(f"@{part}" for part in cut), last)
