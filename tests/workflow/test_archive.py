@@ -212,7 +212,7 @@ def test_the_sums_of_all_files_are_in_the_archive(elsewhere):
 def test_elsewhere_there_is_no_archive_without_git(elsewhere):
     said = elsewhere.snakemake("archive", check=False)
     assert elsewhere.returncode == 1
-    assert "archive: there is no git" in said
+    assert "archive: the pipeline is not a git checkout" in said
     assert "Traceback" not in said
 
 

@@ -53,7 +53,7 @@ def test_distance_is_that_of_phasors_and_blind_to_full_turns():
 def test_a_ball_that_misses_a_wall_is_refused():
     tau, displacements, impacts = made_up_motion()
     keep = (impacts["module"] == 1) | (impacts["wall"] == 1)
-    with pytest.raises(ValueError, match="module 2 at the wall -1"):
+    with pytest.raises(ValueError, match="module 2 has no impact at the wall -1"):
         measure(SYSTEM, tau, displacements, {name: values[keep] for name, values in impacts.items()})
 
 

@@ -180,7 +180,7 @@ def test_a_peak_is_the_top_of_all_humps(chapter):
 @pytest.mark.parametrize(
     ("said", "asked"),
     {
-        r"^band: \(1.2, 1.1\) is no band": lambda: without_balls(DAMPED).peak((1.2, 1.1)),
+        r"^band: needs 0 < low < high, got \(1.2, 1.1\)": lambda: without_balls(DAMPED).peak((1.2, 1.1)),
         r"^band: 'low' is not a number": lambda: best(DAMPED, ("low", 1.0)),
         r"^tuning: .* needs frequencies above 0": lambda: tuned(DAMPED, Tuning((0.0, 1.0), (0.1, 0.1))),
         r"^damping: needs two finite numbers": lambda: tuned(DAMPED, Tuning((1.0, 1.0), (0.1,))),

@@ -72,7 +72,8 @@ def test_a_number_of_the_findings_is_that_of_the_results(studied, quoted, source
     """The number as quoted is the one of the results, rounded to as many decimals.
 
     Statistics of chaotic motions differ from one machine to another: they agree within five times their uncertainty, or
-    15 % where they come from a single run. A spread of a few starts is known to its order of magnitude.
+    15 % where they come from a single run. A spread of a few starts is known to its order of magnitude. Of ratios of run
+    times only the order is checked.
     """
     decimals = len(quoted.partition(".")[2])
     percent = "percent | " * source.startswith("percent | ")
@@ -85,8 +86,9 @@ def test_a_number_of_the_findings_is_that_of_the_results(studied, quoted, source
         spread = 0.15 * abs(found) if pd.isna(spread) else spread
     elif " | ".join(place).startswith(LARGEST_OF_FEW):
         spread = (1.0 if place[-1] == "spread" else 0.15) * abs(found)
-    elif place[-1] == "times":  # of two run times, each as noisy as the machine is busy
-        spread = 2 * min(found, float(quoted))
+    elif place[-1] == "times":  # a ratio of two run times, each as noisy as the machine is busy
+        assert found > 1
+        return
     assert abs(found - float(quoted.replace("−", "-"))) <= 0.5 * 10.0**-decimals + spread
 
 

@@ -113,7 +113,7 @@ def fixed_points(system: System) -> list[FixedPoint]:
     -------
     list of FixedPoint
         Fixed points, ascending in C_1 (for a single machine, in the C of its module); this is not the order of their
-        labels. `vibroimpact.studies.completeness.points` proves that none is missing.
+        labels.
 
     Raises
     ------

@@ -39,7 +39,7 @@ ELSEWHERE = re.compile(r"(?<=\]\()(?:studies|\.\.|(?:\.\./)+report/pages)/(?=\w+
 EQUATION = re.compile(r"\((10\.\d+)\)")
 NAMES = (nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw)
 """Nodes in which numbers of equations are not explained."""
-OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>).*(WARNING|ERROR)")
+OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>|.*more than one target).*(WARNING|ERROR)")
 """A warning about a page, as opposed to a docstring or a name that is documented twice."""
 SPHINX = {
     "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", __name__],
