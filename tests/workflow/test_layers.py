@@ -24,6 +24,7 @@ AWARE = {
     "workflow/Snakefile",
     "workflow/rules/checks.smk",
     "workflow/rules/common.smk",
+    "workflow/rules/figures.smk",
 }
 """Files that name what is in the layer, and look first if it is there."""
 LAYER = re.compile(r"\bstudies[/.](?!smk\b|yaml\b)\w|\b(?:from|import) studies\b|\bstudies\.(?:smk|yaml)\b")

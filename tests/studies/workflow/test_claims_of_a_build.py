@@ -72,8 +72,8 @@ def test_a_number_of_the_findings_is_that_of_the_results(studied, quoted, source
     """The number as quoted is the one of the results, rounded to as many decimals.
 
     Statistics of chaotic motions differ from one machine to another: they agree within five times their uncertainty, or
-    15 % where they come from a single run. A spread of a few starts is known to its order of magnitude. Of ratios of run
-    times only the order is checked.
+    15 % where they come from a single run. A spread of a few starts is known to its order of magnitude. Ratios
+    of run times are only larger than 1.
     """
     decimals = len(quoted.partition(".")[2])
     percent = "percent | " * source.startswith("percent | ")
