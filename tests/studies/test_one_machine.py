@@ -43,6 +43,29 @@ def test_without_ball_and_with_it_fixed_the_peak_is_that_of_an_oscillator(found)
         assert said == pytest.approx(40.0 / 3e5 / (2 * ratio * np.sqrt(1 - ratio**2)), rel=1e-9)
 
 
+@pytest.mark.parametrize("drive", [{"base": 1e-4}, {"unbalance": 0.02}])
+def test_a_moving_base_and_an_unbalance_have_their_closed_form_without_ball_with_it_fixed_and_with_an_absorber(drive):
+    """Transmissibility of a base; u omega^2 of an unbalance; a mass on spring and damper in place of the ball."""
+    machine = vi.PhysicalSystem.single(M=120.0, m=6.0, k=3e5, c=240.0, omega=1.0, **drive)
+    found = vi.design(machine, BAND, **CHOICE)
+
+    def amplitude(omega, mass):
+        force = 1e-4 * abs(3e5 + 240j * omega) if "base" in drive else 0.02 * omega**2
+        return force / abs(3e5 - mass * omega**2 + 240j * omega)
+
+    omegas = 2 * np.pi * np.array([row["frequency_Hz"] for row in found.response])
+    assert [row["without_m"] for row in found.response] == pytest.approx(amplitude(omegas, 120.0), rel=1e-9)
+    fine = 2 * np.pi * np.linspace(*BAND, 200_001)
+    assert found.without == pytest.approx(amplitude(fine, 120.0).max(), rel=1e-8)
+    assert found.fixed == pytest.approx(amplitude(fine, 126.0).max(), rel=1e-8)
+    assert found.machine == replace(machine, L=found.machine.L, kappa=0.4)
+    absorber = max(row["absorber_m"] for row in found.response)
+    assert absorber <= found.absorber * (1 + 1e-9) < found.without
+    omega = 2 * np.pi * found.response[-1]["frequency_Hz"]
+    at_end = vi.PhysicalSystem.single(M=120.0, m=6.0, k=3e5, c=240.0, omega=omega, L=1.0, **drive).dimensionless()
+    assert at_end.forcing[0] * 3e5 == pytest.approx(amplitude(omega, 0.0) * abs(3e5 + 240j * omega), rel=1e-12)
+
+
 def test_the_machine_is_told_by_its_natural_frequency_and_static_deflection(found):
     assert found.natural == pytest.approx(50 / (2 * np.pi), rel=1e-12)
     assert found.static == pytest.approx(40 / 3e5, rel=1e-12)

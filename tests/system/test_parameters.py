@@ -84,6 +84,29 @@ def test_one_machine_without_damping_is_refused_at_its_resonance(M, k):
     vi.PhysicalSystem.single(**machine, c=0.0, omega=1.001 * math.sqrt(k / M)).dimensionless()
 
 
+@pytest.mark.parametrize("drive", [{"base": 0.3}, {"unbalance": 0.2}])
+@pytest.mark.parametrize("omega", [0.6, 1.4, 3.0])
+def test_a_moving_base_and_an_unbalance_move_the_box_as_in_closed_form(drive, omega):
+    """A ball that meets no wall: transmissibility of a base, u omega^2 over the dynamic stiffness of an unbalance."""
+    M, k, c, L = 2.0, 5.0, 0.7, 3.0
+    machine = vi.PhysicalSystem.single(M=M, m=0.1, k=k, c=c, L=L, omega=omega, **drive)
+    load = 0.3 * abs(k + 1j * c * omega) if "base" in drive else 0.2 * omega**2
+    amplitude = load / abs(k - M * omega**2 + 1j * c * omega)
+    orbit = vi.periodic_orbit(machine.dimensionless(), [0.0] * 8)
+    assert orbit.amplitudes[0] * L == pytest.approx(amplitude, rel=1e-12)
+    assert replace(machine, omega1=2 * omega).F10 == pytest.approx(machine.force(2 * omega), rel=1e-15)
+
+
+def test_a_machine_has_one_drive():
+    machine = dict(M=1.0, m=0.1, k=1.0, c=0.1)
+    with pytest.raises(ValueError, match=r"\AF: 1.0 besides base = 0.1 and unbalance = 0.0; give one of them"):
+        vi.PhysicalSystem.single(**machine, F=1.0, base=0.1)
+    with pytest.raises(ValueError, match=r"\Abase, unbalance: got 0.1 and 0.2; give one of them"):
+        vi.PhysicalSystem.single(**machine, base=0.1, unbalance=0.2)
+    with pytest.raises(ValueError, match=r"\Aunbalance: -0.2 is below 0"):
+        vi.PhysicalSystem.single(**machine, unbalance=-0.2)
+
+
 positive = st.floats(0.05, 20.0)
 
 

@@ -1,11 +1,11 @@
 """Design a ball absorber for one machine in SI units: clearance, restitution and response.
 
-The machine is a mass on a spring and a damper, driven by F sin(2 pi f t) over a band of frequencies f. Candidates are
-compared by their peak: the largest displacement over the band, from rest and from other initial states. A peak from a
-few initial states is a lower bound, and selecting the lowest of many such peaks adds a bias. So the best few candidates
-are measured again: from more initial states, after a longer transient, and with slightly more and less clearance. The
-design is the candidate with the lowest worst peak in this neighbourhood. Text, table and plot of the design use the
-same grid of frequencies and the same window of time.
+The machine is a mass on a spring and a damper, driven over a band of frequencies by a constant force, a moving base or
+an unbalance. Candidates are compared by their peak: the largest displacement over the band, from rest and from other
+initial states. A peak from a few initial states is a lower bound, and selecting the lowest of many such peaks adds a
+bias. So the best few candidates are measured again: from more initial states, after a longer transient, and with
+slightly more and less clearance. The design is the candidate with the lowest worst peak in this neighbourhood. Text,
+table and plot of the design use the same grid of frequencies and the same window of time.
 """
 
 import math
@@ -305,9 +305,9 @@ def _designed(study, clearances, restitutions, progress) -> Design:
         row |= {"again_m": measured.peak, "near_m": max(peaks)}
         finalists.append((max(peaks), measured.peak, min(peaks), measured))
     highest, _, lowest, measured = min(finalists, key=lambda one: one[:2])
-    absorber = tuned(study.system, best(study.system, study.band))
+    absorber = tuned(study.system, best(study.system, study.band, study.scale), study.scale)
     return Design(
-        machine=replace(measured.machine, F10=study.given.F10),
+        machine=replace(study.given, L=measured.machine.L, kappa=measured.machine.kappa),
         peak=measured.peak,
         near=(lowest, highest),
         settling=float(measured.settling.max()),
@@ -365,9 +365,10 @@ class _Study:
         if not 0 < low < high:
             raise ValueError(f"band: ({low}, {high}) Hz; needs 0 < low < high")
         if not machine.c1 or not machine.F10:
-            raise ValueError("machine: needs a damper c above 0 and a force F other than 0")
+            raise ValueError("machine: needs a damper c above 0 and a force F, base or unbalance other than 0")
+        natural = {"omega1": machine.omega10, "omega2": machine.omega10}
         # With -F all signs change, so that the same initial states would sample other motions.
-        self.given, self.machine = machine, replace(machine, F10=abs(machine.F10), L=1.0)
+        self.given, self.machine = machine, replace(machine, F10=abs(machine.F10), L=1.0, **natural)
         self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
         if self.system.modules != (1,):
@@ -382,7 +383,11 @@ class _Study:
 
     def linear(self, reference) -> float:
         """Return the peak of a linear system in place of the machine [m]."""
-        return self.machine.L * reference(self.system).peak(self.band)
+        return self.machine.L * reference(self.system, self.scale).peak(self.band)
+
+    def scale(self, Omega):
+        """Return the force at dimensionless frequencies, relative to that at the natural frequency."""
+        return self.machine.force(Omega * self.machine.omega10) / self.machine.F10 * np.ones_like(Omega)
 
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
         """Return a row per pair of clearance and restitution, with the peak from a few initial states."""
@@ -410,7 +415,7 @@ class _Study:
         """Return the rows of `Design.response`."""
         without, with_absorber = (
             self.machine.L * linear.amplitudes(self.frequencies / self.hertz)[:, 0]
-            for linear in (without_balls(self.system), absorber)
+            for linear in (without_balls(self.system, self.scale), absorber)
         )
         rows, worst = [], measured.largest.argmax(axis=1)
         later = finished(ensemble(measured.systems, measured.finals[range(len(worst)), worst], LATER))

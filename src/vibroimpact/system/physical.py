@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass, fields
 
+import numpy as np
+
 from vibroimpact.system.arguments import real
 from vibroimpact.system.parameters import System
 
@@ -27,12 +29,17 @@ class PhysicalSystem:
         Clearance: a ball meets a wall at |x - y| = L.
     kappa : float
         Restitution coefficient.
+    base, unbalance : float, default 0.0
+        Excitation of box 1 in place of a constant F10, which is then computed from the frequency: see `single`.
 
     Raises
     ------
     ValueError
         If a parameter is not a finite number; if a mass, a stiffness to ground, a frequency or L is not above 0; or if
         a damping or k12 is below 0.
+
+        If a parameter is not a finite number; if a mass, a stiffness to ground, a frequency or L is not above 0; if a
+        damping, k12, base or unbalance is below 0; or if base and unbalance are both given.
 
     Notes
     -----
@@ -60,6 +67,8 @@ class PhysicalSystem:
     omega2: float
     L: float
     kappa: float
+    base: float = 0.0
+    unbalance: float = 0.0
 
     def __post_init__(self):
         for field in fields(self):
@@ -67,9 +76,18 @@ class PhysicalSystem:
         for name in ("M", "m", "k1", "k2", "omega1", "omega2", "L"):
             if getattr(self, name) <= 0:
                 raise ValueError(f"{name}: {getattr(self, name)} is not above 0")
-        for name in ("k12", "c1", "c2", "c12"):
+        for name in ("k12", "c1", "c2", "c12", "base", "unbalance"):
             if getattr(self, name) < 0:
                 raise ValueError(f"{name}: {getattr(self, name)} is below 0")
+        if self.base and self.unbalance:
+            raise ValueError(f"base, unbalance: got {self.base} and {self.unbalance}; give one of them")
+        object.__setattr__(self, "F10", float(self.force(self.omega1)))
+
+    def force(self, omega):
+        """Return the amplitude of the force on box 1 at a circular frequency, or at an array of these."""
+        if self.base:
+            return self.base * np.hypot(self.k1, self.c1 * omega)
+        return self.unbalance * omega**2 if self.unbalance else self.F10
 
     @classmethod
     def single(
@@ -79,10 +97,12 @@ class PhysicalSystem:
         m: float,
         k: float,
         c: float,
-        F: float,
+        F: float = 0.0,
         L: float = 1.0,
         kappa: float = 0.65,
         omega: float | None = None,
+        base: float = 0.0,
+        unbalance: float = 0.0,
     ) -> "PhysicalSystem":
         """Return the parameters of one machine with a ball in its box.
 
@@ -99,14 +119,20 @@ class PhysicalSystem:
             Stiffness to ground [N/m].
         c : float
             Damping to ground [N s/m].
-        F : float
-            Amplitude of the force [N].
+        F : float, default 0.0
+            Amplitude of a force that does not depend on the frequency [N].
         L : float, default 1.0
             Half of the play of the ball [m].
         kappa : float, default 0.65
             Restitution coefficient.
         omega : float, optional
             Circular frequency of the force [rad/s]; the natural frequency by default.
+        base : float, default 0.0
+            In place of F: amplitude G of the motion of the ground below spring and damper [m], which gives the force
+            G sqrt(k^2 + c^2 omega^2).
+        unbalance : float, default 0.0
+            In place of F: mass of a rotor times its eccentricity, u [kg m], which gives the force u omega^2 (M includes
+            the rotor).
 
         Returns
         -------
@@ -116,8 +142,10 @@ class PhysicalSystem:
         Raises
         ------
         ValueError
-            As for PhysicalSystem.
+            As for PhysicalSystem, or if several of F, base and unbalance are given.
         """
+        if F and (base or unbalance):
+            raise ValueError(f"F: {F} besides base = {base} and unbalance = {unbalance}; give one of them")
         k, M = real("k", k), real("M", M)
         if min(k, M) <= 0:
             raise ValueError(f"{'k' if k <= 0 else 'M'}: {min(k, M)} is not above 0")
@@ -137,6 +165,8 @@ class PhysicalSystem:
             omega2=omega,
             L=L,
             kappa=kappa,
+            base=base,
+            unbalance=unbalance,
         )
 
     @property

@@ -1,6 +1,7 @@
 """Steady response and free decay of a linear system of boxes and attached masses, in the units of (10.2)."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,12 +26,15 @@ class Linear:
         Matrices M, C, K, each (n, n); the first two coordinates are the boxes.
     force : ndarray
         Amplitudes F, (n,).
+    scale : callable
+        Factor of the force at an array of frequencies.
     """
 
     mass: np.ndarray
     damping: np.ndarray
     stiffness: np.ndarray
     force: np.ndarray
+    scale: Callable = np.ones_like
 
     def amplitudes(self, Omega) -> np.ndarray:
         """Return the largest |X_i| of the steady response, shape (..., 2), at frequencies (...).
@@ -63,8 +67,7 @@ class Linear:
         """Return the complex amplitudes of all coordinates, shape (..., n)."""
         Omega = np.asarray(Omega, float)[..., None, None]
         impedance = self.stiffness - Omega**2 * self.mass + 1j * Omega * self.damping
-        force = np.broadcast_to(self.force, impedance.shape[:-1])[..., None]
-        return np.linalg.solve(impedance, force)[..., 0]
+        return np.linalg.solve(impedance, self.scale(Omega) * self.force[:, None])[..., 0]
 
     def peak(self, band: tuple[float, float]) -> float:
         """Return the largest |X_i| of both boxes over a band of frequencies; inf if an undamped resonance is in it.

@@ -30,18 +30,18 @@ class Tuning:
     damping: tuple[float, float]
 
 
-def without_balls(system) -> Linear:
-    """Return the boxes without balls, of mass 1."""
-    return Linear(np.diag(masses(system)), damping_matrix(system), stiffness_matrix(system), system.forcing)
+def without_balls(system, scale=np.ones_like) -> Linear:
+    """Return the boxes without balls, of mass 1, with a `Linear.scale` of the force."""
+    return Linear(np.diag(masses(system)), damping_matrix(system), stiffness_matrix(system), system.forcing, scale)
 
 
-def fixed_balls(system) -> Linear:
-    """Return the boxes with fixed balls, of mass 1 + epsilon."""
+def fixed_balls(system, scale=np.ones_like) -> Linear:
+    """Return the boxes with fixed balls, of mass 1 + epsilon, with a `Linear.scale` of the force."""
     stuck = np.diag(masses(system, (True, True)))
-    return Linear(stuck, damping_matrix(system), stiffness_matrix(system), system.forcing)
+    return Linear(stuck, damping_matrix(system), stiffness_matrix(system), system.forcing, scale)
 
 
-def tuned(system, tuning: Tuning) -> Linear:
+def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
     """Return the boxes with linear absorbers in place of the balls.
 
     The coordinates are (X1, X2, Y1, Y2).
@@ -52,6 +52,8 @@ def tuned(system, tuning: Tuning) -> Linear:
         Dimensionless parameters.
     tuning : Tuning
         Frequencies and damping ratios of the absorbers.
+    scale : callable, optional
+        Factor of the force at an array of frequencies, see `Linear`; 1 by default.
 
     Returns
     -------
@@ -77,6 +79,7 @@ def tuned(system, tuning: Tuning) -> Linear:
         _attached(damping_matrix(system), damper),
         _attached(stiffness_matrix(system), spring),
         np.concatenate([system.forcing, [0.0, 0.0]]),
+        scale,
     )
 
 

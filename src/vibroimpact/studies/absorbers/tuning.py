@@ -33,8 +33,8 @@ def den_hartog(system) -> Tuning:
     return Tuning(tuple(float(value) for value in host / (1 + ratio)), (damping, damping))
 
 
-def best(system, band: tuple[float, float]) -> Tuning:
-    """Return the tuning with the lowest peak (`Linear.peak`) over a band of frequencies, with the same forces.
+def best(system, band: tuple[float, float], scale=np.ones_like) -> Tuning:
+    """Return the tuning with the lowest peak (`Linear.peak`) over a band of frequencies, with the forces of `Linear`.
 
     Since the peak is a maximum with kinks, a bound on all values in the band is minimised instead, by sequential
     quadratic programming from three starting points. The best of the three local optima is returned.
@@ -54,12 +54,15 @@ def best(system, band: tuple[float, float]) -> Tuning:
     found = []
     for factors in STARTS:
         start = textbook + np.log([*factors, 1.0, 1.0])
-        bound = _levels(start, system, frequencies).max()
+        bound = _levels(start, system, frequencies, scale).max()
         result = minimize(
             lambda values: values[-1],
             [*start, bound],
             jac=lambda values: np.eye(5)[-1],
-            constraints={"type": "ineq", "fun": lambda values: values[-1] - _levels(values[:4], system, frequencies)},
+            constraints={
+                "type": "ineq",
+                "fun": lambda values: values[-1] - _levels(values[:4], system, frequencies, scale),
+            },
             bounds=[(value - np.log(FARTHEST), value + np.log(FARTHEST)) for value in textbook] + [(None, None)],
             method="SLSQP",
             options={"maxiter": 200, "ftol": 1e-9},
@@ -68,7 +71,7 @@ def best(system, band: tuple[float, float]) -> Tuning:
             found.append(_tuning(result.x[:4]))
     if not found:
         raise ArithmeticError(f"the optimisation failed in the band ({frequencies[0]}, {frequencies[-1]})")
-    return min(found, key=lambda tuning: tuned(system, tuning).peak(band))
+    return min(found, key=lambda tuning: tuned(system, tuning, scale).peak(band))
 
 
 def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
@@ -87,9 +90,9 @@ def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
     }
 
 
-def _levels(logarithms, system, frequencies):
+def _levels(logarithms, system, frequencies, scale):
     """Return the logarithms of |X_i| at all frequencies, of both boxes that move."""
-    amplitudes = tuned(system, _tuning(logarithms)).amplitudes(frequencies)
+    amplitudes = tuned(system, _tuning(logarithms), scale).amplitudes(frequencies)
     return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
 
 
