@@ -27,6 +27,8 @@ _PUBLIC = {
     "orbits": "vibroimpact.exact.orbits.search",
     "Orbit": "vibroimpact.exact.orbits.search",
     "prove": "vibroimpact.exact.orbits.search",
+    "periodic_orbit": "vibroimpact.exact.periodic",
+    "PeriodicOrbit": "vibroimpact.exact.periodic",
     "to_frame": "vibroimpact.frames",
     "to_dataset": "vibroimpact.frames",
     "branches": "vibroimpact.studies.public.continuation",

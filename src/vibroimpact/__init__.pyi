@@ -10,6 +10,8 @@ from vibroimpact.exact.engine.simulation import simulate_many as simulate_many
 from vibroimpact.exact.orbits.search import Orbit as Orbit
 from vibroimpact.exact.orbits.search import orbits as orbits
 from vibroimpact.exact.orbits.search import prove as prove
+from vibroimpact.exact.periodic import PeriodicOrbit as PeriodicOrbit
+from vibroimpact.exact.periodic import periodic_orbit as periodic_orbit
 from vibroimpact.frames import to_dataset as to_dataset
 from vibroimpact.frames import to_frame as to_frame
 from vibroimpact.studies.absorbers.decay import decay_time as decay_time

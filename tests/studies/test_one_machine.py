@@ -374,9 +374,8 @@ def test_the_picture_has_the_displacements_of_the_table(found):
 
 
 def test_the_command_takes_a_range_of_masses(monkeypatch, capsys):
-    asked = []
-    done = vi.design(MACHINE, (7.9, 8.0), **CHOICE, masses=[2.0, 4.0])
-    monkeypatch.setattr(vi, "design", lambda *given, masses, **choices: asked.append(masses) or done)
+    asked, done = [], vi.design(MACHINE, (7.9, 8.0), **CHOICE, masses=[2.0, 4.0])
+    monkeypatch.setattr(vi, "design", lambda *_, masses, **__: asked.append(masses) or done)
     words = OPTIONS.replace("--m 6", "--m {}")
     for given, masses in (("0..4", [1.0, 2.0, 3.0, 4.0]), ("2..6", [2.0, 3.0, 4.0, 5.0, 6.0]), ("6", None)):
         assert main(words.format(given).split()) == 0

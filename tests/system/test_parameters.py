@@ -94,7 +94,8 @@ def test_a_moving_base_and_an_unbalance_move_the_box_as_in_closed_form(drive, om
     amplitude = load / abs(k - M * omega**2 + 1j * c * omega)
     orbit = vi.periodic_orbit(machine.dimensionless(), [0.0] * 8)
     assert orbit.amplitudes[0] * L == pytest.approx(amplitude, rel=1e-12)
-    assert replace(machine, omega1=2 * omega).F10 == pytest.approx(machine.force(2 * omega), rel=1e-15)
+    twice = replace(machine, omega1=2 * omega)
+    assert pytest.approx(machine.force(2 * omega), rel=1e-15) == twice.F10
 
 
 def test_a_machine_has_one_drive():

@@ -151,16 +151,31 @@ def multipliers(jacobian: np.ndarray) -> np.ndarray:
 
 
 def floquet(orbit) -> str:
+    """Return the stability of an orbit with known impacts, see `by_multipliers`."""
+    jacobian = of_modules(orbit.system, orbit.passage.jacobian)
+    return by_multipliers(jacobian, orbit.residual, np.nanmin(np.abs(orbit.ball_speeds)))
+
+
+def by_multipliers(jacobian: np.ndarray, residual: float, slowest: float) -> str:
     """Return "stable" if all multipliers are inside the unit circle, "unstable" if one is outside, else "undecided".
 
     A multiplier decides if its modulus differs from 1 by more than its error, estimated to first order: the condition
     number of the eigenvalue times the error of the monodromy matrix. The latter is due to rounding and to the error of
     the orbit (its residual over the distance of the nearest multiplier from +1), relative to the norm of the matrix.
+
+    Parameters
+    ----------
+    jacobian : ndarray
+        Monodromy matrix of the modules that take part, (n, n).
+    residual : float
+        Largest difference of the state after one period from that before.
+    slowest : float
+        Smallest relative speed of a ball at a wall.
     """
-    jacobian = of_modules(orbit.system, orbit.passage.jacobian)
     values, left, right = eig(jacobian, left=True, right=True)
     size = np.linalg.norm(jacobian)
-    condition = 1 / np.abs(np.einsum("ij,ij->j", left.conj(), right))
-    displaced = (orbit.residual + _ROUNDING) / np.abs(values - 1).min()
-    errors = size * condition * (_ROUNDING + displaced / np.nanmin(np.abs(orbit.ball_speeds)))
+    with np.errstate(divide="ignore"):
+        condition = 1 / np.abs(np.einsum("ij,ij->j", left.conj(), right))
+        displaced = (residual + _ROUNDING) / np.abs(values - 1).min()
+    errors = size * condition * (_ROUNDING + displaced / slowest)
     return all_stable(verdict(1 - abs(value), error) for value, error in zip(values, errors, strict=True))

@@ -1,0 +1,218 @@
+"""Periodic motions of any period and any sequence of events, by Newton's method on the stroboscopic map.
+
+The map leads from a state to the one n forcing periods later; the engine gives it together with its derivative,
+through impacts, chatter, sticking and release. It jumps where an event passes the instant of the stroboscope, so this
+instant is put into the longest interval without events.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vibroimpact.exact.engine.ensemble import ensemble
+from vibroimpact.exact.engine.simulation import MOST_CYCLES, Run, checked_state, simulate, within_walls
+from vibroimpact.exact.orbits.floquet import by_multipliers, multipliers
+from vibroimpact.system import System
+from vibroimpact.system.arguments import instance, whole
+from vibroimpact.system.representation import Representation, brief
+from vibroimpact.system.state import BALLS, IMPACT, MODULES, idle_at_rest, takes_part
+from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
+
+SAME = 1e-6
+"""Largest difference of states that are the same: near a bifurcation they are known to the root of rounding."""
+_STEPS, _HALVINGS, _REACH = 40, 12, 0.5
+_NEUTRAL = 1e-10  # smaller singular values: nothing holds a ball that flies without impacts, or is immensely heavy
+_SETTLED, _STALLED = 1e-13, 1e-7  # the second for steps that shrink no more: rounding, times a large multiplier
+_TOUCH = 1e-9
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PeriodicOrbit(Representation):
+    """A periodic motion with any number of impacts; dimensionless, arrays per module are NaN where one takes no part.
+
+    system: the system it belongs to. periods: number of forcing periods after which it repeats.
+    state: (8,) at tau = 0, just after the events there.
+    run: the motion once round, from a start between two events; `run.events`, `run.certificate`, `run.energy`.
+    """
+
+    system: System
+    periods: int
+    state: np.ndarray
+    run: Run
+
+    @property
+    def period(self) -> float:
+        """Period in units of tau."""
+        return self.periods * self.system.period
+
+    @cached_property
+    def multipliers(self) -> np.ndarray:
+        """Floquet multipliers over the period, (8,), of a single machine (4,), complex, by descending modulus."""
+        part = takes_part(self.system)
+        return multipliers(self.run.jacobian[part][:, part])
+
+    @property
+    def stability(self) -> str:
+        """ "stable", "unstable", or "undecided": a multiplier reaches the unit circle within its error, or a ball flies
+        without impacts, whose multipliers are 1.
+        """
+        part = takes_part(self.system)
+        part[BALLS] &= np.isin(MODULES[BALLS], self.run.events["module"])
+        verdict = by_multipliers(self.run.jacobian[part][:, part], self.residual, self._slowest)
+        return UNDECIDED if verdict == STABLE and len(self.multipliers) > part.sum() else verdict
+
+    @property
+    def stable(self) -> bool | None:
+        """True if stable, False if unstable, None if undecided."""
+        return {STABLE: True, UNSTABLE: False}.get(self.stability)
+
+    @property
+    def impacts(self) -> np.ndarray:
+        """Impacts in one period, (2, 2), [module, wall +1 / wall -1]; of a chatter those before it is completed."""
+        events = self._impacts
+        return np.array([[np.sum((events["module"] == i) & (events["wall"] == w)) for w in (1, -1)] for i in (1, 2)])
+
+    @cached_property
+    def symmetric(self) -> bool:
+        """True if the state half a period later is the mirror image; the period is then an odd number of periods."""
+        half = _state_at(self.run, self.run.tau0 + self.period / 2)
+        return self.periods % 2 == 1 and bool(np.abs(half + self.run.start).max() <= SAME)
+
+    @property
+    def grazing(self) -> bool:
+        """True if a ball touches a wall without speed: a multiplier grows without bound as it begins to impact."""
+        return _grazes(self.run)
+
+    @property
+    def admissible(self) -> bool:
+        """True if the balls are at the walls at their impacts, as in every motion that the engine finishes."""
+        return self.run.certificate.wall_residual <= _TOUCH
+
+    @property
+    def residual(self) -> float:
+        """Largest difference of the state after one period from that before."""
+        return _gap(self.run)
+
+    @cached_property
+    def amplitudes(self) -> np.ndarray:
+        """Largest displacements |X_i| of the boxes, (2,)."""
+        largest = ensemble(self.system, self.state, self.periods)["largest"]
+        return np.where(takes_part(self.system)[[0, 2]], largest, np.nan)
+
+    @property
+    def _impacts(self):
+        return self.run.events[self.run.events["kind"] == IMPACT]
+
+    @property
+    def _slowest(self):
+        """Smallest relative speed after an impact."""
+        states, rows = self._impacts["state"], np.arange(len(self._impacts))
+        boxes = 2 * self._impacts["module"] + 2
+        return np.abs(states[rows, boxes] - states[rows, boxes + 1]).min(initial=1.0)
+
+    def _shown(self):
+        return {
+            "periods": str(self.periods),
+            "impacts": str(self.impacts.tolist()),
+            "symmetric": str(self.symmetric),
+            "stability": self.stability + (" (grazing)" if self.grazing else ""),
+            "multipliers": f"moduli up to {brief(abs(self.multipliers[0]))}",
+            "amplitudes": brief(self.amplitudes),
+        }
+
+
+def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> PeriodicOrbit:
+    """Refine a periodic motion of any period, with any impacts, chatter and sticking, from a state near it.
+
+    Newton's method on the map over `periods` forcing periods, with the exact derivative `run.jacobian`. It finds
+    unstable motions, too; from farther away it may find another motion than the nearest one.
+
+    >>> settled = vi.simulate(system, state, 500).final
+    >>> vi.periodic_orbit(system, settled).impacts.tolist()
+    [[1, 1], [1, 1]]
+
+    Args:
+        state: (8,) at tau = 0, usually the end of a run that has settled; a module that takes no part is put at rest.
+        periods: number of forcing periods after which the motion repeats, and not before.
+
+    Raises:
+        ValueError: an argument is malformed, Newton's method does not converge, or the motion repeats earlier.
+        ArithmeticError: a run could not be finished.
+    """
+    instance("system", system, System)
+    state, periods = checked_state(state), whole("periods", periods, 1, MOST_CYCLES)
+    orbit = refined(system, state, periods)
+    start, begin = orbit.run.start.copy(), orbit.run.tau0
+    for fewer in (n for n in range(1, periods // 2 + 1) if periods % n == 0):
+        if np.abs(simulate(system, start, fewer, begin).final - start).max() <= SAME:
+            raise ValueError(f"periods: the motion repeats after {fewer}, not only after {periods}")
+    return orbit
+
+
+def refined(system, state, periods) -> PeriodicOrbit:
+    """Return the motion that repeats after some forcing periods, or a divisor of them, near a state (8,).
+
+    Raises:
+        ValueError: Newton's method does not converge.
+        ArithmeticError: a run could not be finished.
+    """
+    run = simulate(system, idle_at_rest(system, state), periods)
+    begin = _between_events(run)
+    run = start = simulate(system, _state_at(run, begin), periods, begin)
+    part, size = takes_part(system), np.inf
+    for _ in range(_STEPS):
+        restoring = (np.eye(8) - run.jacobian)[part][:, part]
+        step, rcond = np.zeros(8), _NEUTRAL / np.linalg.norm(restoring, 2)
+        step[part] = np.linalg.lstsq(restoring, (run.final - run.start)[part], rcond)[0]
+        last, size = size, np.abs(step).max() / (1 + np.abs(run.start).max())
+        if size <= _SETTLED or last / 2 < size <= _STALLED:
+            return PeriodicOrbit(system, periods, _at_zero(run), run)
+        nearer = _nearer(run, step * min(1.0, _REACH / size))
+        if nearer is None:
+            break
+        run = nearer
+    grazes = "; a ball grazes a wall" if _grazes(start) or _grazes(run) else ""
+    raise ValueError(
+        f"state: no motion of period {periods} found near it; the nearest misses by {_gap(run):.2g}{grazes}"
+    )
+
+
+def _nearer(run, step):
+    """Return the run from a start that is moved by a step, or a part of it, if its ends are nearer to each other."""
+    for _ in range(_HALVINGS):
+        x = run.start + step
+        if within_walls(x[None])[0]:
+            moved = simulate(run.system, x, run.cycles, run.tau0)
+            if _gap(moved) < _gap(run):
+                return moved
+        step = step / 2
+    return None
+
+
+def _gap(run):
+    """Return the largest difference of the ends of a run."""
+    return float(np.abs(run.final - run.start).max())
+
+
+def _between_events(run):
+    """Return the middle of the longest interval of a run without events."""
+    edges = np.array([run.tau0, *run.events["tau"], float(run.end)])
+    longest = np.diff(edges).argmax()
+    return float(edges[longest : longest + 2].mean())
+
+
+def _at_zero(run):
+    """Return the state at the end of the last forcing period, which is that at tau = 0, after the events there."""
+    tau = run.cycles * run.system.period
+    there = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
+    return there[-1].copy() if len(there) else _state_at(run, tau)
+
+
+def _state_at(run, tau):
+    return simulate(run.system, run.start.copy(), run.cycles, run.tau0, [tau]).samples[0]
+
+
+def _grazes(run):
+    return min(run.certificate.nearest_miss, run.certificate.shallowest_hit) <= _TOUCH

@@ -1,0 +1,186 @@
+"""Periodic motions of any period: against closed forms, orbits found otherwise, runs and their finite differences."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import vibroimpact as vi
+from chapter import FORCES, PARAMETERS
+from single_machines import FIRST, MACHINE
+
+WIDE = 50.0
+"""Half of the box: the far wall is out of reach."""
+
+
+def hard_oscillator(omega, r, sigma):
+    """The oscillator x'' + x = cos(omega t) of F. Dux that meets a fixed wall at sigma, and a state at this wall.
+
+    A ball of 1e12 boxes, at rest, holds the wall.
+    """
+    machine = vi.PhysicalSystem.single(M=1, m=1e12, k=1, c=0, F=1, L=WIDE, kappa=r, omega=omega)
+    return machine.dimensionless(), np.array([sigma / WIDE, sigma / WIDE - 1, 0, 0, 0, 0, 0, 0])
+
+
+def one_impact_in(n, omega, r, sigma):
+    """Impact speeds and forcing phases of candidates for one impact in n periods, by Dux's formula."""
+    T, gamma, loss = 2 * np.pi * n / omega, 1 / (1 - omega**2), (1 - r) / omega
+    c = math.sin(T) * (1 + r) / (1 - math.cos(T)) if abs(math.sin(T)) > 1e-12 else 0.0
+    root = np.emath.sqrt((gamma * c) ** 2 - (sigma**2 - gamma**2) * loss**2)
+    for v in (2 * (-c * sigma + sign * root) / (c**2 + loss**2) for sign in (1, -1)):
+        if np.isreal(v) and v > 0:
+            yield v, -np.sign(gamma) * math.acos(min(1.0, (sigma + c * v / 2) / gamma))
+
+
+def from_impact(omega, r, sigma, n, v, phase):
+    """Periodic orbit from the state at tau = 0 of the motion that leaves the wall at a forcing phase, after speed v."""
+    system, state = hard_oscillator(omega, r, sigma)
+    state[4], tau0 = -r * v / WIDE, (phase + np.pi / 2) / omega  # the force is a sine here, a cosine there
+    start = system.period * math.ceil(tau0 / system.period)
+    return vi.periodic_orbit(system, vi.simulate(system, state, 1, tau0, [start]).samples[0], n)
+
+
+@pytest.mark.parametrize(
+    ("omega", "r", "sigma", "n", "count"),
+    [(3.7, 0.8, 0.0, 2, 1), (3.7, 0.8, 0.2, 2, 2), (3.7, 0.8, 0.4, 2, 0), (2.8, 0.8, 0.0, 1, 1)]
+    + [(2.0 * n, 0.4, 0.001, n, 1) for n in (1, 2, 5, 10)],
+)
+def test_one_impact_in_n_periods_has_the_speed_of_the_formula_by_dux(omega, r, sigma, n, count):
+    candidates = list(one_impact_in(n, omega, r, sigma))
+    assert len(candidates) == count
+    for v, phase in candidates:
+        orbit = from_impact(omega, r, sigma, n, v, phase)
+        assert (orbit.periods, orbit.impacts.tolist()) == (n, [[1, 0], [0, 0]])
+        assert WIDE * abs(orbit.run.events["state"][0, 4]) / r == pytest.approx(v, rel=1e-9)
+        # The impact keeps r^2 of the area, the ball's part is that of a free flight.
+        assert np.prod(orbit.multipliers) == pytest.approx(r**2, rel=1e-4)
+
+
+def test_a_multiplier_grows_without_bound_towards_grazing():
+    """On Dux's lower branch the speed falls to 0 at sigma = gamma; v times the multiplier tends to a constant."""
+    speeds, largest = [], []
+    for distance in (1e-3, 1e-4, 1e-5):
+        sigma = 1 / (3.7**2 - 1) + distance
+        *_, (v, phase) = one_impact_in(2, 3.7, 0.8, sigma)
+        orbit = from_impact(3.7, 0.8, sigma, 2, v, phase)
+        speeds.append(v)
+        largest.append(abs(orbit.multipliers[0]))
+    assert speeds[0] > 50 * speeds[-1]
+    assert largest[-1] > 50 * largest[0] > 50
+    assert speeds[1] * largest[1] == pytest.approx(speeds[2] * largest[2], rel=0.02)
+
+
+def test_grazing_is_reported():
+    """A ball of a 1:1 motion touches a wall between its impacts at the force f, found by bisection."""
+
+    def motion(f10_hat):
+        found = [one for one in vi.orbits(MACHINE.with_(f10_hat=f10_hat)) if one.symmetric]
+        return max((one for one in found if one.ball_speeds[0, 0] > 0), key=lambda one: one.excursion)
+
+    f = brentq(lambda f: motion(f).excursion - 1, 4.64, 4.66, xtol=1e-13)
+    near, apart = (vi.periodic_orbit(one.system, one.state) for one in (motion(f - 1e-9), motion(f - 1e-3)))
+    assert near.grazing
+    assert "stability=unstable (grazing)" in repr(near)
+    assert not apart.grazing
+    assert apart.run.certificate.nearest_miss == pytest.approx(1 - motion(f - 1e-3).excursion, rel=1e-6)
+    with pytest.raises(ValueError, match=r"\Astate: no motion of period 1 found near it; .*; a ball grazes a wall"):
+        vi.periodic_orbit(MACHINE.with_(f10_hat=f + 1e-9), motion(f).state)
+
+
+@pytest.mark.parametrize("case", FORCES)
+def test_two_impacts_in_one_period_are_the_orbits_found_otherwise(case):
+    """State, symmetry and multipliers of every 1:1 motion of the chapter, by superposition of impulse responses."""
+    f10_hat, f20_hat = FORCES[case]
+    system = vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)
+    motions = [orbit for orbit in vi.orbits(system) if orbit.admissible]
+    assert motions
+    for motion in motions:
+        orbit = vi.periodic_orbit(system, motion.state)
+        assert np.abs(orbit.state - motion.state).max() < 1e-10
+        assert np.abs(orbit.multipliers - motion.multipliers).max() < 1e-8 * abs(motion.multipliers[0])
+        assert (orbit.symmetric, orbit.stability) == (motion.symmetric, motion.stability)
+        assert orbit.impacts.tolist() == [[1, 1], [1, 1]]
+        assert orbit.admissible
+        assert orbit.residual < 1e-10
+
+
+SETTLED = [
+    (MACHINE.with_(f10_hat=1.9), 2, [[4, 2], [0, 0]], False),
+    (MACHINE.with_(f10_hat=4.9), 4, [[8, 10], [0, 0]], False),
+    (FIRST.with_(f10_hat=5.7), 3, [[7, 7], [0, 0]], True),
+    (vi.System(**PARAMETERS, f10_hat=1.8, f20_hat=1.8), 2, [[2, 4], [4, 2]], False),
+    (vi.System(**PARAMETERS, f10_hat=3.3, f20_hat=3.3), 5, [[10, 10], [8, 8]], False),
+    (vi.System(**PARAMETERS | {"kappa": 0.2}, f10_hat=3.0, f20_hat=2.7), 1, [[9, 9], [2, 2]], True),  # ball 1 sticks
+    (vi.System(**PARAMETERS | {"kappa": 0.05}, f10_hat=6.0, f20_hat=5.4), 1, [[5, 5], [5, 5]], True),  # both stick
+]
+
+
+@pytest.mark.parametrize(("system", "periods", "impacts", "symmetric"), SETTLED)
+def test_the_motion_that_a_long_run_settles_on(system, periods, impacts, symmetric):
+    """Period, impacts and amplitudes of a long run, from a start off the motion; decay rate of a push off it."""
+    settled = vi.simulate(system, np.zeros(8), 3000).final
+    push = np.array([3e-4, 0, -2e-4, 0, 1e-4, 0, 2e-4, 0])
+    orbit = vi.periodic_orbit(system, settled + push * np.isin([1, 1, 2, 2] * 2, system.modules), periods)
+    assert np.abs(orbit.state - settled).max() < 1e-11
+    assert (orbit.periods, orbit.impacts.tolist(), orbit.symmetric) == (periods, impacts, symmetric)
+    assert orbit.period == periods * system.period
+    assert orbit.stable
+    assert orbit.residual < 1e-12
+    assert orbit.admissible
+    run = vi.simulate(system, settled, periods, sample_times=np.linspace(0, orbit.period, 20_001))
+    moving = np.array(system.modules) - 1
+    assert orbit.amplitudes[moving] == pytest.approx(np.abs(run.samples[:, [0, 2]]).max(axis=0)[moving], rel=1e-6)
+    assert np.isnan(orbit.amplitudes).sum() == 2 - len(moving)
+
+
+@pytest.mark.parametrize(("system", "periods", "impacts", "symmetric"), SETTLED[:5])
+def test_multipliers_are_those_of_finite_differences_of_runs(system, periods, impacts, symmetric):
+    orbit = vi.periodic_orbit(system, vi.simulate(system, np.zeros(8), 3000).final, periods)
+    begin, start = orbit.run.tau0, orbit.run.start
+    part = np.isin([1, 1, 2, 2] * 2, system.modules)
+    steps = 1e-6 * np.eye(8)[part]
+    ends = [
+        [vi.simulate(system, start + sign * step, periods, begin).final[part] for sign in (1, -1)] for step in steps
+    ]
+    monodromy = np.array([(plus - minus) / 2e-6 for plus, minus in ends]).T
+    expected = np.linalg.eigvals(monodromy)
+    assert np.sort(abs(orbit.multipliers))[::-1][:2] == pytest.approx(np.sort(abs(expected))[::-1][:2], rel=1e-4)
+
+
+def test_an_unstable_motion_among_the_period_doubled_ones_is_found_by_its_own_period():
+    system = MACHINE.with_(f10_hat=1.9)
+    state = vi.simulate(system, np.zeros(8), 3000).final
+    once = vi.periodic_orbit(system, state)
+    assert once.stability == "unstable"
+    assert once.multipliers[0].real < -1
+    with pytest.raises(ValueError, match=r"\Aperiods: the motion repeats after 2, not only after 4"):
+        vi.periodic_orbit(system, state, 4)
+
+
+def test_a_ball_that_meets_no_wall():
+    """One sector of the box is linear then; at rest wherever it is, the ball has two multipliers of 1."""
+    system = MACHINE.with_(f10_hat=0.1)
+    orbit = vi.periodic_orbit(system, np.zeros(8))
+    assert orbit.impacts.sum() == 0
+    assert orbit.multipliers[:2] == pytest.approx(1)
+    decay = np.exp(-system.gamma1 * system.period / 2)
+    assert abs(orbit.multipliers[2:]) == pytest.approx(decay, rel=1e-12)
+    assert (orbit.stability, orbit.stable) == ("undecided", None)
+    response = system.forcing[0] / abs(1 - system.Omega**2 + 1j * system.gamma1 * system.Omega)
+    assert orbit.amplitudes[0] == pytest.approx(response, rel=1e-12)
+
+
+def test_what_went_wrong_is_said():
+    system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.9)
+    far = vi.simulate(system, np.zeros(8), 2000).final
+    with pytest.raises(
+        ValueError, match=r"\Astate: no motion of period 1 found near it; the nearest misses by 0.\d+\Z"
+    ):
+        vi.periodic_orbit(system.with_(kappa=0.2), vi.simulate(system.with_(kappa=0.2), np.zeros(8), 2000).final)
+    with pytest.raises(ValueError, match=r"\Aperiods: "):
+        vi.periodic_orbit(system, far, 0)
+    with pytest.raises(ValueError, match=r"\Astate: \|X1 - Y1\| = 3.0 is above 1"):
+        vi.periodic_orbit(system, [3.0, *[0.0] * 7])
+    with pytest.raises(ValueError, match=r"\Asystem: "):
+        vi.periodic_orbit(None, far)
