@@ -84,7 +84,7 @@ def test_grazing_is_reported():
     assert "stability=unstable (grazing)" in repr(near)
     assert not apart.grazing
     assert apart.run.certificate.nearest_miss == pytest.approx(1 - motion(f - 1e-3).excursion, rel=1e-6)
-    with pytest.raises(ValueError, match=r"\Astate: no motion of period 1 found near it; .*; a ball grazes a wall"):
+    with pytest.raises(ValueError, match=r"\Astate: no motion of period 1 found; .*; a ball grazes a wall"):
         vi.periodic_orbit(MACHINE.with_(f10_hat=f + 1e-9), motion(f).state)
 
 
@@ -175,7 +175,7 @@ def test_what_went_wrong_is_said():
     system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.9)
     far = vi.simulate(system, np.zeros(8), 2000).final
     with pytest.raises(
-        ValueError, match=r"\Astate: no motion of period 1 found near it; the nearest misses by 0.\d+\Z"
+        ValueError, match=r"\Astate: no motion of period 1 found; the nearest one misses by 0.\d+\Z"
     ):
         vi.periodic_orbit(system.with_(kappa=0.2), vi.simulate(system.with_(kappa=0.2), np.zeros(8), 2000).final)
     with pytest.raises(ValueError, match=r"\Aperiods: "):

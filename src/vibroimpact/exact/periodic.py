@@ -23,8 +23,9 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 SAME = 1e-6
 """Largest difference of states that are the same: near a bifurcation they are known to the root of rounding."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-_NEUTRAL = 1e-10  # smaller singular values: nothing holds a ball that flies without impacts, or is immensely heavy
-_SETTLED, _STALLED = 1e-13, 1e-7  # the second for steps that shrink no more: rounding, times a large multiplier
+_NEUTRAL = 1e-10  # relative: the velocity of a ball that changes less with the state is one that nothing changes
+_BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
+_SETTLED, _STALLED, _CLOSED = 1e-13, 1e-5, 1e-8  # step; step and gap of the ends where they come no nearer: at a fold
 _TOUCH = 1e-9
 
 
@@ -55,11 +56,10 @@ class PeriodicOrbit(Representation):
 
     @property
     def stability(self) -> str:
-        """ "stable", "unstable", or "undecided": a multiplier reaches the unit circle within its error, or a ball flies
-        without impacts, whose multipliers are 1.
+        """ "stable", "unstable", or "undecided": a multiplier reaches the unit circle within its error, or a ball has
+        two multipliers of 1 as nothing turns it back.
         """
-        part = takes_part(self.system)
-        part[BALLS] &= np.isin(MODULES[BALLS], self.run.events["module"])
+        part = _held(self.run)
         verdict = by_multipliers(self.run.jacobian[part][:, part], self.residual, self._slowest)
         return UNDECIDED if verdict == STABLE and len(self.multipliers) > part.sum() else verdict
 
@@ -160,23 +160,32 @@ def refined(system, state, periods) -> PeriodicOrbit:
     """
     run = simulate(system, idle_at_rest(system, state), periods)
     begin = _between_events(run)
-    run = start = simulate(system, _state_at(run, begin), periods, begin)
-    part, size = takes_part(system), np.inf
+    x = np.where(_BALL_VELOCITIES & ~_held(run), 0.0, _state_at(run, begin))
+    run = start = simulate(system, x, periods, begin)
     for _ in range(_STEPS):
+        part, step = _held(run), np.zeros(8)
         restoring = (np.eye(8) - run.jacobian)[part][:, part]
-        step, rcond = np.zeros(8), _NEUTRAL / np.linalg.norm(restoring, 2)
-        step[part] = np.linalg.lstsq(restoring, (run.final - run.start)[part], rcond)[0]
-        last, size = size, np.abs(step).max() / (1 + np.abs(run.start).max())
-        if size <= _SETTLED or last / 2 < size <= _STALLED:
-            return PeriodicOrbit(system, periods, _at_zero(run), run)
-        nearer = _nearer(run, step * min(1.0, _REACH / size))
+        step[part] = np.linalg.lstsq(restoring, (run.final - run.start)[part])[0]
+        size = np.abs(step).max() / (1 + np.abs(run.start).max())
+        nearer = _nearer(run, step * min(1.0, _REACH / size)) if size > _SETTLED else None
         if nearer is None:
             break
         run = nearer
+    if size <= _STALLED and _gap(run) <= _CLOSED:
+        return PeriodicOrbit(system, periods, _at_zero(run), run)
     grazes = "; a ball grazes a wall" if _grazes(start) or _grazes(run) else ""
-    raise ValueError(
-        f"state: no motion of period {periods} found near it; the nearest misses by {_gap(run):.2g}{grazes}"
-    )
+    raise ValueError(f"state: no motion of period {periods} found; the nearest one misses by {_gap(run):.2g}{grazes}")
+
+
+def _held(run):
+    """Return True (8,) for coordinates of modules that take part, but for balls that nothing turns back.
+
+    They meet no wall, or are too heavy to feel it: their place is a free parameter of the motion.
+    """
+    changes = np.abs(run.jacobian - np.eye(8))
+    turned = changes[[5, 7]].max(axis=1) > _NEUTRAL * max(1.0, changes.max())
+    balls = np.isin(np.arange(8), BALLS)
+    return takes_part(run.system) & (~balls | turned[MODULES - 1])
 
 
 def _nearer(run, step):
@@ -193,7 +202,7 @@ def _nearer(run, step):
 
 def _gap(run):
     """Return the largest difference of the ends of a run."""
-    return float(np.abs(run.final - run.start).max())
+    return float(np.abs(run.final - run.start)[_held(run)].max())
 
 
 def _between_events(run):

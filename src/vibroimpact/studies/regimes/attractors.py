@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.studies.regimes.classification import UNSETTLED, Regime
+from vibroimpact.exact.periodic import PeriodicOrbit, refined
+from vibroimpact.studies.regimes.classification import PERIODIC, UNSETTLED, Regime
 from vibroimpact.system.state import takes_part
 
 OPEN = -1
@@ -26,11 +27,14 @@ class Attractor:
         Forcing periods after which it repeats, or None.
     states : ndarray
         Stroboscopic section, shape (k, 8): all `cycles` points or, if it does not repeat, those of a window.
+    orbit : PeriodicOrbit or None
+        Multipliers, impacts and amplitudes of a motion whose regime is periodic; else None.
     """
 
     regime: str
     cycles: int | None
     states: np.ndarray
+    orbit: PeriodicOrbit | None
 
 
 def attractors(regimes: list[Regime]) -> tuple[np.ndarray, list[Attractor]]:
@@ -49,7 +53,13 @@ def attractors(regimes: list[Regime]) -> tuple[np.ndarray, list[Attractor]]:
         place = next((n for n, one in enumerate(known) if _same(one, regime)), len(known))
         known[place:] = known[place:] or [regime]
         labels[k] = place + 1
-    return labels, [Attractor(one.name, one.repeats, one.run.samples[::2][: one.repeats]) for one in known]
+    return labels, [_attractor(one) for one in known]
+
+
+def _attractor(regime):
+    run, repeats = regime.run, regime.repeats
+    orbit = refined(run.system, run.start, repeats) if regime.name in PERIODIC else None
+    return Attractor(regime.name, repeats, run.samples[::2][:repeats], orbit)
 
 
 def _same(one, other):

@@ -2,16 +2,16 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
 from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.exact.measures.periodicity import mirror_distance, repeats_after
+from vibroimpact.exact.periodic import refined
 from vibroimpact.system.amplitude import sawtooth_amplitude
 from vibroimpact.system.arguments import MOST_SEED, real, whole
-from vibroimpact.system.state import IMPACT, takes_part
+from vibroimpact.system.state import IMPACT, idle_at_rest, takes_part
 
 SYMMETRIC, ASYMMETRIC, OTHER = "symmetric", "asymmetric", "other periodic"
 STRONGLY_MODULATED, CHAOTIC, HOPPING = "strongly modulated", "chaotic", "hopping"
@@ -25,7 +25,6 @@ REGIMES = (*PERIODIC, *APERIODIC, IDLE, NO_IMPACTS, UNSETTLED)
 
 _PER_CYCLE = 2
 _MOST_STARTS = 1_000_000
-_NEWTON, _SETTLED = 12, 1e-11
 _SHRUNK, _LONGEST = 1e-6, 10_000
 """A run that approaches a periodic motion is followed until the multipliers shrink its distance by the factor _SHRUNK,
 for at most _LONGEST cycles."""
@@ -88,45 +87,22 @@ def classify_after(system, state, window: int, nearness: float) -> Regime:
     run = _window(system, state, window)
     if not _at_rest(run).any():
         repeats = repeats_after(run.samples[:, :4], _PER_CYCLE, nearness)
-        cycle = None if repeats is None else attracting_cycle(system, run.final, repeats, reach=10 * nearness)
-        motion = None if cycle is None else _window(system, cycle.state, window)
-        if motion is None or not _approaches(run, motion, repeats, cycle.multiplier):
+        orbit = None if repeats is None else _attracting(system, run.final, repeats, reach=10 * nearness)
+        motion = None if orbit is None else _window(system, orbit.state, window)
+        if motion is None or not _approaches(run, motion, repeats, abs(orbit.multipliers[0])):
             return Regime(run, UNSETTLED, None)
         run = motion
     return Regime(run, *classify(run))
 
 
-class Cycle(NamedTuple):
-    """A periodic motion: a state (8,) on it, and the modulus of its largest multiplier."""
-
-    state: np.ndarray
-    multiplier: float
-
-
-def attracting_cycle(system, state, cycles: int, reach: float) -> Cycle | None:
-    """Return the attracting periodic motion of a number of cycles that Newton's method finds near a state.
-
-    The result is None if there is none within `reach`, or if a multiplier is on or outside the unit circle. A module
-    that takes no part keeps its state.
-    """
-    x, moves = np.array(state), takes_part(system)
-    block = np.ix_(moves, moves)
-    for _ in range(_NEWTON):
-        if max(abs(x[0] - x[1]), abs(x[2] - x[3])) > 1:
-            return None
-        run = simulate(system, x, cycles)
-        jacobian = run.jacobian[block]
-        try:
-            step = np.linalg.solve(np.eye(len(jacobian)) - jacobian, (run.final - x)[moves])
-        except np.linalg.LinAlgError:
-            return None
-        x[moves] += step
-        if not np.abs(x - state).max() < reach:
-            return None
-        if np.abs(step).max() < _SETTLED:
-            multiplier = float(np.abs(np.linalg.eigvals(jacobian)).max())
-            return Cycle(x, multiplier) if multiplier < 1 else None
-    return None
+def _attracting(system, state, cycles, reach):
+    """Return the attracting motion that repeats after some cycles within `reach` of a state, or None."""
+    try:
+        orbit = refined(system, state, cycles)
+    except ValueError:
+        return None
+    near = np.abs(orbit.state - idle_at_rest(system, state)).max() < reach
+    return orbit if near and abs(orbit.multipliers[0]) < 1 else None
 
 
 def _approaches(run, motion, repeats, multiplier):
