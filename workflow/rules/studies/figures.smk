@@ -41,7 +41,6 @@ COMPANIONS = {
     },
     "companion_coupling": {"systems": True, "needs": ["cases.equal"]},
     "companion_epsilon": {"systems": True, "settings": ["regimes.epsilon.*"]},
-    "companion_field": {"needs": ["cases.equal"]},
     "companion_horizon": {
         "case": "figures.fig10_11.case",
         "settings": ["cases.{case}.simulation.initial_state"],

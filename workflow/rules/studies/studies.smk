@@ -5,7 +5,6 @@ include: "stability.smk"
 include: "sweeps.smk"
 include: "claims.smk"
 include: "report.smk"
-include: "field.smk"
 
 
 READ_BY_FIGURES = {path for figure in ALL_FIGURES for path in getattr(rules, figure).input if "results/" in path}

@@ -1,0 +1,80 @@
+"""docs/published.md: its functions give the numbers of the page, and closed forms those that it calls published."""
+
+import ast
+import importlib.util
+import math
+import re
+
+import numpy as np
+import pytest
+
+from pipeline_trees import ROOT
+
+CODE = ROOT / "docs/published.py"
+ROWS = [
+    [cell.strip() for cell in line.strip("| ").split(" | ")]
+    for line in (ROOT / "docs/published.md").read_text(encoding="utf-8").splitlines()
+    if line.startswith("| [")
+]
+NAMES = [re.fullmatch(r"\[(\w+)\]\(published\.py\)", row[0])[1] for row in ROWS]
+MOST_LINES = 8
+
+
+def texts(cell):
+    """Numbers of a cell, as written."""
+    return re.findall(r"-?\d+(?:\.\d+)?", cell.replace("−", "-"))
+
+
+@pytest.fixture(scope="module")
+def published():
+    spec = importlib.util.spec_from_file_location("published", CODE)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_each_row_has_a_function_of_a_few_lines():
+    functions = {node.name: node for node in ast.parse(CODE.read_text(encoding="utf-8")).body if hasattr(node, "args")}
+    assert set(NAMES) <= set(functions)
+    for name in NAMES:
+        assert functions[name].end_lineno - functions[name].lineno <= MOST_LINES
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_the_function_of_a_row_gives_the_computed_numbers_of_the_page(published, row):
+    shown, values = texts(row[4]), getattr(published, NAMES[ROWS.index(row)])()
+    assert [
+        f"{float(value):.{len(text.partition('.')[2])}f}" for text, value in zip(shown, values, strict=True)
+    ] == shown
+    assert (row[3] == row[4]) == (row[5] == "agrees")
+
+
+def test_the_published_numbers_that_are_closed_forms():
+    said = [[float(text) for text in texts(row[3])] for row in ROWS]
+    # (64), (66): mu* D / ((1 + mu) m), M = D = 1; (76) at the z that belong to the speeds.
+    assert said[1] == [pytest.approx(0.3 / 1.3 / (1 + 0.3 / 1.3) / 0.3, abs=5e-5)] * 2
+    for value, V in zip(said[2], (0.5, 2.0), strict=True):
+        z = value / V
+        assert value == pytest.approx(1 / (1 + 0.3 * math.tan(z) / z), abs=5e-4)
+    # The sum of 11 terms that the note sets to 1: p = 0.1, stiffness 2.
+    odd = 2 * np.arange(11) + 1.0
+    for omega in said[3]:
+        box = 0.8 / (np.pi * omega) / (odd**2 * (odd**2 * omega**2 - 2))
+        assert np.pi * 0.1 * 1.3 / 0.3 / (2 * omega) + box.sum() == pytest.approx(1, abs=1e-8)
+    # The quadratic equation of Dux.
+    cases = [(2, 3.7, 0.8, 0.2, 1), (2, 3.7, 0.8, 0.2, -1), *((n, 2 * n, 0.4, 0.001, 1) for n in (1, 2, 5, 10))]
+    for value, (n, omega, r, sigma, sign) in zip(said[5], cases, strict=True):
+        T, gamma, loss = 2 * np.pi * n / omega, 1 / (1 - omega**2), (1 - r) / omega
+        c = math.sin(T) * (1 + r) / (1 - math.cos(T))
+        root = math.sqrt((gamma * c) ** 2 - (sigma**2 - gamma**2) * loss**2)
+        assert value == pytest.approx(2 * (sign * root - c * sigma) / (c**2 + loss**2), abs=5.1e-6)
+    # Largest clearance on the backbone curve of CC.
+    rho, D, a = 2 / np.pi * 0.2 / 1.8, 1e-3, 0.02
+    xi = np.geomspace(1.00001 * rho / math.hypot(1, rho), 100, 1_000_000)
+    theta = (1 + np.sqrt((1 + rho**2) * xi**2 - rho**2)) / (1 + rho**2)
+    lag = np.arccos((theta - 1) / xi)
+    r = np.sqrt(xi / ((1 - a) * xi + 8 * a * theta * np.cos(lag) / np.pi**2))
+    stiff = (1 - (1 - a) * r**2 + 2j * D * r) * xi - 8 * a * theta * r**2 * np.exp(-1j * lag) / np.pi**2
+    widest = 2 * D / abs(stiff)
+    assert said[9] == [pytest.approx(widest.max(), abs=5e-5)]
+    assert r[widest.argmax()] == pytest.approx(0.98846, abs=5e-6)
