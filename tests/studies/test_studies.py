@@ -91,6 +91,9 @@ def test_the_basins_of_mirror_images_are_mirror_images(pair):
     for label, orbit in enumerate(pair, start=1):
         np.testing.assert_allclose(found.attractors[label].states, [orbit.state], atol=1e-9)
         assert found.attractors[label].cycles == 1
+        refined = found.attractors[label].orbit
+        assert (refined.periods, refined.stability, refined.impacts.tolist()) == (1, "stable", [[1, 1], [1, 1]])
+        np.testing.assert_allclose(refined.multipliers, orbit.multipliers, atol=1e-9)
 
 
 def test_basins_are_those_of_their_starts_listed():
