@@ -1,8 +1,8 @@
-"""Periodic motions of any period and any sequence of events, by Newton's method on the stroboscopic map.
+"""Find periodic motions of any period and any sequence of events, by Newton's method on the stroboscopic map.
 
-The map leads from a state to the one n forcing periods later; the engine gives it together with its derivative,
-through impacts, chatter, sticking and release. It jumps where an event passes the instant of the stroboscope, so this
-instant is put into the longest interval without events.
+The map leads from a state to the one n forcing periods later. The engine computes it and its derivative through
+impacts, chatter, sticking and release. It is discontinuous where an event passes the instant of the stroboscope, so
+this instant is placed in the longest interval without events.
 """
 
 from dataclasses import dataclass
@@ -21,21 +21,34 @@ from vibroimpact.system.state import BALLS, IMPACT, MODULES, idle_at_rest, takes
 from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 
 SAME = 1e-6
-"""Largest difference of states that are the same: near a bifurcation they are known to the root of rounding."""
+"""Largest difference of equal states: near a bifurcation they are accurate to the square root of rounding only."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-_NEUTRAL = 1e-10  # relative: the velocity of a ball that changes less with the state is one that nothing changes
+_NEUTRAL = 1e-10  # relative: a ball whose velocity depends less on the state meets no wall
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
-_SETTLED, _STALLED, _CLOSED = 1e-13, 1e-5, 1e-8  # step; step and gap of the ends where they come no nearer: at a fold
+_SETTLED = 1e-13
+_STALLED, _CLOSED = 1e-5, 1e-8  # step, and gap of the ends, at which Newton's method may stall: at a fold
 _TOUCH = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PeriodicOrbit(Representation):
-    """A periodic motion with any number of impacts; dimensionless, arrays per module are NaN where one takes no part.
+    """A periodic motion with any number of impacts, dimensionless.
 
-    system: the system it belongs to. periods: number of forcing periods after which it repeats.
-    state: (8,) at tau = 0, just after the events there.
-    run: the motion once round, from a start between two events; `run.events`, `run.certificate`, `run.energy`.
+    Attributes
+    ----------
+    system : System
+        System of the motion.
+    periods : int
+        Number of forcing periods after which it repeats.
+    state : ndarray
+        State at tau = 0, just after the events there, (8,).
+    run : Run
+        One period of the motion, which starts between two events.
+
+    Examples
+    --------
+    >>> vi.periodic_orbit(system, vi.simulate(system, state, 500).final).stability
+    'stable'
     """
 
     system: System
@@ -56,8 +69,10 @@ class PeriodicOrbit(Representation):
 
     @property
     def stability(self) -> str:
-        """ "stable", "unstable", or "undecided": a multiplier reaches the unit circle within its error, or a ball has
-        two multipliers of 1 as nothing turns it back.
+        """Stability: "stable", "unstable" or "undecided".
+
+        It is undecided if a multiplier is on the unit circle within its error, or if a ball meets no wall, so that two
+        multipliers are 1.
         """
         part = _held(self.run)
         verdict = by_multipliers(self.run.jacobian[part][:, part], self.residual, self._slowest)
@@ -70,34 +85,34 @@ class PeriodicOrbit(Representation):
 
     @property
     def impacts(self) -> np.ndarray:
-        """Impacts in one period, (2, 2), [module, wall +1 / wall -1]; of a chatter those before it is completed."""
+        """Impacts in one period, (2, 2), [module, wall +1 / wall -1]; chatter counts until its completion."""
         events = self._impacts
         return np.array([[np.sum((events["module"] == i) & (events["wall"] == w)) for w in (1, -1)] for i in (1, 2)])
 
     @cached_property
     def symmetric(self) -> bool:
-        """True if the state half a period later is the mirror image; the period is then an odd number of periods."""
+        """True if the state half a period later is the mirror image, which needs an odd number of forcing periods."""
         half = _state_at(self.run, self.run.tau0 + self.period / 2)
         return self.periods % 2 == 1 and bool(np.abs(half + self.run.start).max() <= SAME)
 
     @property
     def grazing(self) -> bool:
-        """True if a ball touches a wall without speed: a multiplier grows without bound as it begins to impact."""
+        """True if a ball touches a wall without relative speed; if it begins to impact, a multiplier is unbounded."""
         return _grazes(self.run)
 
     @property
     def admissible(self) -> bool:
-        """True if the balls are at the walls at their impacts, as in every motion that the engine finishes."""
+        """True if the balls are at the walls at their impacts, as in every completed run."""
         return self.run.certificate.wall_residual <= _TOUCH
 
     @property
     def residual(self) -> float:
-        """Largest difference of the state after one period from that before."""
+        """Largest difference of the states before and after one period."""
         return _gap(self.run)
 
     @cached_property
     def amplitudes(self) -> np.ndarray:
-        """Largest displacements |X_i| of the boxes, (2,)."""
+        """Largest displacements |X_i| of the boxes, (2,); NaN for a module that takes no part."""
         largest = ensemble(self.system, self.state, self.periods)["largest"]
         return np.where(takes_part(self.system)[[0, 2]], largest, np.nan)
 
@@ -126,20 +141,35 @@ class PeriodicOrbit(Representation):
 def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> PeriodicOrbit:
     """Refine a periodic motion of any period, with any impacts, chatter and sticking, from a state near it.
 
-    Newton's method on the map over `periods` forcing periods, with the exact derivative `run.jacobian`. It finds
-    unstable motions, too; from farther away it may find another motion than the nearest one.
+    Newton's method is applied to the map over `periods` forcing periods, with the exact derivative `run.jacobian`. It
+    finds unstable motions too; from a distant start it may converge to another motion than the nearest one.
 
+    Parameters
+    ----------
+    system : System
+        Dimensionless parameters.
+    state : array_like
+        State at tau = 0, (8,), usually the end of a settled run. A module that takes no part is put at rest.
+    periods : int, default 1
+        Number of forcing periods after which the motion repeats, and not earlier.
+
+    Returns
+    -------
+    PeriodicOrbit
+        The motion with .state, .period, .multipliers, .stability, .impacts, .symmetric, .amplitudes and .residual.
+
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, if Newton's method does not converge, or if the motion repeats earlier.
+    ArithmeticError
+        If a run could not be finished.
+
+    Examples
+    --------
     >>> settled = vi.simulate(system, state, 500).final
     >>> vi.periodic_orbit(system, settled).impacts.tolist()
     [[1, 1], [1, 1]]
-
-    Args:
-        state: (8,) at tau = 0, usually the end of a run that has settled; a module that takes no part is put at rest.
-        periods: number of forcing periods after which the motion repeats, and not before.
-
-    Raises:
-        ValueError: an argument is malformed, Newton's method does not converge, or the motion repeats earlier.
-        ArithmeticError: a run could not be finished.
     """
     instance("system", system, System)
     state, periods = checked_state(state), whole("periods", periods, 1, MOST_CYCLES)
@@ -152,11 +182,14 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
 
 
 def refined(system, state, periods) -> PeriodicOrbit:
-    """Return the motion that repeats after some forcing periods, or a divisor of them, near a state (8,).
+    """Return the motion near a state (8,) that repeats after some number of forcing periods, or after a divisor of it.
 
-    Raises:
-        ValueError: Newton's method does not converge.
-        ArithmeticError: a run could not be finished.
+    Raises
+    ------
+    ValueError
+        If Newton's method does not converge.
+    ArithmeticError
+        If a run could not be finished.
     """
     run = simulate(system, idle_at_rest(system, state), periods)
     begin = _between_events(run)
@@ -178,9 +211,9 @@ def refined(system, state, periods) -> PeriodicOrbit:
 
 
 def _held(run):
-    """Return True (8,) for coordinates of modules that take part, but for balls that nothing turns back.
+    """Return True (8,) for coordinates of modules that take part, except those of balls in neutral equilibrium.
 
-    They meet no wall, or are too heavy to feel it: their place is a free parameter of the motion.
+    Such a ball meets no wall, or its mass is immense; its position is a free parameter of the motion.
     """
     changes = np.abs(run.jacobian - np.eye(8))
     turned = changes[[5, 7]].max(axis=1) > _NEUTRAL * max(1.0, changes.max())
@@ -189,7 +222,7 @@ def _held(run):
 
 
 def _nearer(run, step):
-    """Return the run from a start that is moved by a step, or a part of it, if its ends are nearer to each other."""
+    """Return the run from a start moved by a step or a part of it, if that reduces the gap of its ends, else None."""
     for _ in range(_HALVINGS):
         x = run.start + step
         if within_walls(x[None])[0]:

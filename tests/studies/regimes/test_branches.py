@@ -5,9 +5,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from scipy.optimize import linear_sum_assignment
+from scipy.optimize import brentq, linear_sum_assignment
 
 import vibroimpact as vi
+from single_machines import MACHINE
 from vibroimpact.exact.orbits.search import half_period_multipliers
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.studies.regimes.branches import Path, branches
@@ -353,3 +354,22 @@ def test_branches_of_more_random_systems_are_the_fixed_points_at_any_value():
 def test_branches_of_random_systems_are_the_orbits_at_any_value():
     for seed in range(200):
         check_random_path(seed, "exact", [SymmetricOrbits, AsymmetricOrbits])
+
+
+def test_a_motion_of_two_periods_is_followed_from_one_period_doubling_to_the_next():
+    """At the first a multiplier of the motion of one period is -1; beyond the second, runs settle on four periods."""
+    system = MACHINE.with_(f10_hat=1.9)
+    motion = vi.periodic_orbit(system, vi.simulate(system, np.zeros(8), 3000).final, 2)
+    doubled, *rest = vi.branches(system, "f10_hat", (1.78, 2.02), of=motion, progress=False)
+    once = vi.periodic_orbit(system.with_(f10_hat=1.81), motion.state)
+    sought = (lambda p: 1 + vi.periodic_orbit(system.with_(f10_hat=p), once.state).multipliers[0].real), 1.8, 1.81
+    assert {node.kind: node.p for node in rest[0].special} == {BRANCH_POINT: pytest.approx(brentq(*sought), abs=1e-7)}
+    assert [node.kind for node in doubled.special] == [PERIOD_DOUBLING, BRANCH_POINT, PERIOD_DOUBLING]
+    (end,) = {round(node.p, 7) for node in doubled.special if node.kind == PERIOD_DOUBLING}
+    for node in doubled.nodes:
+        assert node.stable in (node.p < end, None)
+    for f10_hat, periods in ((end - 0.003, 2), (end + 0.003, 4)):
+        there = system.with_(f10_hat=f10_hat)
+        vi.periodic_orbit(there, vi.simulate(there, np.zeros(8), 3000).final, periods)
+    with pytest.raises(ValueError, match=r"\Aof: a motion of another system; f10_hat may differ alone\Z"):
+        vi.branches(system.with_(kappa=0.5), "f10_hat", (1.78, 2.02), of=motion)

@@ -6,12 +6,13 @@ from dataclasses import asdict
 
 import numpy as np
 
+from vibroimpact.exact.periodic import PeriodicOrbit
 from vibroimpact.studies.regimes import bifurcation_curves as curves
 from vibroimpact.studies.regimes import branches as one_parameter
 from vibroimpact.studies.regimes.bifurcation_curves import BifurcationCurve, Plane
 from vibroimpact.studies.regimes.branches import Branch, Path
 from vibroimpact.studies.regimes.continuation import Lost
-from vibroimpact.studies.regimes.families import AsymmetricOrbits, FixedPoints, SymmetricOrbits
+from vibroimpact.studies.regimes.families import AsymmetricOrbits, FixedPoints, PeriodicOrbits, SymmetricOrbits
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, pair, whole
 from vibroimpact.system.progress import wants_progress, write_line
@@ -28,9 +29,14 @@ _STEPS, _CURVE_STEPS = 10, 20
 
 
 def branches(
-    system: System, along: str | Sequence[str], between, of: str = "both", seeds: int = 5, progress: bool = True
+    system: System,
+    along: str | Sequence[str],
+    between,
+    of: str | PeriodicOrbit = "both",
+    seeds: int = 5,
+    progress: bool = True,
 ) -> list[Branch]:
-    """Return all branches of 1:1 motions over a parameter, with stability and special points.
+    """Return the branches of 1:1 motions, or of a given motion, over a parameter, with stability and special points.
 
     Pseudo-arclength continuation (Keller 1977) passes folds and branch points. It also follows the branches that
     emanate from branch points, and asymmetric orbits that emanate from symmetric ones. Each branch is divided at its
@@ -45,11 +51,12 @@ def branches(
         A parameter of System, or several that vary together.
     between : tuple of float
         First and last value of the parameter.
-    of : str, default 'both'
-        "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
+    of : str or PeriodicOrbit, default 'both'
+        "theory" (fixed points of the slow flow), "exact" (orbits), "both", or one motion of the system of any period
+        (`periodic_orbit`). Its branch ends as "lost" where a ball grazes or an event meets the stroboscopic instant.
     seeds : int, default 5
         Number of values in `between` at which to search for motions. Branches that pass none of these values and
-        emanate from no other branch are missed.
+        emanate from no other branch are missed. Of one motion, there is no search.
     progress : bool, default True
         Report family and parameter on standard error, if it is a terminal; "exact" takes about ten seconds.
 
@@ -88,7 +95,13 @@ def branches(
         except ValueError as error:
             raise ValueError(f"between: at {end}, {error}") from None
     found = []
-    for family in _families(of):
+    if isinstance(of, PeriodicOrbit):
+        families, values = (PeriodicOrbits(of),), [getattr(of.system, names[0])]
+        if path(values[0]) != of.system:
+            raise ValueError(f"of: a motion of another system; {' = '.join(names)} may differ alone")
+    else:
+        families = _families(of)
+    for family in families:
         report = _report(f"{family.name}: {' = '.join(names)} =", progress)
         found += one_parameter.branches(family, path, (low, high), values, (high - low) / _STEPS, report, found)
     _end(progress)

@@ -14,12 +14,16 @@ from itertools import combinations
 
 import numpy as np
 
+from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits import asymmetric, symmetric
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric_solutions
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
+from vibroimpact.exact.periodic import PeriodicOrbit
+from vibroimpact.studies.regimes.classification import OTHER, Regime
 from vibroimpact.studies.regimes.continuation import Lost
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
+from vibroimpact.system.state import MODULES
 from vibroimpact.theory import slow_flow
 from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
@@ -88,7 +92,7 @@ class SymmetricOrbits:
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
         """Return the functions that vanish at special points, by name."""
-        return _tests(half_period_multipliers(orbit), SYMMETRY_BREAKING, orbit)
+        return _tests(half_period_multipliers(orbit), SYMMETRY_BREAKING) | {GRAZING: 1 - orbit.excursion}
 
     @staticmethod
     def stable(system, orbit) -> bool:
@@ -134,7 +138,59 @@ class AsymmetricOrbits(SymmetricOrbits):
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
         """Return the functions that vanish at special points, by name."""
-        return _tests(orbit.multipliers, PERIOD_DOUBLING, orbit)
+        return _tests(orbit.multipliers, PERIOD_DOUBLING) | {GRAZING: 1 - orbit.excursion}
+
+
+class PeriodicOrbits(AsymmetricOrbits):
+    """Motions of any period near a PeriodicOrbit: x = state at its stroboscopic instant, between two events."""
+
+    angles, modules, rest = slice(0, 0), MODULES, np.zeros(8)
+
+    def __init__(self, orbit):
+        self.orbit, self.name = orbit, f"motion of period {orbit.periods}"
+
+    def roots(self, system) -> np.ndarray:
+        """Return the state of the given motion, shape (1, 8)."""
+        return self.orbit.run.start[None]
+
+    @staticmethod
+    def images(system, x) -> list[np.ndarray]:
+        """Return the root alone, without its mirror image and its shifts by forcing periods."""
+        return [x]
+
+    def equations(self, system, x):
+        """Return the residual (8,) of the stroboscopic map at x, and its Jacobian (8, 8).
+
+        Raises
+        ------
+        Lost
+            If both modules take part in the system, and x is a response of one.
+        """
+        _refuse_one_of_two(self, system, x)
+        run, idle = self._run(system, x), _idle(self, system)
+        return np.where(idle, x, run.final - x), np.where(idle, np.eye(8), run.jacobian - np.eye(8))
+
+    @staticmethod
+    def speed(x) -> float:
+        """Return 1: no unknown vanishes with a ball speed."""
+        return 1.0
+
+    def amplitudes(self, system, x) -> np.ndarray:
+        """Return C_i of half of each ball's mean path per cycle, shape (2,)."""
+        return _of_modules(system, Regime(self._run(system, x), OTHER, None).mean_amplitudes)
+
+    @staticmethod
+    def tests(system, orbit) -> dict[str, float]:
+        """Return the functions that vanish at special points, by name; where a ball grazes, the branch is lost."""
+        return _tests(orbit.multipliers, PERIOD_DOUBLING)
+
+    def member(self, system, x):
+        """Return the PeriodicOrbit of a root."""
+        return PeriodicOrbit(system, self.orbit.periods, x, self._run(system, x))
+
+    def _run(self, system, x):
+        begin = self.orbit.run.tau0 / self.orbit.system.period * system.period
+        return simulate(system, x, self.orbit.periods, begin, [begin])
 
 
 class FixedPoints:
@@ -269,10 +325,7 @@ def asymmetric_root(system, x) -> np.ndarray:
     return np.where(_idle(AsymmetricOrbits, system), AsymmetricOrbits.rest, root)
 
 
-def _tests(mu, at_minus_one, orbit):
-    """Return functions of an orbit's multipliers mu and of its excursion.
-
-    `at_minus_one` names the special point at mu = -1.
-    """
+def _tests(mu, at_minus_one):
+    """Return functions of an orbit's multipliers mu; `at_minus_one` names the special point at mu = -1."""
     found = {at_minus_one: 1 + mu, NEIMARK_SACKER: np.array([1 - a * b for a, b in combinations(mu, 2)])}
-    return {name: float(np.prod(factors).real) for name, factors in found.items()} | {GRAZING: 1 - orbit.excursion}
+    return {name: float(np.prod(factors).real) for name, factors in found.items()}
