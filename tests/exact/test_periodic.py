@@ -98,6 +98,7 @@ def test_two_impacts_in_one_period_are_the_orbits_found_otherwise(case):
     for motion in motions:
         orbit = vi.periodic_orbit(system, motion.state)
         assert np.abs(orbit.state - motion.state).max() < 1e-10
+        assert orbit.amplitudes == pytest.approx(motion.amplitudes, rel=1e-9)
         assert np.abs(orbit.multipliers - motion.multipliers).max() < 1e-8 * abs(motion.multipliers[0])
         assert (orbit.symmetric, orbit.stability) == (motion.symmetric, motion.stability)
         assert orbit.impacts.tolist() == [[1, 1], [1, 1]]

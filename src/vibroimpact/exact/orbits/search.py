@@ -138,6 +138,13 @@ class Orbit(Representation):
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
         return sawtooth_amplitude(self.system.epsilon, path)
 
+    @property
+    def amplitudes(self) -> np.ndarray:
+        """Largest displacements |X_i| of the boxes, shape (2,); NaN for a module that takes no part."""
+        at_impacts = abs(self.passage.before[:, [0, 2]]).max(axis=0)
+        largest = np.maximum(at_impacts, extremes(self.system, self.passage, balls=0.0))
+        return np.where(np.isin([1, 2], self.system.modules), largest, np.nan)
+
 
 @dataclass(frozen=True, eq=False)
 class OrbitSearch:
@@ -313,7 +320,7 @@ def _orbit(system, times, changes, fractions, sign):
     passage = follow(system, state, in_order, modules, system.period)
     gaps = passage.before[:, [0, 2]] - passage.before[:, [1, 3]]
     at_wall = gaps[range(len(walls)), modules - 1] - walls
-    excursion = float(extremes(system, passage).max(initial=0.0))
+    excursion = float(extremes(system, passage).max())
     return Orbit(
         system=system,
         symmetric=sign == -1,
@@ -357,11 +364,8 @@ def _state(system, times, changes, speeds, sign):
     return state
 
 
-def extremes(system, passage: Passage) -> np.ndarray:
-    """Return |W_i| at its extrema inside the free flights of a motion.
-
-    At the impacts themselves |W_i| is 1.
-    """
+def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
+    """Return the largest |X_i - balls Y_i| at extrema inside the free flights of a motion, (2,); 0 without extremum."""
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     count = 1 + math.ceil(durations.max() * fastest / _STEP)
@@ -369,15 +373,17 @@ def extremes(system, passage: Passage) -> np.ndarray:
     step = expm(rate_matrix(system) * spacing)
     phases = system.Omega * begins
     boxes = np.column_stack([states[:, BOXES], np.sin(phases), np.cos(phases)])
-    places, velocities = states[:, None, BALLS[:2]], states[:, None, BALLS[2:]]
-    found = []
+    places, velocities = balls * states[:, None, BALLS[:2]], balls * states[:, None, BALLS[2:]]
+    found = np.zeros(2)
     for first in range(0, count, _SAMPLES):
         steps = np.arange(first, min(first + _SAMPLES, count) + 1)
         samples = _samples(step, boxes, len(steps))
         boxes = samples[:, -1]
         W = samples[..., :2] - places - velocities * (spacing * steps[:, None])
-        found.append(_turning_values(W, (samples[..., 2:4] - velocities) * spacing))
-    return abs(np.concatenate(found))
+        V = (samples[..., 2:4] - velocities) * spacing
+        largest = [abs(_turning_values(W[..., k], V[..., k])).max(initial=0.0) for k in (0, 1)]
+        found = np.maximum(found, largest)
+    return found
 
 
 def _samples(step, start, count):
@@ -392,7 +398,7 @@ def _samples(step, start, count):
 def _turning_values(W, V):
     """Return the values of W at its turning points.
 
-    The samples (n, count, 2) hold W and its velocity times the sample spacing.
+    The samples (n, count) hold W and its velocity times the sample spacing.
     """
     turns = V[:, :-1] * V[:, 1:] < 0
     w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
