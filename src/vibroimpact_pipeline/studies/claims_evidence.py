@@ -6,35 +6,22 @@ from pathlib import Path
 import pandas as pd
 
 from vibroimpact.studies.claims.evidence import Evidence, Simulation
-from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES
-from vibroimpact_pipeline.specs import case_parameters
 
-TABLES = (
-    *("fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders"),
-    *("absorber", "clearance"),
-)
+TABLES = "fixed_points", "orbits", "verdict_grid", "modulation", "special_points", "epsilon_orders"
 
 
-def evidence(config: dict, inputs: dict, departures: dict[str, str]) -> Evidence:
+def evidence(inputs: dict) -> Evidence:
     """Return the evidence on the cases of the chapter.
 
     Args:
-        config: the config.
         inputs: paths of results by name; simulations are named <case>_samples, <case>_events and <case>_summary.
-        departures: for parts of the evidence, why they do not apply to the chapter; missing results are added.
     """
-    cases = [case for case in CASES if case in config["cases"]]
-    simulated = {name.removesuffix("_summary") for name in inputs if name.endswith("_summary")}
-    proofs = json.loads(Path(inputs["proofs"]).read_text(encoding="utf-8"))
-    missing = {name: f"{name} is missing in this build" for name in TABLES if name not in inputs}
+    simulated = [name.removesuffix("_summary") for name in inputs if name.endswith("_summary")]
     return Evidence(
-        systems={case: System(**case_parameters(config, case)) for case in cases},
-        proofs={case: proofs[case] for case in cases},
-        simulations={case: simulation(case, inputs) for case in sorted(simulated)},
-        **{name: of_the_chapter(pd.read_csv(inputs[name])) for name in TABLES if name in inputs},
-        **dict.fromkeys(missing),
-        unlike=missing | departures,
+        proofs=json.loads(Path(inputs["proofs"]).read_text(encoding="utf-8")),
+        simulations={case: simulation(case, inputs) for case in simulated},
+        **{name: of_the_chapter(pd.read_csv(inputs[name])) for name in TABLES},
     )
 
 

@@ -8,7 +8,6 @@ import pandas as pd
 
 from configs import GOOD
 from hostile import HOSTILE, STATEMENT
-from vibroimpact.studies.claims.judge import to_markdown
 
 SHOWN = {
     "chapter": ["fig10_06"],
@@ -73,7 +72,6 @@ def results(folder: Path) -> Path:
             [claim | {"numbers": None}, claim | {"place": "Fig. 10.6", "numbers": {HOSTILE: [HOSTILE, 1.0]}}]
         ),
     }
-    texts["claims.md"] = to_markdown([claim | {"id": "some", "parts": {}, "numbers": {}, "verdict": "holds"}])
     tables = {
         "fixed_points.csv": [
             {"case": case, "label": label, "orbit": HOSTILE, "exact": HOSTILE} | numbers

@@ -1,11 +1,9 @@
 """Claims: the list is sound, verdicts follow from what is computed, and other evidence leads to other verdicts."""
 
 import dataclasses
-import re
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 import yaml
 from scipy.optimize import fsolve, newton
@@ -13,13 +11,11 @@ from scipy.optimize import fsolve, newton
 import vibroimpact as vi
 from pipeline_trees import ROOT
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.studies.claims import absorber_checks as absorber_claims
 from vibroimpact.studies.claims import equation_checks as claims_equations
 from vibroimpact.studies.claims import manifold_checks as claims_manifold
 from vibroimpact.studies.claims import point_checks as claims_points
 from vibroimpact.studies.claims.finding import HOLDS, IN_PART, MISPRINT, OPEN, REFUTED, VERDICTS, Finding, as_printed
-from vibroimpact.studies.claims.judge import CHECKS, NOT_JUDGED, facts, judge, problems, to_markdown
-from vibroimpact.system.chapter import CASES, PARAMETERS
+from vibroimpact.studies.claims.judge import CHECKS, judge, problems
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import rates
 from vibroimpact_pipeline.studies.claims_evidence import evidence as evidence_of
@@ -27,32 +23,22 @@ from vibroimpact_pipeline.studies.claims_evidence import evidence as evidence_of
 DOCUMENT = yaml.safe_load((ROOT / "docs/studies/claims.yaml").read_text(encoding="utf-8"))
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
 EXPECTED = yaml.safe_load((Path(__file__).parent / "expected_verdicts.yaml").read_text(encoding="utf-8"))
-TABLES = ("fixed_points", "orbits", "verdict_grid", "absorber")
-SWEEPS = ("clearance",)
+TABLES = ("fixed_points", "orbits", "verdict_grid")
 REGIMES = ("modulation", "special_points", "epsilon_orders")
 
 
 @pytest.fixture(scope="module")
-def inputs(studied):
-    """Files of a build by name."""
+def evidence(studied):
+    """What the pipeline has found."""
     results = studied / "results"
     inputs = {name: results / f"{name}.csv" for name in TABLES}
     inputs |= {name: results / f"regimes/{name}.csv" for name in REGIMES}
-    inputs |= {name: results / f"sweeps/{name}.csv" for name in SWEEPS}
     inputs["proofs"] = results / "proofs.json"
-    for case in ("equal", "weak"):
-        model = {"equal": "float64", "weak": "reference"}[case]
-        files = (
-            results / "simulations" / case / model / name for name in ("samples.csv", "events.csv", "summary.json")
-        )
-        inputs |= {f"{case}_{file.stem}": file for file in files}
-    return inputs
-
-
-@pytest.fixture(scope="module")
-def evidence(inputs):
-    """What the pipeline has found."""
-    return evidence_of({"system": PARAMETERS, "cases": CASES}, inputs, {})
+    for case, model in {"equal": "float64", "weak": "reference"}.items():
+        run = results / "simulations" / case / model
+        inputs |= {f"{case}_{name}": run / f"{name}.csv" for name in ("samples", "events")}
+        inputs[f"{case}_summary"] = run / "summary.json"
+    return evidence_of(inputs)
 
 
 @pytest.fixture(scope="module")
@@ -64,47 +50,6 @@ def verdict(claim, evidence):
     return judge([CLAIMS[claim]], evidence)[0]["verdict"]
 
 
-# Other parameters
-
-
-def judged_with(changed, inputs):
-    """Verdict by claim in a build whose config has other parameters or settings, by the part of the evidence."""
-    evidence = evidence_of({"system": PARAMETERS, "cases": CASES}, inputs, dict.fromkeys(changed, "is another"))
-    return {claim["id"]: claim["verdict"] for claim in judge(list(CLAIMS.values()), evidence)}
-
-
-def test_what_does_not_depend_on_a_changed_case_is_judged(inputs, tmp_path):
-    others = dict(inputs)
-    for name in ("fixed_points", "orbits", "modulation", "epsilon_orders"):
-        table = pd.read_csv(inputs[name])
-        others[name] = tmp_path / f"{name}.csv"
-        table[table["case"] != "weak"].to_csv(others[name], index=False)
-    others["special_points"] = tmp_path / "special_points.csv"
-    pd.read_csv(inputs["special_points"]).head(0).to_csv(others["special_points"], index=False)
-    others = {name: path for name, path in others.items() if not name.startswith("weak_")}
-    found = judged_with(["weak"], others)
-    assert {claim: verdict for claim, verdict in found.items() if verdict != NOT_JUDGED}.items() <= EXPECTED.items()
-    of_weak = {name for name, claim in CLAIMS.items() if "weak" in str(claim.get("arguments", {}))}
-    assert {found[name] for name in of_weak} == {NOT_JUDGED}
-    alone = {name for name, claim in CLAIMS.items() if claim.get("arguments", {}).get("case") == "equal"}
-    of_all_cases = {"singular-bifurcation", "two-stable-equal"}
-    assert {name for name in alone if found[name] == NOT_JUDGED} == of_all_cases
-
-
-def test_with_another_system_only_what_needs_none_is_judged(inputs):
-    found = judged_with(["system"], inputs)
-    assert {claim: verdict for claim, verdict in found.items() if verdict != NOT_JUDGED}.items() <= EXPECTED.items()
-    assert found["leading-order-solution"] == EXPECTED["leading-order-solution"]
-    assert found["printed-condition"] == found["efficient-absorber"] == NOT_JUDGED
-
-
-def test_what_leans_on_a_changed_setting_is_not_judged(inputs):
-    found = judged_with(["verdict_grid"], inputs)
-    assert {name for name, verdict in found.items() if verdict == NOT_JUDGED} == {
-        name for name, claim in CLAIMS.items() if claim["check"] in ("assesses_stability", "periodic_solutions")
-    }
-
-
 # The list
 
 
@@ -112,12 +57,6 @@ def test_the_list_is_sound_and_every_check_is_used():
     assert problems(list(CLAIMS.values())) == []
     assert len(DOCUMENT["claims"]) == len(CLAIMS) >= 25
     assert {claim["check"] for claim in CLAIMS.values()} == set(CHECKS)
-
-
-@pytest.mark.parametrize("document", ["README.md", "CHANGELOG.md"])
-def test_documents_count_the_claims(document):
-    counts = re.findall(r"(\d+) claims", (ROOT / document).read_text(encoding="utf-8"))
-    assert counts == [str(len(CLAIMS))]
 
 
 def test_problems_of_a_list_are_named():
@@ -489,26 +428,11 @@ def test_a_weaker_damper_makes_the_coupling_weak(evidence):
 PAGE_OF_ERRATA = (ROOT / "docs/errata.md").read_text(encoding="utf-8")
 
 
-def test_what_is_refuted_is_two_facts(evidence):
-    judged = judge(list(CLAIMS.values()), evidence)
-    told = [[claim["id"] for claim in claims] for claims in facts(judged).values()]
-    assert told == [
-        ["printed-condition", "two-branches", "right-arm", "left-arm", "stability-regions"],
-        ["equal-b", "unequal-c"],
-    ]
-    assert list(facts(judged)) == DOCUMENT["facts"]
+def test_what_is_refuted_is_two_facts(verdicts):
+    told = [claim.get("fact") for name, claim in CLAIMS.items() if verdicts[name] == REFUTED]
+    assert set(told) == set(DOCUMENT["facts"])
     assert "come down to two facts" in (ROOT / "docs/studies/findings.md").read_text(encoding="utf-8")
-    assert not any("fact" in claim for claim in judged if claim["verdict"] == HOLDS)
-
-
-def test_a_refuted_claim_without_a_fact_is_one_of_its_own():
-    claims = [
-        {"verdict": REFUTED, "fact": "f", "refuted_by": "x"},
-        {"verdict": IN_PART, "fact": "f", "refuted_by": "y"},
-    ]
-    claims += [{"verdict": REFUTED, "refuted_by": "z"}, {"verdict": HOLDS, "refuted_by": "w"}]
-    assert facts(claims) == {"f": claims[:2], "z": [claims[2]]}
-    assert facts(claims[3:]) == {}
+    assert not any("fact" in claim for name, claim in CLAIMS.items() if verdicts[name] == HOLDS)
 
 
 @pytest.mark.parametrize(
@@ -523,28 +447,9 @@ def test_the_verdicts_that_hang_on_which_point_is_b_and_which_is_c(evidence, ver
         rows = table["case"].isin(swapped)
         table.loc[rows, "label"] = table.loc[rows, "label"].map({"a": "a", "b": "c", "c": "b"})
 
-    # Those on balls as absorbers take a while and know no points.
-    listed = [claim for claim in CLAIMS.values() if claim["check"] not in absorber_claims.CHECKS]
-    other = {claim["id"]: claim["verdict"] for claim in judge(listed, with_table(evidence, "fixed_points", swap))}
+    other = {
+        claim["id"]: claim["verdict"]
+        for claim in judge(list(CLAIMS.values()), with_table(evidence, "fixed_points", swap))
+    }
     assert {claim: found for claim, found in other.items() if found != verdicts[claim]} == expected
     assert all(f"`{claim}`" in PAGE_OF_ERRATA for claim in expected)
-
-
-# The readable table
-
-
-def test_the_table_has_a_row_per_claim_and_its_verdict(evidence):
-    chosen = [CLAIMS[name] for name in ("manifold", "singular-squares", "left-arm")]
-    text = to_markdown(judge([*chosen, CLAIMS["small-balls"] | {"statement": "a | b\nc"}], evidence))
-    rows = [line for line in text.splitlines() if line.startswith("| ")][2:]
-    assert [row.split(" | ")[0] for row in rows] == [
-        "| manifold",
-        "| singular-squares",
-        "| left-arm",
-        "| small-balls",
-    ]
-    assert "**cannot be decided from the text**" in rows[1]
-    assert "a \\| b c" in rows[3]
-    assert "4 claims of sections 10.2 to 10.5: 1 holds, 0 holds in part, 1 refuted, 1 cannot be decided" in text
-    assert f"Facts that refute claims, 1 in all:\n\n- {DOCUMENT['facts'][0]} `left-arm` (refuted)\n" in text
-    assert "from the text, 1 misprint." in text

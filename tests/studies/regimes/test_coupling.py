@@ -8,8 +8,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
 from vibroimpact.exact.orbits.newton import newton
-from vibroimpact.studies.claims.coupling_checks import errors
-from vibroimpact.studies.figures.companion_coupling import ALIKE, LIMITS, WATCHED
+from vibroimpact.studies.figures.companion_coupling import ALIKE, LIMITS, WATCHED, errors
 from vibroimpact.studies.regimes.coupling import (
     OPPOSITE,
     SAME,

@@ -61,12 +61,6 @@ def test_verdicts_are_those_expected(studied):
     assert {claim["id"]: claim["verdict"] for claim in claims} == EXPECTED
 
 
-def test_the_readable_table_tells_the_same(studied):
-    text = (studied / "results/claims.md").read_text(encoding="utf-8")
-    assert all(f"| {name} | " in text for name in EXPECTED)
-    assert text.count("**refuted**") == list(EXPECTED.values()).count("refuted")
-
-
 @pytest.mark.parametrize(("quoted", "source"), SOURCED)
 def test_a_number_of_the_findings_is_that_of_the_results(studied, quoted, source):
     """The number as quoted is the one of the results, rounded to as many decimals.

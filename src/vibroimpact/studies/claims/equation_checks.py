@@ -38,7 +38,7 @@ def weak_coupling(evidence):
     system = evidence.system
     spring = system.alpha12 / min(1.0, system.stiffness2)
     damper = system.gamma12 / min(system.gamma1, system.gamma2)
-    return Finding({"k12 < k1, k2": spring < 1, "c12 < c1, c2": damper < 1}, {"k12 / k": spring, "c12 / c": damper})
+    return Finding({"k12 < k1, k2": spring < 1, "c12 < c1, c2": damper < 1}, {"c12 / c": damper, "k12 / k": spring})
 
 
 def own_frequency(evidence):
@@ -175,4 +175,4 @@ def orders_of_the_expansion(evidence):
     off = {name: (orders[name] - order).abs() for order, name in enumerate(_TERMS, start=1)}
     parts = {f"{name}: error of order {order}": (off[name] < 0.01).all() for order, name in enumerate(_TERMS, start=1)}
     numbers = {f"largest error of the order, {name}": off[name].max() for name in _TERMS}
-    return Finding(parts, {"points": len(off["one term"])} | numbers)
+    return Finding(parts, numbers | {"points": len(off["one term"])})

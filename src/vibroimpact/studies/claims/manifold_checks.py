@@ -80,8 +80,8 @@ def printed_condition(evidence):
     least, most = _limits_of_the_captions(evidence)
     fitting = (least < readings) & (readings < most)
     numbers = {
+        "largest multiplier at the printed limit": at_limit,
         "(10.26)": limit,
-        "largest multiplier there": at_limit,
         "with squares": squared,
         "largest multiplier at that": at_squared,
         "derived lower limit": lower_limit(kappa),
@@ -134,7 +134,7 @@ def two_branches(evidence):
     kappa = evidence.system.kappa
     stable = _stable(np.linspace(0.0, largest_C(kappa), 4001)[1:], kappa)
     first = np.append(True, stable[1:] != stable[:-1])  # of each piece
-    counts = {name: int((first & (stable == says)).sum()) for name, says in (("stable", True), ("unstable", False))}
+    counts = {name: int((first & (stable == says)).sum()) for name, says in (("unstable", False), ("stable", True))}
     parts = {f"one {name} branch": count == 1 for name, count in counts.items()}
     return Finding(parts, {f"{name} pieces": count for name, count in counts.items()})
 
@@ -155,7 +155,7 @@ def left_arm_has_a_stable_piece(evidence):
     limit, fold = printed_limit(rho(kappa)), lower_limit(kappa)
     piece = _stable(np.linspace(limit, fold, 502)[1:-1], kappa)
     arm = _stable(np.linspace(0, fold, 2002)[1:-1], kappa)
-    numbers = {"from": limit, "to": fold, "stable share of the piece": piece.mean()}
+    numbers = {"stable share of the piece": piece.mean(), "from": limit, "to": fold}
     return Finding({"a piece of the left arm is stable": piece.any() or arm.any()}, numbers)
 
 

@@ -166,12 +166,12 @@ def unstable_means_modulated(evidence, case):
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
-    shares = {name: evidence.shares(name).get(STRONGLY_MODULATED, 0.0) for name in (*unstable, case)}
+    shares = {name: evidence.shares(name).get(STRONGLY_MODULATED, 0.0) for name in (case, *unstable)}
     parts = {
         "its fixed points are unstable": case in unstable,
         "strongly modulated from all spread starts": shares[case] == 1,
     }
-    return Finding(parts, {f"modulated share, {name}": shares[name] for name in unstable})
+    return Finding(parts, {f"modulated share, {name}": share for name, share in shares.items()})
 
 
 def periodic_solutions(evidence, f10_hat, f20_hat):
@@ -191,8 +191,8 @@ def periodic_solutions(evidence, f10_hat, f20_hat):
         "one for each over the grid of forces": grid["admissible"].all(),
     }
     numbers = {
-        "points": len(evidence.fixed_points),
         "largest distance in C": off.max(),
+        "points": len(evidence.fixed_points),
         "points over the grid": len(grid),
         "without an orbit between the walls": int((~grid["admissible"]).sum()),
         f"fixed points at forces {f10_hat}, {f20_hat}": len(fixed_points(system)),
@@ -218,7 +218,7 @@ def assesses_stability(evidence):
     without an exact orbit are counted beside, stable then unstable.
     """
     grid = evidence.verdict_grid
-    parts, numbers = {}, {"without an orbit": int((_at_epsilon(evidence)["exact"] == NO_ORBIT).sum())}
+    parts, shares, numbers = {}, {}, {"without an orbit": int((_at_epsilon(evidence)["exact"] == NO_ORBIT).sum())}
     for name, criterion in {"(10.26)": "printed_10_26", "fast and slow": "theory"}.items():
         for epsilon, rows in grid.groupby("epsilon", sort=False):
             found = pd.crosstab(rows[criterion], rows["exact"])
@@ -230,12 +230,12 @@ def assesses_stability(evidence):
                 for saying in VERDICT_LABELS:
                     right, predicted = matrix.loc[saying, saying], matrix.loc[saying].sum()
                     parts[f"{saying} by {name} is right, mostly"] = 2 * right > predicted
-                    numbers[f"{saying} by {name}, share right"] = right / predicted if predicted else None
+                    shares[f"{saying} by {name}, share right"] = right / predicted if predicted else None
     points = evidence.fixed_points
     numbers["of the chapter's points"] = len(points)
     numbers["right by (10.26)"] = int((points["printed_10_26"] == points["exact"]).sum())
     numbers["right by fast and slow"] = int((points["theory"] == points["exact"]).sum())
-    return Finding(parts, numbers)
+    return Finding(parts, shares | numbers)
 
 
 def restitution_far_from_unity(evidence, kappas, forces):

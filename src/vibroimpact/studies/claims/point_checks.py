@@ -59,13 +59,15 @@ def phases_can_be_eliminated(evidence):
 def label_of_a_point(evidence, case, label, says):
     """Check a caption's verdict on a point against the theory and against its exact orbit."""
     row = evidence.points(case).loc[label]
+    orbits = evidence.orbits.query("case == @case").set_index("label")
     theory = row["theory"]
     parts = {
         f"{says} by theory, fast and slow": None if theory not in (STABLE, UNSTABLE) else theory == says,
         f"{says} by its exact orbit": None if row["exact"] not in (STABLE, UNSTABLE) else row["exact"] == says,
     }
     criteria = ("printed_10_26", "fast", "slow", "theory", "exact")
-    return Finding(parts, {"C": row[list(NAMES)].tolist(), **{name: row[name] for name in criteria}})
+    numbers = {"largest multiplier of its exact orbit": orbits["modulus_1"].get(row["orbit"])}
+    return Finding(parts, numbers | {"C": row[list(NAMES)].tolist(), **{name: row[name] for name in criteria}})
 
 
 def stable_points(evidence, case, number):
@@ -76,10 +78,10 @@ def stable_points(evidence, case, number):
     """
     points = evidence.points(case)
     counts = {
+        "by their exact orbits": int((points["exact"] == STABLE).sum()),
         "by the derived fast criterion": int((points["fast"] == STABLE).sum()),
         "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
         "by theory, fast and slow": int((points["theory"] == STABLE).sum()),
-        "by their exact orbits": int((points["exact"] == STABLE).sum()),
     }
     right = {name: _captions_right(evidence.points(name)["fast"], name) for name in CAPTIONS}
     parts = {f"{number} {name}": count == number for name, count in counts.items()}

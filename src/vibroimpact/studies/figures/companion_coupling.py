@@ -6,12 +6,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from vibroimpact.accuracy.second_term import first_order
+from vibroimpact.accuracy.verdict_table import partners
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LEVEL, STABLE, heading, new_figure, styled
 from vibroimpact.studies.absorbers.references import tuned
 from vibroimpact.studies.absorbers.tuning import den_hartog
-from vibroimpact.studies.claims.coupling_checks import OBSERVED, SAME_POWER, SETTLED, errors
 from vibroimpact.studies.claims.verdict_grid import exact_orbits
 from vibroimpact.studies.regimes.basins import plane
 from vibroimpact.studies.regimes.classification import starts
@@ -28,7 +28,9 @@ from vibroimpact.studies.regimes.coupling import (
     stable_ranges,
 )
 from vibroimpact.studies.regimes.families import FOLD, GRAZING, NEIMARK_SACKER, PERIOD_DOUBLING
+from vibroimpact.system import verdict
 from vibroimpact.tables import curve, join, select
+from vibroimpact.theory import criteria
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
@@ -91,6 +93,9 @@ ALIKE = {"sigma20_hat": 0.0, "f10_hat": 1.52, "f20_hat": 1.54}
 """Where both balls lean: modules tuned alike, their impacts not in the same instant."""
 LIMITS = (0.5, 100.0)
 FORCES = (0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2, 1.3)
+SETTLED, OBSERVED = 1500, 500
+SAME_POWER = 1e-3
+"""Largest relative difference of powers of the same motion."""
 STARTS, SEED, CYCLES = 32, 1, SETTLED + OBSERVED
 LONG = 10000
 """Cycles of starts that are not on the leaning orbit after SETTLED: some are on long transients."""
@@ -141,6 +146,30 @@ def compute(systems: dict) -> dict:
     rows = pd.DataFrame(known, columns=["value", "uncertainty"])
     rows.insert(0, "quantity", list(summary))
     return {"csv": join([*found, *leans, power]), "summary": rows}
+
+
+def errors(system) -> list[dict]:
+    """Return a row per fixed point: relative error of C, verdicts of the theory and of the exact orbit.
+
+    error: the largest difference of C_1 or C_2 from that of the exact orbit, over the larger of its C; nan where there
+    is none that is a motion. own_error: the same with each difference over its own C. predicted, exact: True if called
+    stable on both time scales, and if all multipliers are inside the unit circle. orbits: how many symmetric motions
+    there are, the same in all rows.
+    """
+    points = fixed_points(system)
+    found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
+    places = partners([point.C for point in points], np.array([orbit.C for orbit in found]).reshape(-1, 2))
+    motions, rows = sum(orbit.admissible for orbit in found), []
+    for point, place in zip(points, places, strict=True):
+        orbit = None if place is None else found[place]
+        moves = orbit is not None and orbit.admissible
+        C = orbit.C if moves else np.full(2, np.nan)
+        apart = np.abs(point.C - C)
+        predicted = criteria.of_fixed_point(system, point)[criteria.THEORY] == verdict.STABLE
+        of_point = {"error": float(apart.max() / C.max()), "own_error": float((apart / C).max())}
+        stable = moves and orbit.stability == verdict.STABLE
+        rows.append(of_point | {"predicted": predicted, "exact": stable, "orbits": motions})
+    return rows
 
 
 def _errors(systems, held):
