@@ -8,7 +8,6 @@ from matplotlib.transforms import Bbox
 from pipeline_trees import ROOT
 from vibroimpact.figures import fig10_06, fig10_09, grazing, stress_tests, work_precision
 from vibroimpact.figures.plotting.methods import HOLLOW, LOOKS
-from vibroimpact.integrators import TIMED
 from vibroimpact.tables import read
 
 ROW = dict(
@@ -47,12 +46,7 @@ def test_the_chart_shows_runs_that_failed_in_their_lane_and_says_what_is_not_ins
     assert "Hertz" not in shown
 
 
-def test_eight_methods_are_drawn_each_with_its_own_colour_and_mark():
-    assert len({colour for colour, *_ in LOOKS.values()}) == len({marker for _, marker, _ in LOOKS.values()}) == 8
-    assert {*LOOKS} < {method.name for method in TIMED}
-
-
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_names_cover_no_curve_marker_or_name_whatever_the_timings_are(seed):
     """Timings of the reference set, each moved by a factor of up to some 3, as another machine would."""
     table = read(ROOT / "figures/work_precision.csv")
@@ -112,23 +106,6 @@ def test_a_group_of_stress_tests_has_its_worst_verdict_and_the_number_of_right_o
         assert f"{mark}  {verdict}" in shown
         assert shown.count(mark) == (0 if verdict == "unavailable" else 2 if verdict == "right" else 1)
     assert [shown.count("2/2"), shown.count("1/2")] == [1, len(verdicts) - 1]
-
-
-def test_a_cell_is_the_deeper_the_more_tests_fail():
-    shares = [0.125, 0.5, 1.0]
-    for verdict in ("silently wrong", "did not finish", "refused with an error", "reported undecidable"):
-        light = [np.dot(stress_tests.shade(verdict, share), [0.299, 0.587, 0.114]) for share in shares]
-        assert light == sorted(light, reverse=True)
-        assert light[0] - light[-1] > 0.1  # seen in grey, too
-
-
-def test_no_text_is_too_small_to_read():
-    failed = ROW | dict(method="DOP853", error_state=float("inf"), outcome="refused", reason="no")
-    verdict = dict(group="g", test="h", method="m", verdict="right", error_state=3e-5, missed=12, spurious=34)
-    figures = work_precision.draw(pd.DataFrame([ROW, failed])), stress_tests.draw(pd.DataFrame([verdict]))
-    for figure in figures:
-        drawn = figure.findobj(lambda artist: hasattr(artist, "get_fontsize") and artist.get_text())
-        assert min(text.get_fontsize() for text in drawn) >= 7
 
 
 def test_a_missed_impact_costs_an_error_that_falls_with_the_root_of_the_depth():

@@ -18,16 +18,13 @@ CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"
 
 def scene(figure):
     """An entry of the chart as its rule gives it."""
-    entry = CONFIG["figures"][figure]
-    case = CONFIG["cases"][entry["case"]]
-    settings = {name: value for name, value in entry.items() if name not in ("model", "case")}
+    settings, notebook = dict(CONFIG["figures"][figure]), SPECS[figure]["notebook"]
+    case, model = dict(CONFIG["cases"][settings.pop("case")]), settings.pop("model")
+    simulation = case.pop("simulation")
     return {
-        "module": f"vibroimpact.figures.{figure}",
-        "notebook": SPECS[figure]["notebook"],
-        "model": entry["model"],
-        "system": CONFIG["system"] | {name: value for name, value in case.items() if name != "simulation"},
-        "settings": case["simulation"] if SPECS[figure]["notebook"] == "simulation" else settings,
-    }
+        "module": f"vibroimpact.figures.{figure}", "notebook": notebook, "model": model,
+        "system": CONFIG["system"] | case, "settings": simulation if notebook == "simulation" else settings,
+    }  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -77,14 +74,10 @@ def test_the_largest_error_of_hand_made_tables():
 
 
 def test_all_models_are_drawn_and_named_those_in_use_filled():
-    known = {"figure": "fig10_07", "tolerance": 10.0, "compared_with": "exact_orbit"}
-    rows = [
-        known | {"model": "slow_flow", "error": 4.0, "seconds": 0.01, "in_use": True},
-        known | {"model": "exact_orbit", "error": 0.0, "seconds": 0.02, "in_use": False},
-        known | {"model": "second_term", "error": np.inf, "seconds": 0.03, "in_use": False},
-        known | {"figure": "mine", "model": "float64", "error": 1e-9, "seconds": 5.0, "in_use": True},
-    ]
-    figure = models.draw(pd.DataFrame(rows))
+    names = ("figure", "model", "error", "seconds", "in_use")
+    rows = [("fig10_07", "slow_flow", 4.0, 0.01, True), ("fig10_07", "exact_orbit", 0.0, 0.02, False)]
+    rows += [("fig10_07", "second_term", np.inf, 0.03, False), ("mine", "float64", 1e-9, 5.0, True)]
+    figure = models.draw(pd.DataFrame(rows, columns=names).assign(tolerance=10.0, compared_with="exact_orbit"))
     first, second = figure.axes[:2]
     marks = [line for line in first.lines if line.get_marker() == "o"]
     places = [line.get_xydata()[0].tolist() for line in marks]

@@ -8,7 +8,6 @@ import pytest
 
 from pipeline_trees import ROOT
 
-OF_THE_CHAPTER = ["closed_form", "drawings", "fixed_points", "simulation", "theoretical_response"]
 FOLDER = ROOT / "notebooks"
 NOTEBOOKS = sorted(path.relative_to(FOLDER).with_suffix("").as_posix() for path in FOLDER.rglob("*.ipynb"))
 """Those of the chapter, and whatever else there is."""
@@ -26,10 +25,6 @@ def code(notebook, tag=None):
     return ["\n".join(line for line in cell.source.splitlines() if not line.startswith("%")) for cell in chosen]
 
 
-def test_there_is_one_notebook_per_kind_of_figure_and_one_to_play_with():
-    assert {path.stem for path in FOLDER.glob("*.ipynb")} == {*OF_THE_CHAPTER, "play"}
-
-
 @pytest.fixture(params=NOTEBOOKS)
 def notebook(request):
     return opened(request.param)
@@ -40,17 +35,12 @@ def of_a_figure(request):
     return opened(request.param)
 
 
-def test_valid_with_readable_cell_ids(notebook):
+def test_valid_and_stripped_with_readable_cell_ids(notebook):
     nbformat.validate(notebook)
     assert (notebook.nbformat, notebook.nbformat_minor) == (4, 5)
     assert all(cell.id.replace("-", "").isalpha() for cell in notebook.cells)
-
-
-def test_stripped(notebook):
-    for cell in notebook.cells:
-        if cell.cell_type == "code":
-            assert cell.outputs == []
-            assert cell.execution_count is None
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert all(cell.outputs == [] and cell.execution_count is None for cell in cells)
 
 
 def test_parameters_are_plain_names_with_values(of_a_figure):
@@ -86,8 +76,3 @@ def test_the_one_to_play_with_needs_what_its_extra_installs():
     names |= {node.module for node in imports if isinstance(node, ast.ImportFrom)}
     brought = {"vibroimpact", "numpy", "scipy", "matplotlib", "IPython"}  # by the library, Matplotlib and the kernel
     assert {name.split(".")[0] for name in names} == brought
-
-
-def test_a_root_and_an_impact_are_solved_by_hand():
-    assert "fsolve(" in code(opened("fixed_points"), "by-hand")[0]
-    assert "brentq(" in code(opened("simulation"), "by-hand")[0]

@@ -29,11 +29,6 @@ def test_they_are_read_where_no_package_is_installed():
     assert done.stdout.split() == list(SPECS), done.stderr
 
 
-@pytest.mark.parametrize("figure", SPECS)
-def test_its_words_are_there(figure):
-    assert all(SPECS[figure][name].strip() for name in ("title", "caption", "alt", "method"))
-
-
 @pytest.mark.parametrize("figure", [name for name in DRAWN if SPECS[name]["tables"]])
 def test_compute_takes_what_its_rule_gives(figure, of_the_chapter):
     assert_compute_takes(figure, of_the_chapter[figure])

@@ -4,19 +4,17 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from chapter import FORCES, PARAMETERS
-from figure_tables import table_of_points, tables_of_run
-from vibroimpact.exact.orbits.search import orbits
+from figure_tables import system_of, table_of_points, tables_of_run
 from vibroimpact.studies.figures import companion_10_08
 from vibroimpact.tables import select
 
-SYSTEM = vi.System(**PARAMETERS, **dict(zip(("f10_hat", "f20_hat"), FORCES["equal"], strict=True)))
+SYSTEM = system_of("equal")
 
 
 @pytest.fixture(scope="module")
 def pair():
     """The stable asymmetric orbit and its mirror image."""
-    return [orbit for orbit in orbits(SYSTEM) if not orbit.symmetric and abs(orbit.multipliers[0]) < 1]
+    return [orbit for orbit in vi.orbits(SYSTEM) if not orbit.symmetric and orbit.stable]
 
 
 @pytest.fixture(scope="module")

@@ -21,10 +21,11 @@ from vibroimpact.studies.regimes.epsilon_limit import distance_to_orbit
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.studies.sweeps.rows import rows
 from vibroimpact.studies.sweeps.spec import Spec
-from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points, place_on_manifold, verdicts
+from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 
 STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)
 """Too weakly driven for a fixed point, an orbit or an impact."""
+UNCOUPLED = PARAMETERS | {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
 OBSERVATION = {"cycles": 20, "rounds": 1, "window": 8, "nearness": 0.02, "blocks": 2, "block": 5, "retest": 50}
 
 
@@ -55,14 +56,11 @@ def test_couplings_without_fixed_points_have_no_errors(monkeypatch):
     companion_coupling.draw(tables)
 
 
-@pytest.mark.parametrize("first", ["f10_hat", "f20_hat"])
-def test_a_path_without_special_points_says_none(first):
-    second = {"f10_hat": "f20_hat", "f20_hat": "f10_hat"}[first]
-    paths = [{"along": [first], "range": [0.01, 0.02]}, {"along": [second], "range": [0.01, 0.02]}]
+def test_a_path_without_special_points_says_none():
+    paths = [{"along": [name], "range": [0.01, 0.02]} for name in ("f10_hat", "f20_hat")]
     attractors = {"values": 2, "starts": 1, "seed": 1}
     tables = companion_branches.compute(STILL, paths, 0.1, 1, attractors, OBSERVATION, {})
-    assert tables["special_points"]["path"].tolist() == [first, second]
-    assert tables["special_points"]["kind"].tolist() == ["none", "none"]
+    assert tables["special_points"][["path", "kind"]].to_numpy().tolist() == [["f10_hat", "none"], ["f20_hat", "none"]]
     companion_branches.draw(tables)
 
 
@@ -73,11 +71,15 @@ def test_a_sweep_of_a_force_without_fixed_points_shows_the_manifold():
     force_sweep.draw(tables)
 
 
-def test_theory_and_orbit_without_either_are_not_compared():
-    tables = companion_epsilon.compute({"still": STILL}, [0.1, 0.01], 3, 0.05)
-    assert tables["csv"].empty
+@pytest.mark.parametrize(("force", "points"), [(0.05, 0), (0.5, 1)])
+def test_no_order_is_fitted_without_a_point_or_to_a_single_epsilon(force, points):
+    system = vi.System(**PARAMETERS, f10_hat=force, f20_hat=force)
+    tables = companion_epsilon.compute({"weak": system}, [0.1, 0.01], 3, 0.02)
+    assert tables["csv"].empty == (points == 0)
     assert tables["orders"].empty
     companion_epsilon.draw(tables)
+    with pytest.raises(ValueError, match=r"mixed\.label: .*'c'"):
+        companion_epsilon.compute({"weak": system}, [0.01, 0.001], 3, 0.1, mixed={"case": "weak", "label": "c"})
 
 
 def test_without_asymmetric_orbits_the_manifold_is_shown():
@@ -89,19 +91,9 @@ def test_without_asymmetric_orbits_the_manifold_is_shown():
     companion_asymmetric.draw(tables)
 
 
-def test_no_order_is_fitted_to_a_single_epsilon():
-    system = vi.System(**PARAMETERS, f10_hat=0.5, f20_hat=0.5)
-    tables = companion_epsilon.compute({"weak": system}, [0.1, 0.01], 3, 0.02)
-    assert len(tables["csv"])
-    assert tables["orders"].empty
-    companion_epsilon.draw(tables)
-
-
-@pytest.mark.parametrize("forces", [{"f10_hat": 2.0, "f20_hat": 0.0}, {"f10_hat": 0.0, "f20_hat": 1.4}])
-def test_a_single_machine_is_drawn_with_a_module_at_rest(forces):
-    uncoupled = PARAMETERS | {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
-    system = vi.System(**uncoupled, **forces)
-    (module,) = system.modules
+@pytest.mark.parametrize(("forces", "module"), [((2.0, 0.0), 1), ((0.0, 1.4), 2)])
+def test_a_single_machine_is_drawn_with_a_module_at_rest(forces, module):
+    system = vi.System(**UNCOUPLED, f10_hat=forces[0], f20_hat=forces[1])
     points = fixed_point_table("single", system)
     planes = fig10_06.compute(system, points, 2.5)
     assert set(planes["series"]) == {"SIM stable", "SIM unstable", f"P_{module}"}
@@ -112,21 +104,17 @@ def test_a_single_machine_is_drawn_with_a_module_at_rest(forces):
     assert np.abs(response["value"][response["series"] == f"W_{module}"]).max() >= 1
     fig10_07.draw(response)
     fig10_10.draw(fig10_10.compute(system, points, "a", 2.0, 2.5))
-    places = place_on_manifold(system, points)
-    assert places["module"].tolist() == [module]
-    assert verdicts(places)["a"] == "stable"
     found = orbit_rows("single", vi.orbits(system))
     judged = fixed_point_rows("single", system, [(one.label, one) for one in labelled_points(points)], found)
     row = found.set_index("label").loc[judged["orbit"].item()]
     assert row["admissible"]
     assert judged["exact"].item() == row["exact"]
-    assert found[[f"modulus_{k}" for k in (5, 6, 7, 8)]].isna().all(axis=None)
 
 
 def test_a_single_machine_is_compared_with_its_orbits(monkeypatch):
     """As epsilon falls the orbit nears the fixed point, and the distance is that of the module in company."""
     monkeypatch.setattr(companion_asymmetric, "RELAXED", (10, 10))
-    system = vi.System(**PARAMETERS | {"alpha12_hat": 0.0, "gamma12_hat": 0.0}, f10_hat=2.0, f20_hat=0.0)
+    system = vi.System(**UNCOUPLED, f10_hat=2.0, f20_hat=0.0)
     tables = companion_epsilon.compute({"single": system}, [0.1, 0.001], 5, 0.02)
     assert tables["orders"]["order"].to_numpy() == pytest.approx([1, 1, 1, 2], abs=0.02)
     companion_epsilon.draw(tables)

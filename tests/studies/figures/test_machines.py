@@ -31,9 +31,8 @@ def test_without_balls_and_with_balls_that_meet_no_wall_swings_and_power_are_tho
         assert swing == pytest.approx(1000 * abs(moving).max() / (2 * np.pi * hertz), rel=1e-9)
     idle = made["summary"].set_index("L").loc[0.05]
     moving = velocities(SCENE["plant"], idle["frequency"])
-    assert idle["power"] == pytest.approx(
-        0.5 * (moving.real @ [SCENE["plant"][name] for name in ("F10", "F20")]), rel=1e-3
-    )
+    forces = [SCENE["plant"][name] for name in ("F10", "F20")]
+    assert idle["power"] == pytest.approx(0.5 * (moving.real @ forces), rel=1e-3)
     assert idle["swing"] == pytest.approx(1000 * abs(moving).max() / (2 * np.pi * idle["frequency"]), rel=1e-3)
     assert idle["share"] == 0
 
@@ -61,10 +60,5 @@ def test_the_figure_names_every_curve_and_the_best_clearance(made):
     names = ", ".join(text.get_text() for text in response.texts).split(", ")
     expected = [f"$L = {1000 * L:g}$ mm" for L in SCENE["clearances"]]
     assert sorted(names) == sorted([*expected, *machines.LINES])
-    assert len(response.lines) == len(names)
-    best = made["summary"]["swing"].to_numpy().argmin()
-    assert response.get_title("left").endswith(expected[best])
-    assert len(motion.lines) == 3
-    assert motion.get_title("left").endswith(
-        f"$L = {1000 * SCENE['shown']['L']:g}$ mm, {SCENE['shown']['frequency']:g} Hz"
-    )
+    assert [len(response.lines), len(motion.lines)] == [len(names), 3]
+    assert response.get_title("left").endswith(expected[made["summary"]["swing"].to_numpy().argmin()])

@@ -10,6 +10,7 @@ from opened_notebooks import printed
 CHANGES = {"k12 = 100.0": "k12 = 300.0", '"values": 13': '"values": 3'}
 
 
+@pytest.mark.thorough
 def test_machines_swing_as_their_springs_have_it(tmp_path):
     omega = 2 * np.pi * np.linspace(2.9, 3.5, 20001)
     K = np.array([[4300.0, -300.0], [-300.0, 4400.0]])
