@@ -104,13 +104,11 @@ def test_the_best_few_are_measured_again_and_the_best_of_those_is_chosen(many):
 
 
 def test_the_printed_clearance_gives_what_was_printed(many):
-    clearance, restitution = re.search(
-        r"^clearance (\S+) mm to each side, restitution (\S+)$", str(many), re.M
-    ).groups()
-    assert len(clearance.replace(".", "").lstrip("0")) <= 3
-    again = vi.design(replace(NARROW[0], L=0.3, kappa=0.9), NARROW[1], [float(f"{clearance}e-3")], [float(restitution)])
+    said = re.search(r"^clearance (\S+) mm to each side, restitution (\S+)$", str(many), re.M).groups()
+    assert len(said[0].replace(".", "").lstrip("0")) <= 3
+    machine = replace(NARROW[0], L=0.3, kappa=0.9)
+    again = vi.design(machine, NARROW[1], [float(f"{said[0]}e-3")], [float(said[1])])
     assert (again.peak, again.near, again.response) == (many.peak, many.near, many.response)
-    assert set(str(again).splitlines()) <= set(str(many).splitlines())
 
 
 def test_a_machine_and_its_mirror_image_have_the_same_answer_to_the_digit(found):
@@ -166,30 +164,17 @@ def test_a_transient_is_told_as_one(found, monkeypatch):
 
 
 def test_what_to_know_before_it_is_built_is_told(found):
+    softest = [*found.candidates, found.candidates[0] | {"restitution": 0.5}]
     told = {
-        "The clearance is the greatest of those tried": found,
-        "The restitution is the least of those tried": replace(
-            found, candidates=[*found.candidates, found.candidates[0] | {"restitution": 0.5}]
-        ),
-        "Fragile: with clearances within 2% of it the peak is up to 20% higher.": replace(
-            found, near=(found.peak, 1.2 * found.peak)
-        ),
-        "No resonance without ball lies in the band from 7.4 to 8.4 Hz.": replace(found, natural=8.5),
-        "The ball of 121 kg is heavier than its machine of 120 kg.": replace(
-            found, machine=replace(found.machine, m=121.0)
-        ),
+        "The clearance is the greatest of those tried": {},
+        "The restitution is the least of those tried": {"candidates": softest},
+        "Fragile: with clearances within 2% of it the peak is up to 20%": {"near": (found.peak, 1.2 * found.peak)},
+        "No resonance without ball lies in the band from 7.4 to 8.4 Hz.": {"natural": 8.5},
+        "The ball of 121 kg is heavier than its machine of 120 kg.": {"machine": replace(found.machine, m=121.0)},
     }
-    for words, answer in told.items():
-        assert words in str(answer)
-        assert sum(words in str(other) for other in told.values()) == (len(told) if answer is found else 1)
-
-
-def test_a_softer_ball_than_the_usual_is_tried():
-    """Restitutions from 0.3 on gave 0.598 mm; over the resonance alone."""
-    machine = vi.PhysicalSystem.single(M=1500.0, m=40.0, k=2.4e7, c=6e3, F=800.0)
-    found = vi.design(machine, (19.0, 21.0), clearances=[0.00064])
-    assert found.machine.kappa < 0.3
-    assert found.peak < 0.56e-3
+    for words, changes in told.items():
+        said = [words in str(replace(found, **others)) for others in told.values()]
+        assert said == [not changes or others is changes for others in told.values()]
 
 
 def test_the_mass_of_the_ball_is_chosen_and_what_it_buys_is_told(found):
@@ -201,11 +186,6 @@ def test_the_mass_of_the_ball_is_chosen_and_what_it_buys_is_told(found):
         assert f"with {row['mass_kg']:g} kg {1000 * one.peak:.3g} mm" in str(several)
     assert several.machine == min((alone, found), key=lambda one: one.near[1]).machine
     assert not found.masses
-
-
-def test_a_band_so_narrow_that_damping_is_no_use_has_an_absorber():
-    found = vi.design(MACHINE, (8.3, 8.31), **CHOICE)
-    assert 0 < found.absorber < 0.01 * found.without
 
 
 def run_at(hertz, L=0.002, kappa=0.4):
@@ -265,34 +245,29 @@ def test_without_a_choice_clearances_up_to_the_amplitude_are_tried(many):
     """Rounded to three digits, from a quarter of F / k M / m on; others beside the best at its restitution."""
     first = [row["clearance_m"] for row in many.candidates[:8]]
     assert len(many.candidates) == 2 * 8 + 2 * 3
-    assert first[0] == pytest.approx(40 / 3e5 * 20 / 4, rel=5e-3)
-    assert first[-1] == pytest.approx(many.without, rel=5e-3)
-    np.testing.assert_allclose(np.diff(np.log(first)), np.log(first[-1] / first[0]) / 7, atol=0.01)
+    np.testing.assert_allclose(first, np.geomspace(40 / 3e5 * 20 / 4, many.without, 8), rtol=5e-3)
     assert all(float(f"{row['clearance_m']:.3g}") == row["clearance_m"] for row in many.candidates)
     assert first[0] < many.machine.L < first[-1]
 
 
 @pytest.mark.parametrize(
-    ("machine", "band", "choice", "told"),
+    ("told", "machine", "choice"),
     [
-        (MACHINE, (8.0, 7.0), {}, "band"),
-        (MACHINE, (0.0, 7.0), {}, "band"),
-        (replace(MACHINE, c1=0.0), BAND, {}, "machine"),
-        (replace(MACHINE, k12=1.0), BAND, {}, "machine"),
-        (MACHINE, BAND, {"clearances": [0.0]}, "clearances"),
-        (MACHINE, BAND, {"restitutions": [1.0]}, "restitutions"),
-        (MACHINE, BAND, {"masses": [0.0, 1.0]}, "masses"),
-        (MACHINE.dimensionless(), BAND, {}, "machine"),
+        ("band", MACHINE, {"band": (8.0, 7.0)}), ("band", MACHINE, {"band": (0.0, 7.0)}),
+        ("machine", replace(MACHINE, c1=0.0), {}), ("machine", replace(MACHINE, k12=1.0), {}),
+        ("machine", MACHINE.dimensionless(), {}), ("clearances", MACHINE, {"clearances": [0.0]}),
+        ("restitutions", MACHINE, {"restitutions": [1.0]}), ("masses", MACHINE, {"masses": [0.0, 1.0]}),
     ],
-)
-def test_refusals_name_the_argument(machine, band, choice, told):
+)  # fmt: skip
+def test_refusals_name_the_argument(told, machine, choice):
     with pytest.raises(ValueError, match=f"^{told}: "):
-        vi.design(machine, band, **choice)
+        vi.design(machine, **{"band": BAND} | choice)
 
 
 def test_the_command_prints_the_answer_and_writes_table_and_picture(found, tmp_path, capsys):
     table, picture = tmp_path / "machine.csv", tmp_path / "machine.png"
-    assert main([*WORDS, "--output", str(table), "--plot", str(picture)]) == 0
+    with matplotlib.rc_context({"text.usetex": True}):  # a setting of the user that does not reach the picture
+        assert main([*WORDS, "--output", str(table), "--plot", str(picture)]) == 0
     assert capsys.readouterr().out == f"{found}\n"
     with open(table, encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -300,67 +275,23 @@ def test_the_command_prints_the_answer_and_writes_table_and_picture(found, tmp_p
     assert picture.stat().st_size > 10_000
 
 
-def test_settings_of_the_user_do_not_change_the_picture(found, tmp_path, monkeypatch, capsys):
-    """LaTeX, which need not be installed, a font, a size."""
-    monkeypatch.setattr(vi, "design", lambda *given, **more: found)
-    plain, own = tmp_path / "plain.png", tmp_path / "own.png"
-    assert main([*WORDS, "--plot", str(plain)]) == 0
-    with matplotlib.rc_context({"text.usetex": True, "font.size": 30, "savefig.dpi": 10, "savefig.bbox": "tight"}):
-        assert main([*WORDS, "--plot", str(own)]) == 0
-    assert own.read_bytes() == plain.read_bytes()
-    assert capsys.readouterr().out == f"{found}\n" * 2
-
-
-DESIGNED = f"""
-import sys
-from vibroimpact.studies import one_machine
-from vibroimpact.cli.parser import main
-
-class Found:
-    response = [{{"frequency_Hz": 8.0}}]
-    __str__ = lambda self: "the answer"
-
-    def plot(self):
-        from matplotlib.figure import Figure
-
-        return Figure()
-
-one_machine.design = lambda *given, **more: Found()
-sys.exit(main({WORDS} + sys.argv[1:]))
-"""
-
-
+@pytest.mark.thorough
 def test_a_backend_that_is_not_installed_does_not_cost_the_picture(tmp_path):
-    """As a notebook sets it for every process that it starts; nor does a reader that has seen enough."""
-    picture, (out, into) = tmp_path / "design.pdf", os.pipe()
-    os.close(out)
-    run = subprocess.run(
-        [sys.executable, "-c", DESIGNED, "--plot", str(picture)],
-        env=os.environ | {"MPLBACKEND": "none"},
-        stdout=into,
-        stderr=subprocess.PIPE,
-        text=True,
-        check=False,
-    )
-    os.close(into)
-    assert (run.returncode, run.stderr) == (0, "")
-    assert picture.read_bytes().startswith(b"%PDF")
-
-
-def failing(*_):
-    raise RuntimeError("latex could not be found\nand more lines")
+    """As a notebook sets it for every process that it starts."""
+    command = [sys.executable, "-m", "vibroimpact", *WORDS, "--plot", "design.pdf"]
+    subprocess.run(command, env=os.environ | {"MPLBACKEND": "none"}, cwd=tmp_path, check=True)
+    assert (tmp_path / "design.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_a_picture_that_cannot_be_saved_does_not_cost_the_answer(found, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(vi, "design", lambda *given, **more: found)
-    monkeypatch.setattr(one_machine.Design, "plot", failing)
-    table, picture = tmp_path / "machine.csv", tmp_path / "machine.png"
+    table = tmp_path / "machine.csv"
+    monkeypatch.setattr(one_machine.Design, "plot", lambda self: 1 / 0)
     with pytest.raises(SystemExit) as end:
-        main([*WORDS, "--output", str(table), "--plot", str(picture)])
+        main([*WORDS, "--output", str(table), "--plot", str(tmp_path / "machine.png")])
     printed = capsys.readouterr()
-    assert end.value.code == 1
-    assert printed.out == f"{found}\n"
-    assert printed.err == f"vibroimpact design: plot: {picture} cannot be saved: latex could not be found\n"
+    assert (end.value.code, printed.out) == (1, f"{found}\n")
+    assert re.fullmatch(r"vibroimpact design: plot: .*machine.png cannot be saved: division by zero\n", printed.err)
     assert len(table.read_text().splitlines()) == 1 + len(found.response)
 
 
@@ -386,13 +317,3 @@ def test_the_command_takes_a_range_of_masses(monkeypatch, capsys):
             main([*words.replace("--m {}", f"--m={wrong}").split()])
         assert end.value.code == 2
         assert "m: " in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("wrong", ["--k -1", "--m 0", "--restitution 2", "--from 9", "--clearance 0"])
-def test_a_wrong_option_is_named(wrong, capsys):
-    with pytest.raises(SystemExit) as end:
-        main([*WORDS, *wrong.split()])
-    assert end.value.code == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert wrong.split()[0].strip("-") in said

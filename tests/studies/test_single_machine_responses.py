@@ -45,12 +45,6 @@ def test_the_list_of_orbits_is_proved_complete(machine):
     assert len(proof.isolated) == len(symmetric)
 
 
-def test_without_a_symmetric_orbit_that_is_proved_too():
-    weak = FIRST.with_(f10_hat=0.1)
-    assert certify.certify(weak) == certify.Proof([], [], True)
-    assert vi.orbits(weak) == []
-
-
 @MACHINES
 def test_lists_of_fixed_points_are_proved_complete(machine):
     (module,) = machine.modules
@@ -125,15 +119,6 @@ def test_branches_of_orbits_break_their_symmetry_where_the_module_in_company_doe
     frame = vi.to_frame(found)
     assert frame["C1"].isna().all()
     assert frame["C2"].notna().all()
-
-
-def test_a_curve_of_symmetry_breaking_in_closed_form():
-    plane = [(0.5, 1.5), (-0.3, 0.3)]
-    (curve,) = vi.bifurcation_curves(SECOND, ("f20_hat", "sigma_e_hat"), plane, seeds=1)
-    assert curve.kind == "symmetry breaking, module 2"
-    for force, detuning in curve.points:
-        expected = loaded(SECOND.with_(sigma_e_hat=detuning), SYMMETRY_BREAKING_C)
-        assert force == pytest.approx(expected, abs=1e-9)
 
 
 @pytest.mark.parametrize("family", [FixedPoints, SymmetricOrbits, AsymmetricOrbits])

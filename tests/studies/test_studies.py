@@ -157,6 +157,7 @@ AXES = {"f20_hat": [1.0]}
         ({"observe": ["orbits"], "axes": {"kappa": []}}, r"axes\['kappa'\]"),
         ({"observe": ["orbits"], "axes": {"kappa": ["a"]}}, r"axes\['kappa'\]"),
         ({"observe": ["orbits"], "axes": {"kappa": [0.5, 1.5]}}, "at kappa = 1.5"),
+        ({"observe": ["orbits"], "axes": {"mass": [1]}}, "mass"), ({"observe": ["points"]}, "observe"),
     ],
 )  # fmt: skip
 def test_a_wrong_argument_of_a_sweep_is_named_in_one_line(given, told):
@@ -164,6 +165,7 @@ def test_a_wrong_argument_of_a_sweep_is_named_in_one_line(given, told):
         vi.sweep(SYSTEM, **{"axes": AXES} | given)
 
 
+PLANT = vi.PhysicalSystem.from_dimensionless(SYSTEM, M=120.0, k1=2e5, L=0.005)
 SPECTRUM, SINGLE_CYCLE = (Spectrum(np.zeros((n, 8)), np.zeros(n), np.zeros(n)) for n in (10, 1))
 
 
@@ -188,6 +190,11 @@ SPECTRUM, SINGLE_CYCLE = (Spectrum(np.zeros((n, 8)), np.zeros(n), np.zeros(n)) f
         (lambda: vi.basins(SYSTEM, {"W1": [1.5]}), "start 0"), (lambda: vi.Observation(blocks=1), "blocks"),
         (lambda: vi.sections(SYSTEM, REST, 5, settle=5), "settle"), (lambda: vi.sections(SYSTEM, [1.0], 5), "states"),
         (lambda: vi.bifurcation_curves(SYSTEM, "kappa", [(0, 1)] * 2), "along"),
+        (lambda: vi.branches(SYSTEM, "f20", (0.8, 0.9)), "f20"), (lambda: vi.textbook_tuning(PLANT), "system"),
+        (lambda: vi.branches(SYSTEM, "f20_hat", 0.9), "between"), (lambda: vi.best_tuning(SYSTEM, 1.0), "band"),
+        (lambda: vi.branches(SYSTEM, "f20_hat", (0.9, 0.8)), "between"),
+        (lambda: vi.branches(SYSTEM, "kappa", (0.5, 1.5)), "between"),
+        (lambda: vi.branches(SYSTEM, "kappa", (0.5, 0.6), "all"), "of"),
         (lambda: vi.bifurcation_curves(SYSTEM, ("kappa", "mass"), [(0, 1)] * 2), "mass"),
         (lambda: vi.bifurcation_curves(SYSTEM, ("f10_hat", "f20_hat"), (0.8, 1.2)), "between, f10_hat"),
         (lambda: vi.bifurcation_curves(SYSTEM, ("f10_hat", "kappa"), [(0.8, 1.2), (0.5, 1.5)]), "between"),
@@ -257,31 +264,14 @@ def test_exact_curves_pass_the_special_points_of_other_branches(kind, interval, 
 
 
 def test_progress_is_told_on_a_terminal_only(monkeypatch, capsys):
-    assert list(progress.track([3, 4], "things")) == [3, 4]
-    vi.branches(SYSTEM, "f20_hat", (0.99, 1.01), of="theory", seeds=1)
-    assert capsys.readouterr().err == ""
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert list(progress.track([3, 4], "things")) == [3, 4]
-    assert capsys.readouterr().err.endswith("things 2/2\n")
-    vi.branches(SYSTEM, "f20_hat", (0.99, 1.01), of="theory", seeds=1)
-    told = capsys.readouterr().err
-    assert "fixed point: f20_hat = " in told
-    list(progress.track([3], "things", progress=False))
-    assert capsys.readouterr().err == ""
+    few = {"states": vi.starts(2, seed=1), "observation": vi.Observation(cycles=10, rounds=2, retest=20)}
 
+    def told(terminal, **given):
+        monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal)
+        assert list(progress.track([3, 4], "things", **given)) == [3, 4]
+        vi.branches(SYSTEM, "f20_hat", (0.99, 1.01), of="theory", seeds=1, **given)
+        vi.attractors(SYSTEM, **few, **given)
+        return capsys.readouterr().err
 
-def test_attractors_and_basins_count_their_starts_on_a_terminal(monkeypatch, capsys):
-    few = vi.Observation(cycles=10, rounds=2, retest=20)
-    states = vi.starts(2, seed=1)
-    vi.attractors(SYSTEM, states, few)
-    assert capsys.readouterr().err == ""
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    vi.attractors(SYSTEM, states, few)
-    lines = capsys.readouterr().err
-    assert lines.count("starts: round 1, 2/2\n") == 1
-    assert "starts: last round, " in lines
-    vi.basins(SYSTEM, {"W1": [0.1, 0.2]}, observation=few)
-    assert "starts: round 1, 2/2\n" in capsys.readouterr().err
-    vi.basins(SYSTEM, {"W1": [0.1, 0.2]}, observation=few, progress=False)
-    vi.attractors(SYSTEM, states, few, progress=False)
-    assert capsys.readouterr().err == ""
+    assert told(False) == told(True, progress=False) == ""
+    assert all(words in told(True) for words in ("things 2/2\n", "fixed point: f20_hat = ", "starts: round 1, 2/2\n"))
