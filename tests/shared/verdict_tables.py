@@ -5,7 +5,6 @@ import pandas as pd
 import vibroimpact as vi
 from vibroimpact.accuracy.verdict_table import fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.theory.fixed_points.symmetric_points import labels
 
 
 def verdicts_of(systems):
@@ -14,5 +13,5 @@ def verdicts_of(systems):
     points = []
     for case, system in systems.items():
         listed = vi.fixed_points(system)
-        points.append(fixed_point_rows(case, system, zip(labels(system, listed), listed, strict=True), exact[case]))
+        points.append(fixed_point_rows(case, system, listed, exact[case]))
     return pd.concat(points, ignore_index=True), pd.concat(exact.values(), ignore_index=True)

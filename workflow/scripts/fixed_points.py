@@ -8,11 +8,8 @@ from pathlib import Path
 
 from vibroimpact_pipeline.jobs import running
 
-import pandas as pd
-
 from vibroimpact import tables
 from vibroimpact.accuracy.verdict_table import CRITERIA, fixed_point_rows, orbit_rows
-from vibroimpact.exact.orbits.proof.table import proof_rows
 from vibroimpact.exact.orbits.search import search
 from vibroimpact.system import System
 from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
@@ -20,11 +17,11 @@ from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_po
 with running(snakemake) as out:
     case, system = snakemake.wildcards.case, System(**snakemake.params.system)
     points, found = fixed_point_table(case, system).drop(columns="multiple"), search(system)
-    orbits = orbit_rows(case, found.orbits)
-    labelled = [(point.label, point) for point in labelled_points(points)]
-    verdicts = fixed_point_rows(case, system, labelled, orbits)[["label", "admissible", "orbit", *CRITERIA]]
+    orbits = orbit_rows(case, [orbit.with_proof() for orbit in found.orbits])
+    verdicts = fixed_point_rows(case, system, labelled_points(points), orbits)
+    verdicts = verdicts[["label", "admissible", "orbit", *CRITERIA]]
     tables.write(points.merge(verdicts, on="label", validate="one_to_one"), out.points)
-    tables.write(pd.concat([orbits, proof_rows(found.orbits)], axis="columns"), out.orbits)
+    tables.write(orbits, out.orbits)
     listed = sum(not orbit.symmetric for orbit in found.orbits)
     effort = {"listed": listed, "starts": found.starts, "fewest_hits": found.fewest_hits}
     Path(out.search).write_text(json.dumps(effort) + "\n", encoding="utf-8")

@@ -105,10 +105,10 @@ def _fixed_points(system, options):
 def _orbits(system, options):
     """Return a row per admissible orbit.
 
-    Phases are in forcing periods, at walls +1 and -1; the largest multiplier is given by its modulus.
+    Phases are in forcing periods, at walls +1 and -1; modulus_1 is that of the largest multiplier.
     """
     measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
-    columns = ("symmetric", "C1", "C2", *measures, "largest_multiplier", "residual", "exact")
+    columns = ("symmetric", "C1", "C2", *measures, "modulus_1", "residual", "exact")
     rows = [orbit.row() for orbit in orbits(system) if orbit.admissible]
     return Table(columns, [tuple(row[name] for name in columns) for row in rows])
 

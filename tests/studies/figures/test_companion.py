@@ -20,8 +20,7 @@ def verdict_tables():
 
 def test_without_orbits_fixed_points_are_left_without_multipliers():
     system = SYSTEMS["weak"]
-    points = zip("a", vi.fixed_points(system), strict=True)
-    rows = fixed_point_rows("weak", system, points, orbit_rows("weak", []))
+    rows = fixed_point_rows("weak", system, vi.fixed_points(system), orbit_rows("weak", []))
     assert rows[["orbit", "exact"]].to_numpy().tolist() == [["", NO_ORBIT]]
     companion_stability.draw(companion_stability.compute(rows))
 

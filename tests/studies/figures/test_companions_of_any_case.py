@@ -105,7 +105,7 @@ def test_a_single_machine_is_drawn_with_a_module_at_rest(forces, module):
     fig10_07.draw(response)
     fig10_10.draw(fig10_10.compute(system, points, "a", 2.0, 2.5))
     found = orbit_rows("single", vi.orbits(system))
-    judged = fixed_point_rows("single", system, [(one.label, one) for one in labelled_points(points)], found)
+    judged = fixed_point_rows("single", system, labelled_points(points), found)
     row = found.set_index("label").loc[judged["orbit"].item()]
     assert row["admissible"]
     assert judged["exact"].item() == row["exact"]

@@ -15,7 +15,7 @@ from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
 from vibroimpact.system.arguments import instance, whole
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 from vibroimpact.system.representation import Found, Representation, brief
-from vibroimpact.system.state import BALLS, BOXES, MODULES
+from vibroimpact.system.state import BALLS, BOXES, MODULES, NAMES
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
@@ -26,7 +26,8 @@ _SIDES = "1_plus", "1_minus", "2_plus", "2_minus"
 COLUMNS = (
     *("symmetric", "admissible", "C1", "C2"),
     *(f"{what}{side}" for what in ("phase", "speed") for side in _SIDES),
-    *("largest_multiplier", "residual", "exact", "proved"),
+    *(f"modulus_{k}" for k in range(1, 9)),
+    *(*NAMES, "residual", "exact", "proved"),
 )
 """Columns of a table of orbits."""
 
@@ -115,11 +116,14 @@ class Orbit(Representation):
         return replace(self, proof=prove(self))
 
     def row(self) -> dict:
-        """Return the numbers and verdicts by name, as in `to_frame`: phases in periods, at wall +1 and -1."""
-        numbers = np.ravel([self.impact_phases, self.ball_speeds]).tolist()
-        largest = float(abs(self.multipliers[0]))
-        verdicts = largest, self.residual, self.stability, self.proved
-        return dict(zip(COLUMNS, (self.symmetric, self.admissible, *self.C.tolist(), *numbers, *verdicts), strict=True))
+        """Return the numbers and verdicts by name, as in `to_frame`, with those of the proof if there is one.
+
+        Phases are in periods, at wall +1 and -1. The moduli of multipliers that a single machine lacks are NaN.
+        """
+        moduli = np.pad(np.abs(self.multipliers), (0, 8 - len(self.multipliers)), constant_values=np.nan)
+        numbers = (self.C, self.impact_phases.ravel(), self.ball_speeds.ravel(), moduli, self.state, [self.residual])
+        values = self.symmetric, self.admissible, *np.concatenate(numbers).tolist(), self.stability, self.proved
+        return dict(zip(COLUMNS, values, strict=True)) | (self.proof.row() if self.proof else {})
 
     def _shown(self):
         return {

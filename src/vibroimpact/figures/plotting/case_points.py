@@ -49,9 +49,8 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
         orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["points"])
         _expect_same_points(given, points, inputs["points"])
     else:
-        labelled = [(point.label, point) for point in labelled_points(points)]
         orbits = orbit_rows(case, search(system).orbits)
-        given = fixed_point_rows(case, system, labelled, orbits)
+        given = fixed_point_rows(case, system, labelled_points(points), orbits)
     largest = orbits.set_index("label")["modulus_1"].astype(float)
     return given.assign(**{"largest multiplier": given["orbit"].map(largest)})
 

@@ -58,6 +58,11 @@ class OrbitProof:
             return UNSTABLE
         return STABLE if moduli and all(modulus < 1 for modulus in moduli) else NOT_PROVED
 
+    def row(self) -> dict:
+        """Return the numbers and verdicts by name."""
+        numbers = {"box_radius": self.radius, "orbit_error": self.error, "moduli_error": self.moduli_error}
+        return numbers | {"motion_proved": self.motion, "floquet_proved": self.stability}
+
 
 _NOTHING = OrbitProof(0.0, math.inf, NOT_PROVED, (), math.inf)
 

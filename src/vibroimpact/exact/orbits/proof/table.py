@@ -1,21 +1,8 @@
-"""Tabulate proofs by interval arithmetic for every exact orbit of a case."""
+"""Count the proofs in a table of orbits."""
 
 import pandas as pd
 
-from vibroimpact.exact.orbits.proof.orbit import prove
 from vibroimpact.exact.orbits.proof.passage import NOT_PROVED
-
-
-def proof_rows(orbits) -> pd.DataFrame:
-    """Return a row per exact orbit, in order, from its `OrbitProof`.
-
-    Columns box_radius, orbit_error, moduli_error (as in `OrbitProof`), motion_proved ("legal", "not legal", "not
-    proved"), floquet_proved ("stable", "unstable", "not proved").
-    """
-    proofs = [prove(orbit) for orbit in orbits]
-    rows = [(p.radius, p.error, p.moduli_error, p.motion, p.stability) for p in proofs]
-    names = ["box_radius", "orbit_error", "moduli_error", "motion_proved", "floquet_proved"]
-    return pd.DataFrame(rows, columns=names)
 
 
 def counts(table: pd.DataFrame) -> dict:
