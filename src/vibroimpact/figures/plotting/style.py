@@ -97,7 +97,8 @@ def draw_tables(figure, read: dict) -> Figure:
     """Return the picture of a figure's module from its tables by name; `draw` of one with a single table takes that."""
     if not read:
         return figure.draw()
-    return figure.draw(read["csv"] if list(read) == ["csv"] else read)
+    several = list(read) != ["csv"] or getattr(figure, "SPEC", {}).get("tables")
+    return figure.draw(read if several else read["csv"])
 
 
 def write_and_draw(figure, computed, outputs: dict) -> None:
