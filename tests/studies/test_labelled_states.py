@@ -18,7 +18,7 @@ CALLS = {
 @pytest.fixture(autouse=True)
 def settled(monkeypatch):
     """In place of attractors, the starts from which they would be looked for."""
-    monkeypatch.setattr("vibroimpact.studies.public.attractors._basins", lambda system, states, *others: states)
+    monkeypatch.setattr("vibroimpact.studies.regimes.attractors._basins", lambda system, states, *others: states)
 
 
 @pytest.mark.parametrize("call", CALLS)

@@ -18,7 +18,7 @@ from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.studies.absorbers.peaks import finished
 from vibroimpact.studies.absorbers.references import fixed_balls, tuned, without_balls
-from vibroimpact.studies.absorbers.tuning import best
+from vibroimpact.studies.absorbers.tuning import best_tuning
 from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.system import PhysicalSystem
 from vibroimpact.system.arguments import instance, pair, reals
@@ -305,7 +305,7 @@ def _designed(study, clearances, restitutions, progress) -> Design:
         row |= {"again_m": measured.peak, "near_m": max(peaks)}
         finalists.append((max(peaks), measured.peak, min(peaks), measured))
     highest, _, lowest, measured = min(finalists, key=lambda one: one[:2])
-    absorber = tuned(study.system, best(study.system, study.band, study.scale), study.scale)
+    absorber = tuned(study.system, best_tuning(study.system, study.band, study.scale), study.scale)
     return Design(
         machine=replace(study.given, L=measured.machine.L, kappa=measured.machine.kappa),
         peak=measured.peak,

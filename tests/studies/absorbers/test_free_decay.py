@@ -10,7 +10,7 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.studies.absorbers.decay import decay_time, quickest_decay
 from vibroimpact.studies.absorbers.references import fixed_balls, tuned, without_balls
-from vibroimpact.studies.absorbers.tuning import den_hartog
+from vibroimpact.studies.absorbers.tuning import textbook_tuning
 from vibroimpact.system.stored_energy import stored_energy
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
@@ -52,7 +52,7 @@ def test_balls_that_meet_no_wall_are_no_balls():
         assert decay_time(SYSTEM, 0.3, module) == pytest.approx(alone.decay_time(module), rel=1e-12)
 
 
-@pytest.mark.parametrize("linear", [without_balls(SYSTEM), fixed_balls(SYSTEM), tuned(SYSTEM, den_hartog(SYSTEM))])
+@pytest.mark.parametrize("linear", [without_balls(SYSTEM), fixed_balls(SYSTEM), tuned(SYSTEM, textbook_tuning(SYSTEM))])
 @pytest.mark.parametrize("fraction", [0.1, 0.9, 1e-4])
 def test_a_linear_decay_is_that_of_the_matrix_exponential(linear, fraction):
     time, n = linear.decay_time(2, fraction), len(linear.force)

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.studies.absorbers.references import Tuning, fixed_balls, tuned, without_balls
-from vibroimpact.studies.absorbers.tuning import best, compared, den_hartog
+from vibroimpact.studies.absorbers.tuning import best_tuning, compared, textbook_tuning
 
 DAMPED = vi.System(**{**PARAMETERS, "gamma1_hat": 2.5, "gamma2_hat": 3.5}, f10_hat=1.0, f20_hat=-0.6)
 TUNING = Tuning((0.95, 1.1), (0.2, 0.3))
@@ -70,7 +70,7 @@ def test_steady_amplitudes_are_those_of_integration(linear, rates):
 def test_the_textbook_meets_both_fixed_points_at_its_height():
     """sqrt(1 + 2 / mu) of the static deflection at P and Q, whatever the damper (Den Hartog 1956)."""
     system = hosts()
-    mu, frequency = system.epsilon, den_hartog(system).frequency
+    mu, frequency = system.epsilon, textbook_tuning(system).frequency
     for sign in (1, -1):
         Omega = math.sqrt((1 + sign * math.sqrt(mu / (2 + mu))) / (1 + mu))
         for damping in (0.01, 0.2, 0.9):
@@ -84,14 +84,14 @@ def test_the_best_tuning_is_the_exact_one_of_a_single_undamped_box():
     mu = system.epsilon
     least = (8 + 9 * mu) ** 2 * (16 + 9 * mu) - 128 * (4 + 3 * mu) ** 1.5
     least = math.sqrt(least / (3 * (32 + 27 * mu))) / (3 * mu) * system.forcing[0]
-    assert least < tuned(system, best(system, band)).peak(band) < least * (1 + 1e-4)
+    assert least < tuned(system, best_tuning(system, band)).peak(band) < least * (1 + 1e-4)
 
 
 @pytest.mark.parametrize("ratio", [0.01, 0.05, 0.1])
 def test_the_peak_of_the_textbook_is_hardly_above_its_fixed_points(ratio):
     """sqrt(1 + 2 / mu) of the static deflection at both fixed points, which its damping makes nearly the peaks."""
     system = hosts(epsilon=ratio)
-    peak = tuned(system, den_hartog(system)).peak((0.6, 1.5)) / system.forcing[0]
+    peak = tuned(system, textbook_tuning(system)).peak((0.6, 1.5)) / system.forcing[0]
     assert math.sqrt(1 + 2 / ratio) < peak < 1.002 * math.sqrt(1 + 2 / ratio)
 
 
@@ -102,7 +102,7 @@ def test_the_damping_of_the_textbook_is_the_printed_one_in_its_own_unit(ratio):
     It is the mean, of squares, of the two dampings with which the response is level at either fixed point (Brock).
     """
     system = hosts(epsilon=ratio)
-    tuning = den_hartog(system)
+    tuning = textbook_tuning(system)
     damper = tuned(system, tuning).damping[2, 2]
     assert damper / (2 * ratio * 1.0) == pytest.approx(math.sqrt(3 * ratio / (8 * (1 + ratio) ** 3)), rel=1e-12)
 
@@ -117,7 +117,7 @@ def test_the_damping_of_the_textbook_is_the_printed_one_in_its_own_unit(ratio):
 
 def test_absorbers_move_as_far_as_integration_says(chapter):
     """Largest |X_i - Y_i| at the worst frequency, from forces written out by hand."""
-    tuning = best(chapter, (0.8, 1.25))
+    tuning = best_tuning(chapter, (0.8, 1.25))
     linear = tuned(chapter, tuning)
     frequencies = np.linspace(0.8, 1.25, 2001)
     worst = frequencies[linear.strokes(frequencies).max(axis=1).argmax()]
@@ -160,9 +160,9 @@ def test_all_that_balls_are_held_against(chapter):
 
 def test_no_tuning_nearby_is_better_than_the_best(chapter):
     band = (0.7, 1.4)
-    tuning = best(chapter, band)
+    tuning = best_tuning(chapter, band)
     lowest, rng = tuned(chapter, tuning).peak(band), np.random.default_rng(5)
-    assert lowest < tuned(chapter, den_hartog(chapter)).peak(band)
+    assert lowest < tuned(chapter, textbook_tuning(chapter)).peak(band)
     for factors in np.exp(rng.normal(0.0, 1.0, (60, 4)) * rng.choice([0.003, 0.03, 0.3], (60, 1))):
         other = Tuning(tuple(tuning.frequency * factors[:2]), tuple(tuning.damping * factors[2:]))
         assert tuned(chapter, other).peak(band) > lowest * (1 - 1e-4)
@@ -181,10 +181,10 @@ def test_a_peak_is_the_top_of_all_humps(chapter):
     ("said", "asked"),
     {
         r"^band: needs 0 < low < high, got \(1.2, 1.1\)": lambda: without_balls(DAMPED).peak((1.2, 1.1)),
-        r"^band: 'low' is not a number": lambda: best(DAMPED, ("low", 1.0)),
+        r"^band: 'low' is not a number": lambda: best_tuning(DAMPED, ("low", 1.0)),
         r"^tuning: .* needs frequencies above 0": lambda: tuned(DAMPED, Tuning((0.0, 1.0), (0.1, 0.1))),
         r"^damping: needs two finite numbers": lambda: tuned(DAMPED, Tuning((1.0, 1.0), (0.1,))),
-        r"^system: no force acts": lambda: best(DAMPED.with_(f10_hat=0, f20_hat=0), (0.9, 1.1)),
+        r"^system: no force acts": lambda: best_tuning(DAMPED.with_(f10_hat=0, f20_hat=0), (0.9, 1.1)),
         r"^fraction: 1.0 is not between 0 and 1": lambda: without_balls(DAMPED).decay_time(fraction=1.0),
         r"^strokes: needs two boxes with an absorber each": lambda: without_balls(DAMPED).stroke((0.9, 1.1)),
         r"^module: 3 is not a whole number": lambda: without_balls(DAMPED).decay_time(3),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.studies.regimes.lyapunov import contraction, spectrum
+from vibroimpact.studies.regimes.lyapunov import contraction
 from vibroimpact.system.state import STICK
 
 MACHINE = vi.PhysicalSystem.single(M=1, m=0.05, k=1, c=0.02, F=0.05, L=1, kappa=0.65).dimensionless()
@@ -63,7 +63,7 @@ def test_a_ball_that_sticks_leaves_two_directions_of_four():
         **dict(sigma20_hat=0.0, sigma_e_hat=0.0, f10_hat=9.0, f20_hat=0.0),
     )
     state, cycles = vi.simulate(machine, np.zeros(8), 200).final, 60
-    found = spectrum(machine, state, cycles, 0)
+    found = vi.lyapunov_spectrum(machine, state, cycles, 0, 0)
     frame, sums = np.eye(4), np.zeros(2)
     for _ in range(cycles):
         run = vi.simulate(machine, state, 1)

@@ -5,6 +5,8 @@ from scipy.optimize import minimize
 
 from vibroimpact.studies.absorbers.linear import POINTS, Linear, checked_band
 from vibroimpact.studies.absorbers.references import Tuning, fixed_balls, tuned, without_balls
+from vibroimpact.system import System
+from vibroimpact.system.arguments import instance
 
 STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
 """Starting points of the optimisation, as multiples of the textbook frequencies."""
@@ -13,43 +15,84 @@ FARTHEST = 100.0
 it, the optimum has the least damping or stiffness allowed."""
 
 
-def den_hartog(system) -> Tuning:
-    """Return the textbook tuning.
+def textbook_tuning(system: System) -> Tuning:
+    """Return the linear absorbers tuned by Den Hartog's rule, each with the mass of a ball.
 
-    The frequency is that of Den Hartog (Mechanical Vibrations, 4th edition 1956, chapter 3), the damping that of Brock
-    (1946).
-
-    It makes both fixed points of the response of a single undamped box equally high, sqrt(1 + 2 / epsilon) of its
+    The rule makes both fixed points of the response of a single undamped box equally high, sqrt(1 + 2 / epsilon) of its
     static deflection, and makes its peaks almost as low. Each box is treated separately: for damped or coupled boxes
     the rule is approximate.
 
+    Parameters
+    ----------
+    system : System
+        Dimensionless parameters.
+
+    Returns
+    -------
+    Tuning
+        Frequencies and damping ratios of both absorbers.
+
+    Raises
+    ------
+    ValueError
+        If system is not a System.
+
+    Notes
+    -----
     The textbook prints the damping as c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the natural
     frequency Omega_n of the box. `Tuning.damping` refers to that of the absorber, which is Omega_n / (1 + epsilon): so
     it is sqrt(3 epsilon / (8 (1 + epsilon))).
+
+    References
+    ----------
+    Den Hartog, Mechanical Vibrations, 4th edition 1956, chapter 3; Brock 1946 (damping).
+
+    Examples
+    --------
+    >>> vi.textbook_tuning(system).frequency  # doctest: +SKIP
     """
-    ratio = system.epsilon
+    ratio = instance("system", system, System).epsilon
     host = np.sqrt([1.0, system.stiffness2])
     damping = float(np.sqrt(3 * ratio / (8 * (1 + ratio))))
     return Tuning(tuple(float(value) for value in host / (1 + ratio)), (damping, damping))
 
 
-def best(system, band: tuple[float, float], scale=np.ones_like) -> Tuning:
-    """Return the tuning with the lowest peak (`Linear.peak`) over a band of frequencies, with the forces of `Linear`.
+def best_tuning(system: System, band: tuple[float, float], scale=np.ones_like) -> Tuning:
+    """Return the linear absorbers with the lowest peak over a band of frequencies, each with the mass of a ball.
 
-    Since the peak is a maximum with kinks, a bound on all values in the band is minimised instead, by sequential
-    quadratic programming from three starting points. The best of the three local optima is returned.
+    Since the peak (`Linear.peak`) is a maximum with kinks, a bound on all values in the band is minimised instead, by
+    sequential quadratic programming from three starting points. The best of the three local optima is returned.
+
+    Parameters
+    ----------
+    system : System
+        Dimensionless parameters.
+    band : tuple of float
+        First and last forcing frequency Omega, dimensionless.
+    scale : callable, optional
+        Factor of the force at an array of frequencies, see `Linear`; 1 by default.
+
+    Returns
+    -------
+    Tuning
+        Frequencies and damping ratios of both absorbers.
 
     Raises
     ------
     ValueError
-        If the band is invalid, or if no force acts.
+        If an argument is malformed, or if no force acts.
     ArithmeticError
-        If no starting point leads to an optimum.
+        If the optimisation fails from every starting point.
+
+    Examples
+    --------
+    >>> tuning = vi.best_tuning(system, (0.9, 1.1))  # doctest: +SKIP
+    >>> vi.tuned(system, tuning).peak((0.9, 1.1))  # doctest: +SKIP
     """
+    book = textbook_tuning(system)
     frequencies = np.linspace(*checked_band(band), POINTS)
     if not system.forcing.any():
         raise ValueError("system: no force acts, so there is no response to reduce")
-    book = den_hartog(system)
     textbook = np.log([*book.frequency, *book.damping])
     found = []
     for factors in STARTS:
@@ -85,8 +128,8 @@ def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
     return {
         "without balls": without_balls(system),
         "balls fixed": fixed_balls(system),
-        "absorbers of the textbook": tuned(system, den_hartog(system)),
-        "best absorbers": tuned(system, best(system, band)),
+        "absorbers of the textbook": tuned(system, textbook_tuning(system)),
+        "best absorbers": tuned(system, best_tuning(system, band)),
     }
 
 

@@ -11,7 +11,7 @@ from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LEVEL, STABLE, heading, new_figure, styled
 from vibroimpact.studies.absorbers.references import tuned
-from vibroimpact.studies.absorbers.tuning import den_hartog
+from vibroimpact.studies.absorbers.tuning import textbook_tuning
 from vibroimpact.studies.claims.verdict_grid import exact_orbits
 from vibroimpact.studies.regimes.basins import plane
 from vibroimpact.studies.regimes.classification import starts
@@ -279,7 +279,7 @@ def _coexisting(system):
 
 def _damper_power(system):
     """Return the mean power in the dampers of linear absorbers of the balls' mass, tuned by the textbook."""
-    tuning = den_hartog(system)
+    tuning = textbook_tuning(system)
     damping = 2 * system.epsilon * np.multiply(tuning.frequency, tuning.damping)
     strokes = tuned(system, tuning).strokes(system.Omega)
     return float(damping @ strokes**2 * system.Omega**2 / 2)

@@ -5,7 +5,7 @@ import numpy as np
 from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.exact.measures.modulation import bursts_in
 from vibroimpact.studies.regimes.classification import CHAOTIC, HOPPING, QUASI_PERIODIC, STRONGLY_MODULATED, UNSETTLED
-from vibroimpact.studies.regimes.lyapunov import Measured, largest_exponent
+from vibroimpact.studies.regimes.lyapunov import Measured, largest_lyapunov
 
 CERTAIN = 3.0
 """Number of standard errors used as the uncertainty of an exponent."""
@@ -42,9 +42,13 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
     blocks, block : int
         Number of blocks of the exponent, and cycles per block.
     """
-    found = sign(largest_exponent(run.system, run.final, blocks, block, DISCARDED))
+
+    def of_length(cycles):
+        return sign(largest_lyapunov(run.system, run.final, cycles, 0, blocks, DISCARDED))
+
+    found = of_length(blocks * block)
     if found != POSITIVE:
-        found = sign(largest_exponent(run.system, run.final, blocks, LONGER * block, DISCARDED))
+        found = of_length(LONGER * blocks * block)
     if found == ZERO and not recurs(run.system, run.final, LONGER * blocks * block):
         return UNSETTLED
     return NAMES.get((found, resonance(resonant_shares(run))), UNSETTLED)

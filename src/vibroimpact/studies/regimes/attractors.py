@@ -1,18 +1,26 @@
-"""Distinguish the attractors that several initial states end in."""
+"""Find attractors and their basins on a line or a plane of initial states."""
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from vibroimpact.exact.engine.simulation import checked_state
 from vibroimpact.exact.periodic import PeriodicOrbit, refined
-from vibroimpact.studies.regimes.classification import PERIODIC, UNSETTLED, Regime
-from vibroimpact.system.state import takes_part
+from vibroimpact.studies.regimes.classification import PERIODIC, UNSETTLED
+from vibroimpact.studies.regimes.settling import Observation, settle
+from vibroimpact.system import System
+from vibroimpact.system.arguments import instance, reals
+from vibroimpact.system.state import NAMES, states_array, takes_part
 
 OPEN = -1
 """Label of an initial state that has not settled, as in Attractors.jl."""
 _SAME, _SAME_IDLE = 1e-6, 1e-4
 """Largest difference of displacements of equal motions; the second if a ball is at rest, where decay limits
 accuracy."""
+
+_PLACES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
+"""Coordinates of initial states, and their indices in the state; W_i = X_i - Y_i moves ball i."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,15 +45,165 @@ class Attractor:
     orbit: PeriodicOrbit | None
 
 
-def attractors(regimes: list[Regime]) -> tuple[np.ndarray, list[Attractor]]:
-    """Return the attractor label of each start, or OPEN if it has not settled.
+@dataclass(frozen=True, eq=False)
+class Basins:
+    """Attractors, and the label of the attractor of each initial state.
 
-    Labels count from 1 in the order in which the attractors are met.
+    Attributes
+    ----------
+    labels : ndarray
+        Integers in the shape of the initial states, from 1 in the order in which attractors are met; -1 for a state
+        that has not settled (as in Attractors.jl).
+    attractors : dict of int to Attractor
+        Attractor by label: .regime, .cycles, .states (k, 8), its stroboscopic section.
+    shares : dict of int to float
+        Fraction of the initial states by label; the sum is 1.
+    axes : dict of str to ndarray
+        Values of the varied coordinates by name; empty if the states were listed.
+    """
+
+    labels: np.ndarray
+    attractors: dict[int, Attractor]
+    shares: dict[int, float]
+    axes: dict[str, np.ndarray]
+
+    def rows(self, number: int = 0) -> list[dict]:
+        """Return a row per initial state: its varied coordinates, or its number, its label and the regime.
+
+        Parameters
+        ----------
+        number : int, default 0
+            Ignored; `to_frame` passes the position in a list.
+
+        Returns
+        -------
+        list of dict
+            One row per initial state.
+        """
+        grid = np.meshgrid(*self.axes.values(), indexing="ij") if self.axes else [np.arange(len(self.labels))]
+        columns = dict(zip(self.axes or ["start"], (values.ravel().tolist() for values in grid), strict=True))
+        labels = self.labels.ravel().tolist()
+        regimes = ["unsettled" if label == OPEN else self.attractors[label].regime for label in labels]
+        every = columns | {"label": labels, "regime": regimes}
+        return [dict(zip(every, values, strict=True)) for values in zip(*every.values(), strict=True)]
+
+
+def attractors(system: System, states, observation: Observation | None = None, progress: bool = True) -> Basins:
+    """Return the attractors of a list of initial states, with labels and shares.
 
     Periodic motions are the same attractor if their displacements agree after a shift by whole periods; mirror images
     are two attractors. Motions that do not repeat are distinguished only by their regime. The position of a ball at
     rest is ignored.
+
+    Parameters
+    ----------
+    system : System
+        Dimensionless parameters.
+    states : array_like
+        Initial states at tau = 0, shape (n, 8). A module that takes no part (`PhysicalSystem.single`) is put at rest.
+    observation : Observation, optional
+        Length of the runs, see `Observation`: up to `rounds` times `cycles` forcing periods, until a motion repeats. At
+        equal forces most motions still change after 400 cycles, none after 2000. A ball at rest may never meet a wall
+        (docs/howto.md).
+    progress : bool, default True
+        Count the initial states on standard error, if it is a terminal.
+
+    Returns
+    -------
+    Basins
+        Labels in the shape (n,), attractors and shares.
+
+    Raises
+    ------
+    ValueError
+        If an argument is malformed.
+    ArithmeticError
+        If a run could not be finished.
+
+    Examples
+    --------
+    >>> from vibroimpact import starts
+    >>> found = attractors(system, starts(6, seed=1))
+    >>> [found.attractors[label].regime for label in found.shares]
+    ['asymmetric', 'asymmetric']
     """
+    states = states_array("states", states)
+    if states.ndim != 2 or states.shape[1] != 8 or not len(states):
+        raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
+    return _basins(system, states, states.shape[:1], {}, observation, progress)
+
+
+def basins(
+    system: System,
+    axes: Mapping[str, Iterable[float]],
+    state=(0.0,) * 8,
+    observation: Observation | None = None,
+    progress: bool = True,
+) -> Basins:
+    """Return the basins of attraction on a line or plane of initial states.
+
+    Labels, attractors and shares are as in Attractors.jl.
+
+    Parameters
+    ----------
+    system : System
+        Dimensionless parameters.
+    axes : mapping
+        Values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2, where
+        W_i = X_i - Y_i places ball i between its walls, -1 < W_i < 1.
+    state : array_like, optional
+        State at tau = 0 with the other coordinates, shape (8,); at rest by default.
+    observation, progress
+        As for `attractors`.
+
+    Returns
+    -------
+    Basins
+        Labels in the shape of the axes, attractors and shares. `to_frame([found])` returns a table with a row per
+        initial state.
+
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, or if a ball would start beyond a wall.
+    ArithmeticError
+        If a run could not be finished.
+
+    Examples
+    --------
+    >>> W = np.linspace(-0.8, 0.8, 3)
+    >>> found = basins(system, {"W1": W, "W2": W})
+    >>> found.labels.shape, sum(found.shares.values())
+    ((3, 3), 1.0)
+    """
+    if not isinstance(axes, Mapping) or not 1 <= len(axes) <= 2:
+        raise ValueError("axes: needs values of one or two coordinates, such as {'W1': [-0.5, 0.5], 'W2': [-0.5, 0.5]}")
+    for name in axes:
+        if name not in _PLACES:
+            raise ValueError(f"axes: {name!r} is none of {', '.join(_PLACES)}")
+    if len({_PLACES[name][-1] for name in axes}) < len(axes):
+        raise ValueError(f"axes: {' and '.join(axes)} set the same ball; give one of them")
+    axes = {name: reals(f"axes[{name!r}]", list(values)).ravel() for name, values in axes.items()}
+    for name, values in axes.items():
+        if not len(values):
+            raise ValueError(f"axes[{name!r}]: has no value")
+    grid = np.meshgrid(*axes.values(), indexing="ij")
+    states = np.tile(checked_state(state), (grid[0].size, 1))
+    for name, values in sorted(zip(axes, grid, strict=True), key=lambda pair: len(_PLACES[pair[0]])):
+        first, *ball = _PLACES[name]
+        states[:, ball or first] = (states[:, [first]] - values.reshape(-1, 1)) if ball else values.ravel()
+    return _basins(system, states, grid[0].shape, axes, observation, progress)
+
+
+def _basins(system, states, shape, axes, observation, progress):
+    instance("system", system, System)
+    observation = instance("observation", Observation() if observation is None else observation, Observation)
+    for row, state in enumerate(states):
+        try:
+            checked_state(state)
+        except ValueError as error:
+            raise ValueError(f"start {row}: {error}") from None
+    regimes = settle(system, states, observation, progress)
     labels, known = np.full(len(regimes), OPEN), []
     for k, regime in enumerate(regimes):
         if regime.name == UNSETTLED:
@@ -53,7 +211,9 @@ def attractors(regimes: list[Regime]) -> tuple[np.ndarray, list[Attractor]]:
         place = next((n for n, one in enumerate(known) if _same(one, regime)), len(known))
         known[place:] = known[place:] or [regime]
         labels[k] = place + 1
-    return labels, [_attractor(one) for one in known]
+    shares = {int(label): float(np.mean(labels == label)) for label in np.unique(labels)}
+    shares = dict(sorted(shares.items(), key=lambda item: -item[1]))
+    return Basins(labels.reshape(shape), {n: _attractor(one) for n, one in enumerate(known, start=1)}, shares, axes)
 
 
 def _attractor(regime):

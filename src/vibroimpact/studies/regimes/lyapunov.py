@@ -15,9 +15,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.engine.ensemble import finals
+from vibroimpact.exact.engine.simulation import checked_state, simulate
 from vibroimpact.exact.engine.variation import growth
-from vibroimpact.system.arguments import MOST_SEED, whole
+from vibroimpact.system import System
+from vibroimpact.system.arguments import MOST_SEED, instance, whole
 from vibroimpact.system.matrices import damping_matrix
 from vibroimpact.system.state import idle_at_rest, takes_part
 
@@ -26,6 +28,7 @@ AT_ONCE = 1000
 """Cycles that are simulated at a time."""
 _OTHERS = np.random.default_rng(1).normal(size=(8, 7))  # a frame with a pattern may span too little
 _VECTORS = np.column_stack([np.ones(8), _OTHERS])
+_MOST = 10_000_000
 _MOST_RESAMPLES = 1_000_000
 
 
@@ -47,39 +50,66 @@ class Measured(Exponent):
     scatter: float
 
 
-def largest_exponent(system, state, blocks: int, cycles: int, discarded: int = 10) -> Measured:
-    """Return the largest Lyapunov exponent, with its error.
+def largest_lyapunov(
+    system: System, state, cycles: int = 2000, settle: int = 1000, blocks: int = 20, discarded: int = 10
+) -> Measured:
+    """Return the largest Lyapunov exponent of the motion reached from an initial state, in nats per period.
 
-    On a periodic motion this is the log of its largest multiplier's modulus, over the period. The error takes the
-    growth in different blocks as independent. The perturbation is of the modules that take part.
+    An exponent above about three errors indicates chaos. For a periodic motion it is the logarithm of the modulus of
+    the largest Floquet multiplier, over the period. It is computed from the exact Jacobian through impacts, chatter and
+    sticking, for the modules that take part.
 
     Parameters
     ----------
-    state
-        (8,) on the attractor, at the start of a forcing cycle.
-    blocks : int
-        How many blocks are averaged over, at least 2.
-    cycles : int
-        Forcing cycles in a block.
+    system : System
+        Dimensionless parameters.
+    state : array_like
+        Initial state at tau = 0, shape (8,); from rest a ball may stay idle forever.
+    cycles : int, default 2000
+        Forcing periods to average over, a multiple of `blocks`.
+    settle : int, default 1000
+        Forcing periods of the transient. Increase it for slow transients. With several attractors the initial state
+        decides (`basins`).
+    blocks : int, default 20
+        Number of blocks of `cycles`, at least 2, whose scatter gives the error.
     discarded : int, default 10
         Blocks before those, for the perturbation to turn to the direction of largest growth.
+
+    Returns
+    -------
+    Measured
+        .mean, .error and .scatter. The error includes the apparent rate of a perturbation that grows linearly in
+        time, as for a ball at rest.
 
     Raises
     ------
     ValueError
-        If fewer than 2 blocks.
+        If an argument is malformed.
     ArithmeticError
-        If the perturbation vanished: the motion forgets it altogether.
+        If the run could not be finished, or if every perturbation vanishes.
+
+    References
+    ----------
+    Benettin et al. 1980; Mueller 1995 (saltation matrices).
+
+    Examples
+    --------
+    >>> exponent = largest_lyapunov(system.with_(f10_hat=0.5, f20_hat=0.5), [0, 0, 0, 0, 0, 0.5, 0, -0.5])
+    >>> bool(exponent.mean > 3 * exponent.error)
+    True
     """
-    if blocks < 2:
-        raise ValueError(f"blocks: {blocks} is below 2, which a standard error needs")
-    factors = np.array([grown.factors for grown in _frame_growth(system, state, [cycles] * (discarded + blocks), 1)])
+    blocks = whole("blocks", blocks, 2, _MOST)
+    cycles = whole("cycles", cycles, blocks, _MOST)
+    if cycles % blocks:
+        raise ValueError(f"cycles: {cycles} is not a multiple of the {blocks} blocks")
+    block, state = cycles // blocks, _settled(system, state, settle)
+    factors = np.array([grown.factors for grown in _frame_growth(system, state, [block] * (discarded + blocks), 1)])
     if not factors.all():
         raise ArithmeticError("the perturbation vanished, so it has no growth rate")
     rates = np.log(factors[discarded:]).mean(axis=(1, 2))
     mean, scatter = rates.mean(), rates.std(ddof=1) / np.sqrt(blocks)
-    first, last = max(discarded * cycles, 1), (discarded + blocks) * cycles
-    with_time = np.log(last / first) / (blocks * cycles)
+    first, last = max(discarded * block, 1), discarded * block + cycles
+    with_time = np.log(last / first) / cycles
     found = Measured(float(mean), float(np.hypot(scatter, with_time)))
     found.scatter = float(scatter)
     return found
@@ -161,11 +191,42 @@ class Spectrum:
         return np.where(forgotten, np.nan, drawn.std(axis=0, ddof=1)), float(np.std(dimensions, ddof=1))
 
 
-def spectrum(system, state, cycles: int, discarded: int = 100) -> Spectrum:
-    """Return all Lyapunov exponents over `cycles` forcing cycles after a transient.
+def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000, discarded: int = 100) -> Spectrum:
+    """Return all Lyapunov exponents of the motion reached from an initial state, in nats per period.
 
-    The initial state is as for `largest_exponent`.
+    They are the exponents of the map from one forcing period to the next; the exponent 0 of the time itself is not
+    included. A ball that sticks loses two directions, whose exponents are -inf. A perturbation that grows linearly in
+    time t, as for a ball at rest, has the apparent exponent ln(t) / t, which no error covers.
+
+    Parameters
+    ----------
+    system : System
+        Dimensionless parameters.
+    state, cycles, settle
+        As for `largest_lyapunov`.
+    discarded : int, default 100
+        Forcing periods before those, for the perturbations to turn to their directions.
+
+    Returns
+    -------
+    Spectrum
+        .exponents, largest first, shape (8,), or (4,) if one module takes part (`PhysicalSystem.single`);
+        .errors(block); .dimension (Kaplan-Yorke); .without_double_sticks().
+
+    Raises
+    ------
+    ValueError
+        If an argument is malformed.
+    ArithmeticError
+        If the run could not be finished.
+
+    Examples
+    --------
+    >>> spectrum = lyapunov_spectrum(system, [0.0] * 8, cycles=200, settle=600)
+    >>> bool(spectrum.exponents[0] < 0)  # a periodic motion attracts
+    True
     """
+    cycles, state = whole("cycles", cycles, 1, _MOST), _settled(system, state, settle)
     full, rest = divmod(discarded + cycles, AT_ONCE)
     size = np.count_nonzero(takes_part(system))
     parts = zip(*_frame_growth(system, state, [AT_ONCE] * full + [rest] * (rest > 0), size), strict=True)
@@ -217,3 +278,9 @@ def _frame_growth(system, state, runs, directions):
         grown = growth(run, frame)
         frame, state = grown.frame, run.final
         yield grown
+
+
+def _settled(system, state, settle):
+    """Return the state (8,) after a transient."""
+    instance("system", system, System)
+    return finals(system, checked_state(state)[None], whole("settle", settle, 0, _MOST))[0]

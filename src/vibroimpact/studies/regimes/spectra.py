@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.measures.modulation import mean_and_error
-from vibroimpact.studies.regimes.lyapunov import Spectrum, spectrum
+from vibroimpact.studies.regimes.lyapunov import Spectrum, lyapunov_spectrum
 
 DIMENSION, SUM, CONTRACTION = "Kaplan-Yorke dimension", "sum of exponents", "contraction"
 DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
@@ -31,7 +31,7 @@ def watch(system, states, cycles: int, block: int) -> list[Watched]:
     """
     found, block = [], max(1, min(block, cycles // 2))
     for state in states:
-        one = spectrum(system, state, cycles, 10 * block)
+        one = lyapunov_spectrum(system, state, cycles, 0, 10 * block)
         single = one.without_double_sticks()
         errors = single.errors(min(block, len(single.growth) // 2))
         found.append(Watched(single, *errors, one.double_sticks))
