@@ -1,4 +1,6 @@
-"""Apply Newton's method to many starts at once."""
+"""Apply Newton's method to many starts at once, or from root to root as a parameter changes."""
+
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
@@ -31,3 +33,20 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
         found.append(x[done])
         x = x[~done]
     return np.concatenate(found)
+
+
+def follow(equations: Callable, x: np.ndarray, values: Iterable[float], near: float) -> Iterator[tuple]:
+    """Yield values of a parameter in turn, each with the root (d,) of equations(value) that Newton's method finds.
+
+    It starts from the root at the last value, the first time from x (d,). It ends where there are no equations, where
+    it finds no root, or where a component has changed by `near` or more.
+    """
+    for value in values:
+        try:
+            found = newton(equations(value), x[None])
+        except ValueError:
+            return
+        if not len(found) or np.abs(found[0] - x).max() >= near:
+            return
+        x = found[0]
+        yield value, x

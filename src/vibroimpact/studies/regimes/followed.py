@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
-from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.exact.orbits.newton import follow
 from vibroimpact.studies.regimes.branches import images
 from vibroimpact.studies.regimes.families import AsymmetricOrbits
 
@@ -67,15 +67,8 @@ def _known(x, roots, system):
 
 def _along(values, systems, x):
     """Yield the value, root and Orbit at each of some values in turn, next to the one before, while it is a motion."""
-    for value in values:
-        try:
-            found = newton(AsymmetricConditions(systems[value]), x[None])
-        except ValueError:
-            return
-        if not len(found) or np.abs(found[0] - x).max() > NEAR:
-            return
-        x = found[0]
-        orbit = AsymmetricOrbits.member(systems[value], x)
+    for value, root in follow(lambda value: AsymmetricConditions(systems[value]), x, values, NEAR):
+        orbit = AsymmetricOrbits.member(systems[value], root)
         if not orbit.admissible:
             return
-        yield value, x, orbit
+        yield value, root, orbit

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from scipy.linalg import eigvals
 
+from vibroimpact.exact.orbits.newton import newton
 from vibroimpact.studies.theory import branch
 from vibroimpact.studies.theory.branch import ASYMMETRIC, LARGE, SMALL, Chart, charts
 from vibroimpact.system import System
@@ -28,10 +29,7 @@ from vibroimpact.theory.slow_flow import descending, impedances, pencil
 
 PAIRS = [pair for pair in itertools.product((SMALL, LARGE, ASYMMETRIC), repeat=2) if ASYMMETRIC in pair]
 _STARTS = 20  # along each edge of the square
-_STEPS = 40
 _REACH = 0.25
-_OUTSIDE = 1.5  # beyond this a start is given up
-_SETTLED, _STALLED = 1e-12, 1e-8  # the second where all steps are used up: next to a double zero
 _SAME = 1e-7
 _ROUNDING = 1e-10  # of an eigenvalue, in units of the largest one
 
@@ -193,18 +191,8 @@ def _zeros(conditions):
     """Return the zeros in the square |x_i| <= 1, shape (n, 2)."""
     ticks = (2 * np.arange(_STARTS) + 1) / _STARTS - 1
     x = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 2)
-    settled = [np.empty((0, 2))]
-    for limit in [_SETTLED] * (_STEPS - 1) + [_STALLED]:
-        residual, jacobian = conditions(x)
-        regular = np.abs(np.linalg.det(jacobian)) > 0
-        step = np.linalg.solve(jacobian[regular], residual[regular, :, None])[..., 0]
-        size = np.abs(step).max(axis=1)
-        x = x[regular] - step * np.minimum(1.0, _REACH / np.maximum(size, _REACH))[:, None]
-        done, near = size < limit, (np.abs(x) < _OUTSIDE).all(axis=1)
-        settled.append(x[done & (np.abs(x) <= 1).all(axis=1)])
-        x = x[~done & near]
-    distinct = np.empty((0, 2))
-    for zero in np.concatenate(settled):
+    zeros, distinct = newton(conditions, x, _REACH), np.empty((0, 2))
+    for zero in zeros[(np.abs(zeros) <= 1).all(axis=1)]:
         if not (np.abs(distinct - zero).max(axis=1) < _SAME).any():
             distinct = np.vstack([distinct, zero])
     return distinct

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from vibroimpact.exact.orbits.newton import follow, newton
 from vibroimpact.studies.theory.asymmetric_points import balance
 from vibroimpact.studies.theory.branch import ASYMMETRIC, charts
 from vibroimpact.theory.manifold import B_min, C_min, C_of_B, rho
@@ -21,7 +22,6 @@ RETURN = 1.0
 _PER_CYCLE = 24
 _NODES = 2000
 _BEYOND = 0.9  # v^2 at the end of the tables
-_TRACKED = 8
 _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 
 
@@ -105,20 +105,19 @@ def lost_at(system, point) -> float:
         return np.nan
     (symmetric,) = symmetric
 
-    def excess(factor, x):
-        """Return C beyond the fold at a factor, and where the point is: Newton's method from x."""
-        scaled = system.with_(f10_hat=factor * system.f10_hat, f20_hat=factor * system.f20_hat)
-        conditions, chart = balance(scaled, point.charts), charts(system.kappa)[point.charts[symmetric]]
-        for _ in range(_TRACKED):
-            residual, jacobian = conditions(x[None])
-            x = x - np.linalg.solve(jacobian[0], residual[0])
-        return chart.amplitudes(x[symmetric])[0] - C_min(rho(system.kappa)), x
+    fold, chart = C_min(rho(system.kappa)), charts(system.kappa)[point.charts[symmetric]]
 
-    beyond, x = excess(1.0, point.x)
-    for factor in np.arange(1 - _FOLLOWED, _SMALLEST, -_FOLLOWED):
-        last, (beyond, x) = (beyond, x), excess(factor, x)
-        if last[0] <= 0 or np.abs(x - last[1]).max() > _JUMP:
-            break
-        if beyond <= 0:
-            return brentq(lambda between, start=last[1]: excess(between, start)[0], factor, factor + _FOLLOWED)
+    def conditions(factor):
+        return balance(system.with_(f10_hat=factor * system.f10_hat, f20_hat=factor * system.f20_hat), point.charts)
+
+    def beyond(x):
+        return chart.amplitudes(x[symmetric])[0] - fold
+
+    last = point.x
+    if beyond(last) > 0:
+        for factor, x in follow(conditions, last, np.arange(1 - _FOLLOWED, _SMALLEST, -_FOLLOWED), _JUMP):
+            if beyond(x) <= 0:
+                ends = factor, factor + _FOLLOWED
+                return brentq(lambda between, x=last: beyond(newton(conditions(between), x[None])[0]), *ends)
+            last = x
     return np.nan
