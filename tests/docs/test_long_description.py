@@ -7,7 +7,6 @@ import tarfile
 import zipfile
 from email.parser import Parser
 
-import pytest
 from markdown_it import MarkdownIt
 
 from pipeline_trees import ROOT, copied
@@ -38,29 +37,27 @@ def metadata(root, folder) -> list:
     return [Parser().parsestr(text) for text in (source, wheel)]
 
 
-@pytest.mark.parametrize("repository", [None, REPOSITORY])
-def test_no_link_of_the_long_description_is_relative_and_addresses_follow_from_the_citation(tmp_path, repository):
+def test_no_link_of_the_long_description_is_relative_and_addresses_follow_from_the_citation(tmp_path):
     tree = copied(ROOT, tmp_path / "tree")
     (tree / "LICENSE").write_bytes((ROOT / "LICENSE").read_bytes())
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
-    assert "\nrepository-code:" not in citation or repository is None, "there is one: say here what follows from it"
-    if repository:
-        (tree / "CITATION.cff").write_text(f'{citation}repository-code: "{repository}"\n', encoding="utf-8")
+    assert "\nrepository-code:" not in citation, "there is one: say here what follows from it"
+    (tree / "CITATION.cff").write_text(f'{citation}repository-code: "{REPOSITORY}"\n', encoding="utf-8")
+    relative = [target for _, target in targets(README) if "://" not in target]
     for described in metadata(tree.path, tmp_path / "dist"):
         assert described["Description-Content-Type"] == "text/markdown"
-        assert described["Author"] == "The maintainers of vibroimpact"
         text = described.get_payload()
         assert text.startswith("# vibroimpact\n\nTwo boxes")
         found = [target for _, target in targets(text)]
         assert [target for target in found if not target.startswith(("https://", "#"))] == []
-        relative = [target for _, target in targets(README) if "://" not in target]
-        assert len(relative) > 15
-        addresses = described.get_all("Project-URL") or []
-        if repository:
-            assert sum(target.startswith(repository) for target in found) == len(relative)
-            assert f"Repository, {repository}" in addresses
-        else:
-            assert addresses == []
+        assert sum(target.startswith(REPOSITORY) for target in found) == len(relative) > 15
+        assert f"Repository, {REPOSITORY}" in described.get_all("Project-URL")
+
+
+def test_without_a_repository_no_link_is_relative_either():
+    """The texts of links stay, and absolute links and code, too."""
+    readme = "[a](docs/a.md) ![b](b.png) [c](https://example.org) [d](#e) `[f]` `'.[g]'`"
+    assert hatch_build.long_description(readme, None, "1") == "a b [c](https://example.org) [d](#e) `[f]` `'.[g]'`"
 
 
 def test_absolute_links_lead_to_the_files_of_that_version_pictures_as_files():
@@ -69,8 +66,3 @@ def test_absolute_links_lead_to_the_files_of_that_version_pictures_as_files():
         if "://" not in before:
             assert after == f"{REPOSITORY}/{'raw' if kind == 'image' else 'blob'}/v1.2.3/{before}"
             assert "studies" in before or (ROOT / before.partition("#")[0]).exists()
-
-
-def test_without_a_repository_the_texts_of_links_stay_and_absolute_links_and_code_too():
-    readme = "[a](docs/a.md) ![b](b.png) [c](https://example.org) [d](#e) `[f]` `'.[g]'`"
-    assert hatch_build.long_description(readme, None, "1") == "a b [c](https://example.org) [d](#e) `[f]` `'.[g]'`"

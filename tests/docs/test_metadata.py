@@ -12,7 +12,6 @@ from pipeline_trees import ROOT
 
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
 PLACES = "pyproject.toml", "CITATION.cff", "CITATION.bib", ".zenodo.json", "codemeta.json"
-FORMS = sorted((ROOT / ".github/ISSUE_TEMPLATE").glob("*.yml"))
 
 
 def text(name):
@@ -21,10 +20,9 @@ def text(name):
 
 def bibtex(entry) -> dict[str, str]:
     """Type, key and fields of a BibTeX entry, without the braces that keep words together."""
-    kind, key, fields = re.fullmatch(r"@(\w+)\{(\w+),\n(.*)\n\}\n", entry, re.DOTALL).groups()
-    pairs = re.findall(r"^  (\w+) = \{(.*)\},$", fields, re.MULTILINE)
-    assert len(pairs) == len(fields.splitlines())
-    return {"type": kind, "key": key} | {name: re.sub("[{}]", "", value) for name, value in pairs}
+    kind, key = re.match(r"@(\w+)\{(\w+),", entry).groups()
+    fields = dict(re.findall(r"^  (\w+) = \{(.*)\},$", entry, re.MULTILINE))
+    return {"type": kind, "key": key} | {name: re.sub("[{}]", "", value) for name, value in fields.items()}
 
 
 def described(root):
@@ -99,25 +97,3 @@ def test_only_the_job_that_publishes_may_write(path):
     assert workflow["permissions"] == {"contents": "read"}
     writing = [name for name, job in workflow["jobs"].items() if "write" in job.get("permissions", {}).values()]
     assert writing == (["publish"] if path.stem in ("pages", "release") else [])
-
-
-@pytest.mark.parametrize("path", FORMS, ids=lambda path: path.stem)
-def test_an_issue_form_has_what_such_forms_need(path):
-    form = yaml.safe_load(path.read_text(encoding="utf-8"))
-    if path.stem != "config":
-        assert {"name", "description", "body"} <= set(form)
-        assert all(part["attributes"]["label"] for part in form["body"])
-        assert len({part["id"] for part in form["body"]}) == len(form["body"])
-
-
-def test_the_catalog_tells_of_files_that_are_there():
-    catalog = yaml.safe_load(text(".snakemake-workflow-catalog.yml"))["usage"]
-    assert catalog["mandatory-flags"]["flags"] == ""
-    assert (ROOT / "workflow/Snakefile").exists()
-    assert catalog["software-stack-deployment"]["apptainer"] == ("container:" in text("workflow/Snakefile"))
-    assert catalog["software-stack-deployment"]["conda"]
-    assert catalog["software-stack-deployment"]["conda"] == any((ROOT / "workflow").rglob("envs/*.yaml"))
-    assert catalog["report"] == ("report(" in "".join(p.read_text() for p in (ROOT / "workflow/rules").glob("*.smk")))
-    assert all(
-        (ROOT / name).exists() for name in re.findall(r"[\w/]+\.(?:lock|md)", catalog["mandatory-flags"]["desc"])
-    )
