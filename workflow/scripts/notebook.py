@@ -85,4 +85,6 @@ with running(snakemake) as out:
         done = execute(snakemake.input.notebook, executed, given | {"inputs": shown["inputs"]})
         injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
         injected.id = "injected-parameters"  # otherwise random, which would change the page in every build
+        others = snakemake.params.pages.keys() - {figure}  # cells with their names as tags are for their pages
+        done.cells = [cell for cell in done.cells if not others.intersection(cell.metadata.get("tags", ()))]
         Path(getattr(out, figure)).write_text(page(done, texts["title"]), encoding="utf-8")

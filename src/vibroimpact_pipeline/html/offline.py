@@ -37,8 +37,8 @@ class OfflineExporter(HTMLExporter):
     """Exporter of a notebook to one self-contained page."""
 
     def __init__(self):
-        # Papermill inserts the values of this run below the cell of default parameters, which is removed.
-        config = Config(TagRemovePreprocessor={"enabled": True, "remove_cell_tags": {"parameters"}})
+        # Papermill inserts the values of this run below the cell of default parameters. Instructions are for a kernel.
+        config = Config(TagRemovePreprocessor={"enabled": True, "remove_cell_tags": {"parameters", "instructions"}})
         super().__init__(config=config, exclude_input_prompt=True, exclude_output_prompt=True)
         self.raw_template = PAGE.read_text(encoding="utf-8")
 
