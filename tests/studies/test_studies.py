@@ -13,7 +13,7 @@ from vibroimpact.studies.regimes.branches import Path, branches
 from vibroimpact.studies.regimes.classification import starts
 from vibroimpact.studies.regimes.families import FOLD, SYMMETRY_BREAKING, SymmetricOrbits
 from vibroimpact.studies.regimes.lyapunov import Spectrum
-from vibroimpact.studies.sweeps.observations import COLUMNS
+from vibroimpact.studies.sweeps.observations import OBSERVATIONS
 from vibroimpact.system import progress
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 
@@ -130,7 +130,7 @@ def test_sections_are_the_states_of_single_runs_at_whole_cycles():
 
 def test_a_row_of_a_sweep_has_python_s_own_numbers():
     given = dict(starts=2, cycles=30, settle=20, band={"sigma_e_hat": [0.2]})
-    [row] = vi.sweep(SYSTEM, {"f20_hat": np.array([1.0])}, list(COLUMNS), **given)
+    [row] = vi.sweep(SYSTEM, {"f20_hat": np.array([1.0])}, list(OBSERVATIONS), **given)
     assert row["failed"] == ""
     assert {type(value) for value in row.values()} == {int, float, str}
 

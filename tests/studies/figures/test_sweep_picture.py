@@ -6,7 +6,7 @@ import pytest
 
 from vibroimpact.studies.figures import sweep
 from vibroimpact.studies.regimes.classification import REGIMES
-from vibroimpact.studies.sweeps.observations import COLUMNS
+from vibroimpact.studies.sweeps.observations import OBSERVATIONS
 
 LINE = [{"along": ["kappa"], "range": [0.5, 0.8], "values": 4}]
 PLANE = [{"along": ["epsilon"], "range": [0.001, 1.0], "values": 4, "scale": "logarithmic"}, {"along": ["f10_hat"]}]
@@ -17,7 +17,7 @@ def table(axes, observe):
     values = [[0.001, 0.01, 0.1, 1.0], [0.5, 0.8, 1.0]][: len(axes)]
     moved = [values.ravel() for values in np.meshgrid(*values, indexing="ij")]
     made = pd.DataFrame({axis["along"][0]: column for axis, column in zip(axes, moved, strict=True)})
-    for k, column in enumerate(column for name in observe for column in COLUMNS[name]):
+    for k, column in enumerate(column for name in observe for column in OBSERVATIONS[name][0]):
         made[column] = (k + np.arange(len(made))) / 40
     return made.assign(unsettled=0.0) if "regimes" in observe else made
 

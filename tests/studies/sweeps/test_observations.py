@@ -11,17 +11,17 @@ from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.studies.regimes.settling import Observation, settle
 from vibroimpact.studies.sweeps import observations
 from vibroimpact.studies.sweeps.grid import Grid, axis
-from vibroimpact.studies.sweeps.observations import COLUMNS, OBSERVATIONS, observed
+from vibroimpact.studies.sweeps.observations import OBSERVATIONS, observed
 from vibroimpact.studies.sweeps.rows import columns, rows
-from vibroimpact.studies.sweeps.spec import AMPLITUDES, PEAKS, Spec
+from vibroimpact.studies.sweeps.spec import Spec
 
 BASE = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 GRID = Grid(BASE, [axis(["f20_hat"], listed=[0.89, 1.0])])
 OBSERVED = {"cycles": 100, "rounds": 2, "window": 12, "nearness": 0.02, "blocks": 2, "block": 10, "retest": 50}
 BAND = {"along": ["sigma_e_hat"], "range": [-0.5, 1.0], "values": 4}
 SPEC_KEYS = Spec(tuple(OBSERVATIONS), starts=3, seed=1, cycles=30, settle=20, band=BAND, observation=OBSERVED)
-
-ASKED_FROM_REST = Spec((PEAKS,), starts=1, seed=1, cycles=100, settle=50, band=BAND)
+AMPLITUDES = Spec(("amplitudes",), starts=3, seed=1, cycles=30, settle=20)
+ASKED_FROM_REST = Spec(("peaks",), starts=1, seed=1, cycles=100, settle=50, band=BAND)
 
 
 @pytest.fixture(scope="module")
@@ -50,8 +50,7 @@ def test_amplitudes_are_those_of_runs_that_were_sampled(found):
 
 def test_a_peak_is_what_one_cycle_in_a_hundred_exceeds_along_its_band(found):
     """Samples of `simulate` from settled states, close together, cycle by cycle; 30 cycles forget their start."""
-    spec = Spec((AMPLITUDES,), starts=3, seed=1, cycles=30, settle=20)
-    along = {value: observed(BASE.with_(sigma_e_hat=value), spec) for value in (-0.5, 0.0, 0.5, 1.0)}
+    along = {value: observed(BASE.with_(sigma_e_hat=value), AMPLITUDES) for value in (-0.5, 0.0, 0.5, 1.0)}
     heights = {}
     for value in along:
         system = BASE.with_(sigma_e_hat=value)
@@ -145,7 +144,7 @@ def test_a_point_that_cannot_be_observed_says_why_and_costs_no_other(monkeypatch
             raise ArithmeticError("no\nroots")
         return 2, 1
 
-    monkeypatch.setitem(observations.OBSERVATIONS, "fixed_points", fail)
+    monkeypatch.setitem(OBSERVATIONS, "fixed_points", (OBSERVATIONS["fixed_points"][0], fail))
     first, second = rows(GRID, Spec(("fixed_points",)), [0, 1])
     assert (first["fixed_points"], first["failed"]) == (2, "")
     assert second == {"point": 1, "f20_hat": 1.0, "failed": "no roots"}
@@ -156,15 +155,15 @@ def test_runs_that_do_not_finish_are_counted_and_left_out(monkeypatch):
     broken = outcomes.copy()
     broken["status"][1], broken["largest"][1] = 1, np.nan
     monkeypatch.setattr(observations, "ensemble", lambda *given, **more: broken)
-    row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, SPEC_KEYS), strict=True))
+    row = observed(BASE, AMPLITUDES)
     assert row["unfinished"] == 1
     assert row["largest_X1"] == outcomes["largest"][[0, 2], 0].max()
     broken["status"] = 1
-    row = dict(zip(COLUMNS[AMPLITUDES], OBSERVATIONS[AMPLITUDES](BASE, None, SPEC_KEYS), strict=True))
+    row = observed(BASE, AMPLITUDES)
     assert row["unfinished"] == 3
     assert np.isnan(row["rms_X2"])
     states = np.vstack([spread_starts(3, 1), np.full(8, np.nan)])
-    *kept, peaks, lost = (OBSERVATIONS[PEAKS](BASE, some, SPEC_KEYS) for some in (states[:3], states, states[3:]))
+    *kept, peaks, lost = (OBSERVATIONS["peaks"][1](BASE, some, SPEC_KEYS) for some in (states[:3], states, states[3:]))
     assert kept[0][-1] == 0
     assert peaks == (*kept[0][:-1], 4)
     assert np.isnan(lost[:-1]).all()

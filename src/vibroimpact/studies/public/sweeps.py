@@ -7,9 +7,9 @@ from vibroimpact.exact.engine.simulation import MOST_CYCLES
 from vibroimpact.studies.public.continuation import with_parameters
 from vibroimpact.studies.regimes.settling import Observation
 from vibroimpact.studies.sweeps.grid import Axis, Grid
-from vibroimpact.studies.sweeps.observations import COLUMNS
+from vibroimpact.studies.sweeps.observations import OBSERVATIONS
 from vibroimpact.studies.sweeps.rows import rows
-from vibroimpact.studies.sweeps.spec import PEAKS, Spec
+from vibroimpact.studies.sweeps.spec import Spec
 from vibroimpact.system import System
 from vibroimpact.system.arguments import MOST_SEED, instance, reals, whole
 from vibroimpact.system.progress import track
@@ -86,10 +86,10 @@ def sweep(
         raise ValueError(f"axes: {len(grid.axes)} parameters; needs one or two")
     observe = tuple(observe) if not isinstance(observe, str) else (observe,)
     for name in observe:
-        if name not in COLUMNS:
-            raise ValueError(f"observe: {name!r} is none of {', '.join(COLUMNS)}")
+        if name not in OBSERVATIONS:
+            raise ValueError(f"observe: {name!r} is none of {', '.join(OBSERVATIONS)}")
     if not observe:
-        raise ValueError(f"observe: nothing; choose from {', '.join(COLUMNS)}")
+        raise ValueError(f"observe: nothing; choose from {', '.join(OBSERVATIONS)}")
     cycles = whole("cycles", cycles, 1, MOST_CYCLES)
     spec = Spec(
         observe=observe,
@@ -97,7 +97,7 @@ def sweep(
         seed=whole("seed", seed, 0, MOST_SEED),
         cycles=cycles,
         settle=whole("settle", settle, 0, cycles - 1),
-        band=_band(band, known, axes) if PEAKS in observe or band is not None else None,
+        band=_band(band, known, axes) if "peaks" in observe or band is not None else None,
         observation=asdict(instance("observation", observation or Observation(), Observation)),
     )
     for number in range(len(grid)):  # raise before any computation if a point has no valid system

@@ -3,6 +3,8 @@
 import math
 from collections.abc import Mapping
 
+RUNS = ("amplitudes", "envelopes", "energy")
+"""Observations that simulate every start over `cycles`; "peaks" does so along its band, "regimes" as it settles."""
 CYCLE = 5e-6
 """Core seconds of a forcing cycle of one start, observed (`make benchmark`; a settled cycle has four impacts)."""
 POINT = 0.01
@@ -28,7 +30,7 @@ def core_seconds(request: Mapping) -> float:
     """
     spec, observation = request["spec"], request["spec"].get("observation")
     starts, cycles = spec.get("starts", 0), spec.get("cycles", 0)
-    simulated = cycles * sum(name in ("amplitudes", "envelopes", "energy") for name in spec["observe"])
+    simulated = cycles * sum(name in RUNS for name in spec["observe"])
     if "peaks" in spec["observe"]:
         simulated += cycles * _values(spec["band"])
     if "regimes" in spec["observe"]:

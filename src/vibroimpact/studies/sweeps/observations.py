@@ -12,24 +12,10 @@ from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.studies.regimes.families import FixedPoints
 from vibroimpact.studies.regimes.settling import Observation, settle
 from vibroimpact.studies.sweeps.grid import Grid, axis
-from vibroimpact.studies.sweeps.spec import AMPLITUDES, ENERGY, ENVELOPES, FIXED_POINTS, ORBITS, PEAKS, REGIMES_OF, Spec
+from vibroimpact.studies.sweeps.spec import Spec
 from vibroimpact.system.state import idle_at_rest
 
 FROM_REST = "from_rest"
-AMPLITUDE_COLUMNS = (
-    *("largest_X1", "largest_X2", "rms_X1", "rms_X2", "ball_speed_1", "ball_speed_2"),
-    "unfinished",
-)
-COLUMNS = {
-    REGIMES_OF: (*REGIMES, FROM_REST),
-    AMPLITUDES: AMPLITUDE_COLUMNS,
-    ENVELOPES: ("low_X1", "low_X2", "high_X1", "high_X2"),
-    PEAKS: ("peak", "peak_rms", "peak_at", "peak_one_ball", "peak_unfinished"),
-    ENERGY: ("impact_share", "starts_without_impacts"),
-    FIXED_POINTS: ("fixed_points", "stable_points"),
-    ORBITS: ("orbits", "stable_orbits"),
-}
-"""Columns of each observation, in order."""
 LOW, HIGH = 0.05, 0.95
 """Quantiles of the amplitudes per cycle that form an envelope."""
 
@@ -41,8 +27,8 @@ def observed(system, spec: Spec) -> dict:
     """
     states = idle_at_rest(system, spread_starts(spec.starts, spec.seed)) if spec.runs else None
     row = {}
-    for name in spec.observe:
-        row |= zip(COLUMNS[name], OBSERVATIONS[name](system, states, spec), strict=True)
+    for columns, values in map(OBSERVATIONS.get, spec.observe):
+        row |= zip(columns, values(system, states, spec), strict=True)
     return {name: value.item() if isinstance(value, np.generic) else value for name, value in row.items()}
 
 
@@ -57,7 +43,7 @@ def _amplitudes(system, states, spec):
     runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
     if not len(done):
-        return *[np.nan] * (len(AMPLITUDE_COLUMNS) - 1), len(runs)
+        return *[np.nan] * 6, len(runs)
     rms = np.sqrt(done["mean_square"].mean(axis=0))
     return *done["largest"].max(axis=0), *rms, *done["ball_speed"].mean(axis=0), len(runs) - len(done)
 
@@ -119,11 +105,15 @@ def _orbits(system, states, spec):
 
 
 OBSERVATIONS = {
-    REGIMES_OF: _regimes,
-    AMPLITUDES: _amplitudes,
-    ENVELOPES: _envelopes,
-    PEAKS: _peaks,
-    ENERGY: _energy,
-    FIXED_POINTS: lambda system, states, spec: fixed_point_counts(system),
-    ORBITS: _orbits,
+    "regimes": ((*REGIMES, FROM_REST), _regimes),
+    "amplitudes": (
+        ("largest_X1", "largest_X2", "rms_X1", "rms_X2", "ball_speed_1", "ball_speed_2", "unfinished"),
+        _amplitudes,
+    ),
+    "envelopes": (("low_X1", "low_X2", "high_X1", "high_X2"), _envelopes),
+    "peaks": (("peak", "peak_rms", "peak_at", "peak_one_ball", "peak_unfinished"), _peaks),
+    "energy": (("impact_share", "starts_without_impacts"), _energy),
+    "fixed_points": (("fixed_points", "stable_points"), lambda system, states, spec: fixed_point_counts(system)),
+    "orbits": (("orbits", "stable_orbits"), _orbits),
 }
+"""Columns of each observation, in order, and the function of (system, states, spec) that returns their values."""

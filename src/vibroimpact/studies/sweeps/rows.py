@@ -3,14 +3,14 @@
 from collections.abc import Iterable, Iterator
 
 from vibroimpact.studies.sweeps.grid import Grid
-from vibroimpact.studies.sweeps.observations import COLUMNS, observed
+from vibroimpact.studies.sweeps.observations import OBSERVATIONS, observed
 from vibroimpact.studies.sweeps.spec import FAILED, POINT, Spec
 
 
 def columns(grid: Grid, spec: Spec) -> list[str]:
     """Return the names of the columns, in their order."""
     moved = [name for axis in grid.axes for name in axis.along]
-    return [POINT, *moved, *(column for name in spec.observe for column in COLUMNS[name]), FAILED]
+    return [POINT, *moved, *(column for name in spec.observe for column in OBSERVATIONS[name][0]), FAILED]
 
 
 def rows(grid: Grid, spec: Spec, numbers: Iterable[int]) -> Iterator[dict]:

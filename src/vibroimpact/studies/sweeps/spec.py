@@ -2,12 +2,9 @@
 
 from dataclasses import dataclass
 
+from vibroimpact.studies.sweeps.cost import RUNS
 from vibroimpact.studies.sweeps.grid import axis
 
-REGIMES_OF, AMPLITUDES, ENVELOPES, PEAKS, ENERGY = "regimes", "amplitudes", "envelopes", "peaks", "energy"
-FIXED_POINTS, ORBITS = "fixed_points", "orbits"
-SIMULATED = (REGIMES_OF, AMPLITUDES, ENVELOPES, ENERGY)
-"""Observations that simulate every start; PEAKS does so as well, along its band."""
 POINT, FAILED = "point", "failed"
 """Columns of every table: the number of the point, and the reason of a failure, or ""."""
 
@@ -32,5 +29,5 @@ class Spec:
     @property
     def runs(self) -> int:
         """Number of runs at a point, over all observations."""
-        along_band = len(axis(**self.band).values) if PEAKS in self.observe else 0
-        return self.starts * (along_band + sum(name in SIMULATED for name in self.observe))
+        along_band = len(axis(**self.band).values) if "peaks" in self.observe else 0
+        return self.starts * (along_band + sum(name in ("regimes", *RUNS) for name in self.observe))

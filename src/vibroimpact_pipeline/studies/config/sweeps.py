@@ -7,6 +7,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from vibroimpact.studies.sweeps.cost import RUNS
 from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.section import Section
 from vibroimpact_pipeline.specs import specs
@@ -15,7 +16,7 @@ from vibroimpact_pipeline.studies.config.regimes import Along
 MAX_POINTS = 4_000_000
 """Maximum number of points of a sweep; one job holds the whole table in memory."""
 SIMULATED = ("starts", "seed", "cycles", "settle")
-NEEDED = dict.fromkeys(("amplitudes", "envelopes", "energy"), SIMULATED) | {
+NEEDED = dict.fromkeys(RUNS, SIMULATED) | {
     "regimes": ("starts", "seed"),
     "peaks": (*SIMULATED, "band"),
 }
