@@ -57,16 +57,16 @@ def test_a_run_as_a_frame_of_its_events():
 
 @pytest.mark.parametrize("phase", [0.0, 1.0, 2.0 * SYSTEM.Omega, -7.0])
 def test_a_section_is_taken_at_one_phase_of_the_forcing(phase):
-    turns = np.arange(-5, 70)
-    times = (phase + 2 * np.pi * turns) / SYSTEM.Omega
-    inside = (times > RUN.tau0 - 1e-9) & (times < RUN.tau0 + RUN.cycles * SYSTEM.period + 1e-9)
-    times = np.clip(times[inside], RUN.tau0, RUN.tau0 + RUN.cycles * SYSTEM.period)
+    """At the start and the end, too, where they have this phase: 2 Omega."""
+    times = (phase + 2 * np.pi * np.arange(-5, 70)) / SYSTEM.Omega
+    end = RUN.tau0 + RUN.cycles * SYSTEM.period
+    times = np.clip(times[(times > RUN.tau0 - 1e-9) & (times < end + 1e-9)], RUN.tau0, end)
     expected = vi.simulate(SYSTEM, RUN.start, RUN.cycles, RUN.begin, times).samples
     np.testing.assert_allclose(RUN.section(phase), expected, rtol=0, atol=1e-11)
-    assert len(times) == RUN.cycles + (phase == 2.0 * SYSTEM.Omega)  # from the start to the end
+    assert len(times) == RUN.cycles + (phase == 2.0 * SYSTEM.Omega)
 
 
-@pytest.mark.parametrize("sigma", [0.3, -0.17, 0.0, 1.1, -2.3, 4.0])
+@pytest.mark.parametrize("sigma", [0.3, -0.17, -2.3])
 @pytest.mark.parametrize("before", [9_999_999, 123_457, 1])
 def test_a_section_far_from_the_origin_of_time_is_that_of_the_same_run_from_there(sigma, before):
     """The forcing repeats, so that whole periods earlier or later the section is the same."""
@@ -88,22 +88,6 @@ def test_a_section_of_a_continued_run_has_its_first_row(before):
     """The start inherits the rounding of a float tau0, meant as whole periods."""
     run = vi.simulate(SYSTEM, [0.0] * 8, 3, tau0=before * SYSTEM.period)
     assert len(run.section()) == len(vi.simulate(SYSTEM, run.final, 3, tau0=run.end).section()) == 4
-
-
-@pytest.mark.parametrize("cycles", [0, 1, 1000])
-def test_a_section_of_whole_cycles_begins_at_the_start_and_ends_at_the_end(cycles):
-    run = vi.simulate(SYSTEM, RUN.start, cycles, tau0=RUN.end)
-    section = run.section()
-    assert len(section) == cycles
-    section = run.section(2.0 * SYSTEM.Omega)
-    assert len(section) == cycles + 1
-    np.testing.assert_array_equal(section[[0, -1]], [run.start, run.final])
-
-
-def test_the_section_of_an_orbit_is_one_point():
-    orbit = min((o for o in vi.orbits(SYSTEM) if o.admissible), key=lambda o: abs(o.multipliers[0]))
-    samples = vi.simulate(SYSTEM, orbit.state, 3).section()
-    np.testing.assert_allclose(samples, [orbit.state] * 4, atol=1e-9)
 
 
 def test_a_picture_of_a_run_shows_boxes_and_balls_between_the_walls():
@@ -128,21 +112,13 @@ def test_an_ensemble_as_a_frame():
             vi.to_frame(other)
 
 
-@pytest.mark.parametrize(
-    "call",
-    [
-        vi.fixed_points,
-        vi.orbits,
-    ],
-)
+@pytest.mark.parametrize("call", [vi.fixed_points, vi.orbits])
 def test_a_table_of_nothing_has_the_columns_of_what_could_be_in_it(call):
     """So much damping leaves no motion with two impacts per cycle."""
     found, nothing = call(SYSTEM), call(SYSTEM.with_(gamma1_hat=100.0, gamma2_hat=100.0))
     assert len(found) > 0 == len(nothing)
     for empty in (nothing, pickle.loads(pickle.dumps(nothing))):
-        frame = vi.to_frame(empty)
-        assert frame.columns.tolist() == vi.to_frame(found).columns.tolist()
-        assert frame.empty
+        assert vi.to_frame(empty).columns.tolist() == vi.to_frame(found).columns.tolist()
 
 
 PLANT = vi.PhysicalSystem.from_dimensionless(SYSTEM, M=120.0, k1=2e5, L=0.005)
@@ -152,11 +128,6 @@ PLANT = vi.PhysicalSystem.from_dimensionless(SYSTEM, M=120.0, k1=2e5, L=0.005)
 def test_a_system_in_newtons_is_told_how_to_lose_its_units(call):
     with pytest.raises(ValueError, match=r"^system: a PhysicalSystem is not a System; call \.dimensionless\(\)$"):
         call(PLANT)
-
-
-def test_a_state_of_another_shape_is_told_its_shape():
-    with pytest.raises(ValueError, match=r"^state: needs shape \(8,\), got \(1, 8\)$"):
-        vi.simulate(SYSTEM, np.zeros((1, 8)), 1)
 
 
 @pytest.mark.parametrize(
@@ -169,9 +140,8 @@ def test_without_pandas_or_matplotlib_the_extra_is_named(monkeypatch, call, pack
 
 
 def test_parameters_that_move_together_share_a_dimension():
-    rows = [{"point": n, "f10_hat": f, "f20_hat": f / 2, "kappa": k, "peak": 10 * f + k} for n, (f, k) in enumerate(
-        (f, k) for f in (1.0, 2.0) for k in (0.3, 0.5)
-    )]  # fmt: skip
+    places = [(f, k) for f in (1.0, 2.0) for k in (0.3, 0.5)]
+    rows = [{"f10_hat": f, "f20_hat": f / 2, "kappa": k, "peak": 10 * f + k} for f, k in places]
     data = vi.to_dataset(rows, [("f10_hat", "f20_hat"), "kappa"])
     assert data["f20_hat"].dims == ("f10_hat",)
     assert data["f20_hat"].values.tolist() == [0.5, 1.0]

@@ -119,17 +119,16 @@ def test_every_module_of_the_wheel_imports_with_the_three_or_says_what_it_lacks(
 def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
-        metadata = Parser().parsestr(archive.read(next(n for n in names if n.endswith("METADATA"))).decode())
-        commands = archive.read(next(n for n in names if n.endswith("entry_points.txt"))).decode()
-    assert "vibroimpact = vibroimpact.__main__:main" in commands
+        texts = [
+            archive.read(next(n for n in names if n.endswith(e))).decode() for e in ("METADATA", "entry_points.txt")
+        ]
+    assert "vibroimpact = vibroimpact.__main__:main" in texts[1]
+    metadata = Parser().parsestr(texts[0])
     required = {line.split(">")[0] for line in metadata.get_all("Requires-Dist") if "extra ==" not in line}
     assert required == {"numpy", "scipy", "numba"}
     assert metadata["License-Expression"] == "MIT"
-    assert {
-        "vibroimpact/figures/plotting/vibroimpact.mplstyle",
-        "vibroimpact/py.typed",
-        "vibroimpact/__init__.pyi",
-    } <= {*names}
+    shipped = ("figures/plotting/vibroimpact.mplstyle", "py.typed", "__init__.pyi")
+    assert {f"vibroimpact/{name}" for name in shipped} <= {*names}
     assert not [name for name in names if "__pycache__" in name or ".ipynb_checkpoints" in name]
 
 
@@ -145,6 +144,7 @@ def shared_code(alone, tmp_path_factory):
     return {"NUMBA_CACHE_DIR": str(cache)}
 
 
+@pytest.mark.thorough
 def test_python_of_the_readme_runs_with_the_three(alone, shared_code):
     [code] = [text for language, text in BLOCKS if language == "python"]
     printed = alone("-c", code, **shared_code).stdout
@@ -154,19 +154,16 @@ def test_python_of_the_readme_runs_with_the_three(alone, shared_code):
     assert len(re.findall(r"^[\d.]+ [12] -?1 impact$", printed, re.MULTILINE)) == 5
 
 
+@pytest.mark.thorough
 def test_commands_of_the_readme_run_with_the_three(alone, shared_code, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     lines = [line for language, text in BLOCKS if not language for line in text.splitlines()]
     assert {line.split()[1] for line in lines} == {"-m", "fixed-points", "orbits", "simulate"}
-    printed = {line: alone(*_as_python(line), **shared_code).stdout for line in lines}
-    for line, text in printed.items():
+    for line in lines:
+        program, *arguments = shlex.split(line)
+        text = alone(*(arguments if program == "python" else ["-m", program, *arguments]), **shared_code).stdout
         text = Path("orbits.csv").read_text() if "--output" in line else text
         assert "compile" in line or len(text.splitlines()) > 3, line
-
-
-def _as_python(line):
-    program, *arguments = shlex.split(line)
-    return arguments if program == "python" else ["-m", program, *arguments]
 
 
 def test_the_stub_names_what_the_package_exports():
@@ -205,6 +202,7 @@ def _bound_by_permissions():
     ctypes.CDLL(None).prctl(24, 1, 0, 0, 0)  # PR_CAPBSET_DROP
 
 
+@pytest.mark.thorough
 def test_a_read_only_installation_without_a_home_works(nowhere_to_write, tmp_path):
     first, second = nowhere_to_write(ADVANCE), nowhere_to_write(ADVANCE)
     [folder] = tmp_path.glob("vibroimpact-*")
@@ -227,6 +225,7 @@ def compiled_before(alone):
         shutil.rmtree(code)
 
 
+@pytest.mark.thorough
 def test_code_of_an_installation_that_is_read_only_by_now_is_used(alone, compiled_before, nowhere_to_write, tmp_path):
     """As in a container: it is copied to where it can be written to, since Numba uses no other folder."""
     for _ in range(2):
@@ -240,14 +239,3 @@ def test_code_of_an_installation_that_is_read_only_by_now_is_used(alone, compile
 
 def files(folder):
     return ((path.relative_to(folder), path.read_bytes()) for path in folder.rglob("*.nb?"))
-
-
-def test_code_of_other_sources_is_not_used(alone):
-    """Numba looks at the file of a function only, so that after an upgrade it would call what is no longer there."""
-    before = alone("-c", WHERE).stdout
-    callee = alone.site / "vibroimpact/exact/engine/contact.py"
-    text = callee.read_text()
-    callee.write_text(text + "\n# another version\n")
-    after = alone("-c", WHERE).stdout
-    callee.write_text(text)
-    assert alone("-c", WHERE).stdout == before != after

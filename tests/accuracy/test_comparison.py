@@ -25,10 +25,8 @@ def test_the_cost_is_that_of_the_fastest_good_run_on_the_worst_problem():
         run("p", "d", 1e-7, 1.0, outcome="unfinished"),
     ]
     verdicts = {"a": ["right", "right"], "b": ["silently wrong", "did not finish"], "c": ["refused with an error"]}
-    stress_tests = pd.DataFrame([(method, one) for method, all_ in verdicts.items() for one in all_]).set_axis(
-        ["method", "verdict"], axis=1
-    )
-    found = methods_table(pd.DataFrame(runs), stress_tests).set_index("method")
+    rows = [{"method": method, "verdict": one} for method, all_ in verdicts.items() for one in all_]
+    found = methods_table(pd.DataFrame(runs), pd.DataFrame(rows)).set_index("method")
     assert found.index.tolist() == ["a", "b", "c", "d"]
     assert found["problems"].tolist() == [2, 2, 1, 0]
     np.testing.assert_array_equal(found["times"], [1.0, 4.0, np.nan, np.nan])

@@ -20,12 +20,8 @@ def by(model, system):
 
 
 def test_the_config_offers_the_models_that_there_are():
-    sections = {
-        "fixed_points": figures.FixedPoints,
-        "theoretical_response": figures.Response,
-        "simulation": figures.SimulatedMotion,
-    }
-    for notebook, section in sections.items():
+    sections = figures.FixedPoints, figures.Response, figures.SimulatedMotion
+    for notebook, section in zip(("fixed_points", "theoretical_response", "simulation"), sections, strict=True):
         model = section.model_fields["model"]
         assert get_args(model.annotation) == CHOICES[notebook]
         assert all(name in model.description for name in get_args(model.annotation))
@@ -102,19 +98,7 @@ def test_other_models_are_refused_in_one_line():
 def test_the_arithmetic_is_that_of_the_model_whatever_digits_the_case_has():
     system = SYSTEMS["equal"]
     settings = {"initial_state": [0.0] * 8, "transient_cycles": 0, "window_cycles": 2, "samples_per_cycle": 8}
-    trusts = {
-        (model, digits): window(system, settings | digits_of(digits) | {"model": model}).trust
-        for model in CHOICES["simulation"]
-        for digits in (None, 50)
-    }
-    assert {key: trust["method"] for key, trust in trusts.items()} == {
-        ("float64", None): "float64",
-        ("float64", 50): "float64",
-        ("reference", None): "arbitrary precision",
-        ("reference", 50): "arbitrary precision",
-    }
-    assert [trusts["reference", digits]["digits"] for digits in (None, 50)] == [[40, 80], [50, 100]]
-
-
-def digits_of(digits):
-    return {} if digits is None else {"digits": digits}
+    for digits, given in ((None, {}), (50, {"digits": 50})):
+        trusts = [window(system, settings | given | {"model": model}).trust for model in CHOICES["simulation"]]
+        assert [trust["method"] for trust in trusts] == ["float64", "arbitrary precision"]
+        assert trusts[1]["digits"] == [digits or 40, 2 * (digits or 40)]

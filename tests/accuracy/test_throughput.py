@@ -4,14 +4,7 @@ import numpy as np
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.accuracy.throughput import ranges, scenes
-
-
-def test_ranges_are_those_over_all_scenes():
-    rows = [{"final / long run": now, "observed / long run": 2 * now} for now in (0.3, 0.52, 0.4)]
-    final, observed = ranges(rows)
-    assert final.startswith("final: 0.30 to 0.52 of")
-    assert observed.startswith("observed: 0.60 to 1.04 of")
+from vibroimpact.accuracy.throughput import scenes
 
 
 def test_scenes_are_as_they_are_called():

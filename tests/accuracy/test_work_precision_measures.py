@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
 
 from chapter import PARAMETERS
 from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import run_errors
-from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.work_precision import Problem, fitted_order, measure
 from vibroimpact.integrators.protocol import IMPACT, REFUSED, Method, MethodRun, failed
 from vibroimpact.system import System
@@ -42,10 +40,14 @@ def impacts(*times, speed=1.0):
         ((1.0, 2.5), 0.0, 2, 1),
     ],
 )
-def test_impacts_are_paired_in_order(found, times, missed, spurious):
+def test_impacts_are_paired_in_order_and_by_their_walls(found, times, missed, spurious):
     errors = run_errors(MethodRun(np.zeros(8), impacts(*found), 1), Reference((1.0, 2.0, 3.0), 1.0), period=1.0)
     assert (errors.missed, errors.spurious) == (missed, spurious)
     assert errors.times == pytest.approx(times)
+    others = impacts(*found)
+    others["wall"] = -1
+    errors = run_errors(MethodRun(np.zeros(8), others, 1), Reference((1.0, 2.0, 3.0), 1.0), period=1.0)
+    assert (errors.missed, errors.spurious) == (3, len(found))
 
 
 def test_the_tail_of_a_chatter_need_not_be_followed_to_the_end():
@@ -55,13 +57,6 @@ def test_the_tail_of_a_chatter_need_not_be_followed_to_the_end():
         assert (errors.missed, errors.spurious) == (0, 0)
     strict = run_errors(MethodRun(np.zeros(8), impacts(1.0), 1), reference, period=1.0, faint=0.0)
     assert strict.missed == 2
-
-
-def test_other_module_or_wall_is_another_impact():
-    found = impacts(1.0)
-    found["wall"] = -1
-    errors = run_errors(MethodRun(np.zeros(8), found, 1), Reference((1.0,), 1.0), period=1.0)
-    assert (errors.missed, errors.spurious) == (1, 1)
 
 
 def test_order_is_fitted_where_it_is_resolved_only():

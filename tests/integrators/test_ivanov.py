@@ -24,15 +24,6 @@ def test_in_passing_a_wall_the_velocities_jump_as_the_impact_law_says_and_the_co
         np.testing.assert_allclose(after[[box, ball]], expected, atol=1e-15)
 
 
-def test_an_impact_loses_the_energy_of_the_relative_motion_that_it_should():
-    def energy(state):
-        return 0.5 * (state[4] ** 2 + EPSILON * state[5] ** 2)
-
-    after = folded(unfolded(STATE, EPSILON, K), np.array([1, 0]), EPSILON, K)
-    relative = 0.5 * EPSILON / (1.0 + EPSILON) * (STATE[4] - STATE[5]) ** 2
-    assert energy(STATE) - energy(after) == pytest.approx((1.0 - KAPPA**2) * relative, rel=1e-14)
-
-
 def test_jumps_that_are_not_located_make_it_of_first_order(method, motion):
     """The error of a step depends on where in it the jump falls: it is averaged over neighbouring numbers of steps."""
     system, state, cycles, reference = motion("periodic")

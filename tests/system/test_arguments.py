@@ -15,7 +15,6 @@ CHAPTER = dict(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 SYSTEM = vi.System(**CHAPTER)
 PHYSICAL = vars(vi.PhysicalSystem.from_dimensionless(SYSTEM, M=1.0, k1=1.0, L=1.0))
 REST = [0.0] * 8
-UNDAMPED = dict(alpha12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
 NO_NUMBERS = [
     "0.65", None, True, np.True_, 0.65 + 0j, float("nan"), float("-inf"), 10**400, 10**5000, np.ma.masked,
     np.array([0.65]), Decimal("0.65"),
@@ -93,12 +92,6 @@ def test_parameters_are_real_numbers_within_bounds(name):
 def test_physical_parameters_are_real_numbers_within_bounds(name):
     for value in [*NO_NUMBERS, *PHYSICAL_BOUNDS.get(name, [])]:
         refused(name, lambda value=value: vi.PhysicalSystem(**{**PHYSICAL, name: value}).dimensionless())
-
-
-def test_undamped_resonance_is_refused_unless_no_force_loads_it():
-    refused("sigma_e_hat", lambda: SYSTEM.with_(**UNDAMPED, sigma_e_hat=0.0))
-    SYSTEM.with_(**UNDAMPED, sigma_e_hat=0.0, f10_hat=0.0)
-    SYSTEM.with_(**{**UNDAMPED, "gamma1_hat": 0.1}, sigma_e_hat=0.0)
 
 
 @pytest.mark.parametrize("kind", [float, int, Fraction, np.float32, np.float64, np.longdouble, np.int64])

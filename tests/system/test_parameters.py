@@ -75,15 +75,6 @@ def test_forces_that_load_an_undamped_resonance_are_refused(changes, load):
     vi.System(**CHAPTER | changes | dict(f10_hat=one, f20_hat=other, sigma_e_hat=changes["sigma_e_hat"] + 1e-6))
 
 
-@pytest.mark.parametrize(("M", "k"), [(1.0, 1.0), (120.0, 2e5), (0.3, 7.1)])
-def test_one_machine_without_damping_is_refused_at_its_resonance(M, k):
-    machine = dict(M=M, m=0.05 * M, k=k, F=0.05)
-    with pytest.raises(ValueError, match="drives the undamped boxes at their resonance"):
-        vi.PhysicalSystem.single(**machine, c=0.0).dimensionless()
-    vi.PhysicalSystem.single(**machine, c=1e-6 * math.sqrt(k * M)).dimensionless()
-    vi.PhysicalSystem.single(**machine, c=0.0, omega=1.001 * math.sqrt(k / M)).dimensionless()
-
-
 @pytest.mark.parametrize("drive", [{"base": 0.3}, {"unbalance": 0.2}])
 @pytest.mark.parametrize("omega", [0.6, 1.4, 3.0])
 def test_a_moving_base_and_an_unbalance_move_the_box_as_in_closed_form(drive, omega):

@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
@@ -117,42 +117,6 @@ def test_no_slip_in_one_or_two_terms_gives_the_printed_limit(reading):
 
 
 # A ball between walls that oscillate as prescribed
-
-
-def mirrored_impact(phase, speed, B, kappa):
-    """Phase of U and slope of W - U after the next impact, mirrored so that a symmetric motion is a fixed point.
-
-    The ball leaves W = 1 at the phase and flies straight in W - U until W = -1; then Newton's rule.
-    """
-
-    def miss(later):
-        return 2 - B * (mpmath.sin(later) + mpmath.sin(phase)) + speed * (mpmath.pi + later - phase)
-
-    later = mpmath.findroot(miss, phase)
-    before = -B * mpmath.cos(later) + speed
-    return later, -(-kappa * before + B * mpmath.cos(later))
-
-
-@settings(max_examples=20)
-@given(st.floats(0.05, 0.95), st.floats(0.1, 4))
-def test_multipliers_are_those_of_the_impact_map(kappa, C):
-    with mpmath.workdps(40):
-        k, c = mpmath.mpf(kappa), mpmath.mpf(C)
-        r = 2 * (1 - k) / (mpmath.pi * (1 + k))
-        B = mpmath.sqrt((1 - c) ** 2 + (r * c) ** 2)
-        phase, speed = mpmath.atan2(1 - c, r * c), -2 * c / mpmath.pi
-        at = mirrored_impact(phase, speed, B, k)
-        assert max(abs(at[0] - phase), abs(at[1] - speed)) < mpmath.mpf(10) ** -30
-        h = mpmath.mpf(10) ** -15
-        columns = []
-        for change in ((h, 0), (0, h)):
-            ahead = mirrored_impact(phase + change[0], speed + change[1], B, k)
-            behind = mirrored_impact(phase - change[0], speed - change[1], B, k)
-            columns.append([(a - b) / (2 * h) for a, b in zip(ahead, behind, strict=True)])
-        step = np.array(columns, dtype=float).T
-    found = masri.impact_multipliers(C, kappa)
-    assert found.prod().real == pytest.approx(np.linalg.det(step), rel=1e-9)
-    assert found.sum().real == pytest.approx(np.trace(step), rel=1e-9, abs=1e-9)
 
 
 class Ball:

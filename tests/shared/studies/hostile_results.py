@@ -38,13 +38,7 @@ def config() -> dict:
 def results(folder: Path) -> Path:
     """Results in which every text is hostile."""
     numbers = {"C1": 1.0, "C2": 1.1, "B1": 0.1, "B2": 0.2, "psi1": 0.3, "psi2": 0.4}
-    point = {
-        "label": HOSTILE,
-        "track": 1,
-        "C": [1.0, 1.1],
-        "B": [0.1, 0.2],
-        "verdicts": {"slow": HOSTILE, "other": HOSTILE},
-    }
+    point = {"label": HOSTILE, "track": 1, "C": [1.0, 1.1], "B": [0.1, 0.2], "verdicts": {"slow": HOSTILE}}
     orbit = {"track": 1, "C": [1.0, 1.1], "exact": HOSTILE, "multipliers": [[2.0, 0.0], [0.5, 0.1]]}
     sweep = {"values": [0.4, 0.5], "points": [[point], [point]], "manifold": {HOSTILE: [[0.0, 1.0], [1.0, 0.1]]}}
     sweep |= {"orbits": [[orbit], [orbit]]}
@@ -62,44 +56,23 @@ def results(folder: Path) -> Path:
     texts = {f"{place}/{figure}.provenance.json": json.dumps(record) for figure, place in places.items()}
     texts |= {f"{place}/{figure}.svg": PICTURE for figure, place in places.items()}
     texts |= {f"notebooks/{figure}.html": "<!DOCTYPE html><head></head>" for figure in ("fig10_06", "mine")}
-    texts |= {
-        "animations/waves.json": json.dumps(moving),
-        "nudge/nudge.json": json.dumps(
-            moving | {"flights": [], "distance": [1.0], "multiplier": [2.0], "label": [HOSTILE]}
-        ),
-        "force_sweep/force_sweep.json": json.dumps(sweep),
-        "claims.json": json.dumps(
-            [claim | {"numbers": None}, claim | {"place": "Fig. 10.6", "numbers": {HOSTILE: [HOSTILE, 1.0]}}]
-        ),
-    }
+    pushed = moving | {"flights": [], "distance": [1.0], "multiplier": [2.0], "label": [HOSTILE]}
+    numbered = [claim | {"numbers": None}, claim | {"place": "Fig. 10.6", "numbers": {HOSTILE: [HOSTILE, 1.0]}}]
+    data = {"animations/waves": moving, "nudge/nudge": pushed, "force_sweep/force_sweep": sweep, "claims": numbered}
+    texts |= {f"{name}.json": json.dumps(content) for name, content in data.items()}
+    hostile = dict.fromkeys(("case", "label", "exact", "printed_10_26", "fast", "slow", "theory"), HOSTILE)
+    points = [{"case": case, "label": label} for case in (HOSTILE, "equal") for label in (HOSTILE, "a", "b", "c")]
+    grid = {"epsilon": 0.1, "f20_hat": 0.5, "admissible": True}
     tables = {
-        "fixed_points.csv": [
-            {"case": case, "label": label, "orbit": HOSTILE, "exact": HOSTILE} | numbers
-            for case in (HOSTILE, "equal")
-            for label in (HOSTILE, "a", "b", "c")
-        ],
-        "verdict_grid.csv": [
-            {"epsilon": 0.1, "f10_hat": f10, "f20_hat": 0.5, "exact": HOSTILE, "admissible": True}
-            | {"printed_10_26": HOSTILE, "fast": HOSTILE, "slow": HOSTILE, "theory": HOSTILE}
-            for f10 in (0.5, 1.5)
-        ],
-        "orbits.csv": [{"case": HOSTILE, "label": HOSTILE, "modulus_1": 2.0}],
-        "verdicts_by_epsilon.csv": [
-            {"epsilon": 0.1, "case": HOSTILE, "label": HOSTILE, "exact": HOSTILE, "multiplier": 2.0}
-            | {"printed_10_26": HOSTILE, "fast": HOSTILE, "theory": HOSTILE}
-        ],
+        "fixed_points.csv": [hostile | numbers | {"orbit": HOSTILE} | point for point in points],
+        "verdict_grid.csv": [hostile | grid | {"f10_hat": f10} for f10 in (0.5, 1.5)],
+        "orbits.csv": [hostile | {"modulus_1": 2.0}],
+        "verdicts_by_epsilon.csv": [hostile | {"epsilon": 0.1, "multiplier": 2.0}],
         "accuracy/work_precision.csv": [
-            run | {"outcome": "finished", "reason": ""},
-            run | {"outcome": HOSTILE, "reason": HOSTILE},
+            run | {"outcome": outcome, "reason": HOSTILE} for outcome in ("finished", HOSTILE)
         ],
-        "accuracy/stress_tests.csv": [
-            {"group": HOSTILE, "test": HOSTILE, "method": HOSTILE, "verdict": "right"}
-            | {"error_state": 1e-9, "missed": 0, "spurious": 0}
-        ],
-        "force_sweep/force_sweep.csv": [
-            {"value": 0.4, "theory": HOSTILE},
-            {"value": 0.5, "theory": "stable"},
-        ],
+        "accuracy/stress_tests.csv": [run | {"group": HOSTILE, "test": HOSTILE, "verdict": "right"}],
+        "force_sweep/force_sweep.csv": [{"value": 0.4, "theory": HOSTILE}, {"value": 0.5, "theory": "stable"}],
         "regimes/special_points.csv": [
             {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}
         ],

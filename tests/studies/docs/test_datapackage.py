@@ -40,7 +40,8 @@ def test_names_are_those_that_the_standard_allows_and_a_schema_is_that_of_its_ta
     [orbits] = [resource["schema"] for resource in described["resources"] if resource["path"] == "orbits.csv"]
     fields, table = {field["name"]: field for field in orbits["fields"]}, pd.read_csv(folder / "orbits.csv")
     assert [*fields] == [*table]
-    types = {name: {"b": "boolean", "f": "number"}.get(kind.kind, "string") for name, kind in table.dtypes.items()}
+    kinds = {"b": "boolean", "f": "number"}
+    types = {name: kinds.get(kind.kind, "string") for name, kind in table.dtypes.items()}
     assert {name: field["type"] for name, field in fields.items()} == types
     assert set(table["exact"]) <= set(fields["exact"]["constraints"]["enum"])
     assert all(field["unit"] and field["unitDescription"] for field in fields.values() if field["type"] == "number")

@@ -1,40 +1,23 @@
 """What the animation and the control show: the frames of a simulated motion, fixed points along a force."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import vibroimpact as vi
-from chapter import PARAMETERS
-from vibroimpact.exact.orbits.search import orbits
+from figure_tables import system_of, tables_of_run
 from vibroimpact.studies.figures import animation, force_sweep, nudge
-from vibroimpact.system.state import KINDS
-from vibroimpact.theory.manifold import B_of_C, rho
 
-SYSTEM = {
-    **PARAMETERS,
-    "f10_hat": 1.0,
-}
-COORDINATES = ["X1", "Y1", "X2", "Y2"]
+EQUAL = system_of("equal")
 
 
 @pytest.fixture(scope="module")
 def window():
     """Samples and events of three cycles, with the system."""
-    system = vi.System(**SYSTEM, f20_hat=1.0)
-    times = np.linspace(60, 63, 121) * system.period
-    run = vi.simulate(system, [0.0] * 8, 63, sample_times=times)
-    events = run.events[run.events["tau"] >= times[0]]
-    table = pd.DataFrame({name: events[name] for name in ("tau", "module", "wall")})
-    table["kind"] = [KINDS[kind] for kind in events["kind"]]
-    table[COORDINATES] = events["state"][:, :4]
-    samples = pd.DataFrame(np.column_stack([times, run.samples[:, :4]]), columns=["tau", *COORDINATES])
-    return samples, table, system
+    return *tables_of_run(EQUAL, [0.0] * 8, 60, 3, 40), EQUAL
 
 
-def test_frames_have_every_corner_of_the_motion(window):
-    samples, events, system = window
-    tables = animation.compute(samples, events, system, 2)
+def test_frames_have_every_corner_of_the_motion_and_stills_its_envelope(window):
+    tables = animation.compute(*window, 2)
     motion, impacts = tables["motion"], tables["impacts"]
     assert motion["t"].is_monotonic_increasing
     assert (motion["t"].iloc[0], motion["t"].iloc[-1]) == pytest.approx((0.0, 2.0), abs=1e-9)
@@ -42,6 +25,10 @@ def test_frames_have_every_corner_of_the_motion(window):
     for hit in impacts.itertuples():
         at_impact = np.interp(hit.t, motion["t"], motion[f"X{hit.module}"] - motion[f"Y{hit.module}"])
         assert at_impact == pytest.approx(hit.wall, abs=1e-9)
+    for module, axes in enumerate(animation.draw(tables).axes, start=1):
+        seen = motion[motion["t"] < 1 - 1e-9][f"X{module}"].agg(["max", "min"])
+        assert [line.get_ydata()[0] for line in axes.lines[1:]] == pytest.approx(seen.tolist(), abs=1e-3)
+    assert len(animation.draw(animation.compute(*window, 1)).axes) == animation.INSTANTS
 
 
 def test_between_frames_the_ball_flies_straight(window):
@@ -53,35 +40,15 @@ def test_between_frames_the_ball_flies_straight(window):
         np.testing.assert_allclose(np.interp(fine["t"], coarse["t"], coarse[name]), fine[name], atol=1e-9)
 
 
-def test_a_still_of_several_cycles_is_an_envelope_of_both_boxes(window):
-    tables = animation.compute(*window, 2)
-    for module, axes in enumerate(animation.draw(tables).axes, start=1):
-        motion, highest, lowest = axes.lines
-        X = tables["motion"].set_index("t")[f"X{module}"]
-        assert len(motion.get_xdata()) == len(X)
-        for cycle in (0, 1):
-            seen = X.loc[cycle : cycle + 1 - 1e-9]
-            assert highest.get_ydata()[cycle] == pytest.approx(seen.max(), abs=1e-3)
-            assert lowest.get_ydata()[cycle] == pytest.approx(seen.min(), abs=1e-3)
-    assert len(animation.draw(animation.compute(*window, 1)).axes) == animation.INSTANTS
-
-
 def test_more_cycles_than_the_window_has_are_refused(window):
     with pytest.raises(ValueError, match="cycles: 4"):
         animation.compute(*window, 4)
 
 
-def test_the_still_shows_instants_of_one_cycle(window):
-    figure = animation.draw(animation.compute(*window, 1))
-    texts = [text.get_text() for axes in figure.axes for text in axes.texts]
-    assert texts == [f"t = {n / animation.INSTANTS:.2f} T" for n in range(animation.INSTANTS)]
-
-
 def test_a_nudged_motion_leaves_with_the_multiplier_and_ends_lopsided():
-    system = vi.System(**SYSTEM, f20_hat=1.0)
-    tables = nudge.compute(system)
+    tables = nudge.compute(EQUAL)
     orbit = min(
-        (one for one in vi.orbits(system) if one.symmetric), key=lambda one: np.abs(one.C - [1.0957, 1.8108]).max()
+        (one for one in vi.orbits(EQUAL) if one.symmetric), key=lambda one: np.abs(one.C - [1.0957, 1.8108]).max()
     )
     assert tables["orbit"].to_numpy().tolist() == [["c", pytest.approx(abs(orbit.multipliers[0]))]]
     growth = np.diff(np.log(tables["distance"]["distance"]))
@@ -95,22 +62,14 @@ def test_a_nudged_motion_leaves_with_the_multiplier_and_ends_lopsided():
 
 
 def test_where_no_motion_that_is_called_stable_is_unstable_there_is_nothing_to_nudge():
-    tables = nudge.compute(vi.System(**SYSTEM | {"f10_hat": 0.5}, f20_hat=0.5))
+    tables = nudge.compute(EQUAL.with_(f10_hat=0.5, f20_hat=0.5))
     assert all(len(table) == 0 for table in tables.values())
     assert len(nudge.draw(tables).axes) == 2
 
 
 @pytest.fixture(scope="module")
 def swept():
-    return force_sweep.compute(vi.System(**SYSTEM, f20_hat=1.0), (0.6, 1.3), 71, 2.5)
-
-
-def test_travelling_points_are_all_points_and_on_the_manifold(swept):
-    points = swept["csv"]
-    for value, count in ((0.6, 1), (0.89, 3), (1.0, 3)):
-        assert (points["value"] == value).sum() == count
-    for module in (1, 2):
-        np.testing.assert_allclose(points[f"B{module}"], B_of_C(points[f"C{module}"].to_numpy(), rho(0.65)), rtol=1e-12)
+    return force_sweep.compute(EQUAL, (0.6, 1.3), 71, 2.5)
 
 
 def test_a_track_moves_without_jumps_and_keeps_to_one_point(swept):
@@ -132,8 +91,7 @@ def test_the_asymmetric_orbits_are_followed_to_where_they_lose_their_stability(s
     assert ((modulus < 1) == (modulus.index > 0.817)).all()
     crossing = pair[(pair["value"] == 0.81) & (np.hypot(pair["real"], pair["imag"]) > 1)]
     assert (crossing["imag"].abs() > 0.1).tolist() == [True, True]
-    system = vi.System(**SYSTEM, f20_hat=1.0)
-    stable = [orbit for orbit in orbits(system) if orbit.admissible and abs(orbit.multipliers[0]) < 1]
+    stable = [orbit for orbit in vi.orbits(EQUAL) if orbit.admissible and orbit.stable]
     (found,) = pair.query("value == 1")[["C1", "C2"]].drop_duplicates().to_numpy()
     for orbit in stable:
         np.testing.assert_allclose(found, orbit.C, atol=1e-10)
@@ -145,21 +103,3 @@ def test_multipliers_of_the_orbits_of_the_points_decide_on_their_verdict(swept):
     modulus = np.hypot(rows["real"], rows["imag"]).groupby([rows["value"], rows["track"]]).max()
     verdicts = swept["csv"].set_index(["value", "track"])["exact"]
     assert ((modulus < 1) == (verdicts[modulus.index] == "stable")).all()
-
-
-def test_a_point_that_is_new_starts_a_track_of_its_own():
-    names, count = force_sweep._continued(
-        [1, 2], np.array([[0.0, 0.0], [1.0, 1.0]]), np.array([[1.1, 1.0], [5.0, 5.0], [0, 0]]), 2
-    )
-    assert (names, count) == ([2, 3, 1], 3)
-
-
-def test_the_picture_of_the_travel_names_every_curve_once_and_with_its_own_letter(swept):
-    figure = force_sweep.draw(swept)
-    points = swept["csv"]
-    for axes in figure.axes:
-        shown = [text.get_text() for text in axes.texts]
-        assert sorted(shown) == ["a", "b", "c"]
-    assert points["track"].nunique() == 3
-    (key,) = figure.legends
-    assert {f"fixed point {letter}" for letter in "abc"} <= {text.get_text() for text in key.get_texts()}

@@ -6,7 +6,6 @@ import unicodedata
 from html import unescape
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
-from zipfile import ZipFile
 
 import pandas as pd
 import pypdfium2 as pdfium
@@ -14,10 +13,8 @@ import pytest
 import yaml
 from fontTools.ttLib import TTFont
 
-import vibroimpact as vi
 from configs import GOOD as CONFIG
 from pipeline_trees import ROOT
-from vibroimpact_pipeline.data_dictionary import files, read
 from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.html.mathematics import FONT
 
@@ -78,26 +75,6 @@ def test_every_page_says_what_it_may_do_and_is_light(site):
         assert "<script" not in before
         assert path.stat().st_size < 2 * MEGABYTE
     assert sum(path.stat().st_size for path in site.rglob("*") if path.is_file()) < 60 * MEGABYTE
-
-
-def test_the_pages_on_the_library_have_its_public_names(pages):
-    names = {name for page in pages.values() for name in page.names}
-    public = {f"vibroimpact.{name}" for name in vi.__all__ if callable(getattr(vi, name))}
-    assert len(public) > 8
-    assert public | {f"vibroimpact.theory.manifold.{name}" for name in ("B_of_C", "C_min", "impact_phase")} <= names
-
-
-def test_data_of_the_report_are_in_the_dictionary(reported):
-    listed = files(*read(ROOT))
-    made = [
-        path for name in ("animations", "force_sweep", "nudge") for path in (reported / f"results/{name}").glob("*.*")
-    ]
-    data = [path for path in made if path.suffix in (".csv", ".json")]
-    assert len(data) == len(CONFIG["report"]["animations"]) + 3
-    for path in data:
-        (file,) = (file for file in listed if file.has(str(path.relative_to(reported.path))))
-        found = pd.read_csv(path).columns if path.suffix == ".csv" else json.loads(path.read_text(encoding="utf-8"))
-        assert list(found) == list(file.columns or file.keys)
 
 
 def test_every_figure_is_shown_and_every_table_can_be_downloaded(site, pages):
@@ -169,18 +146,6 @@ def test_the_article_is_a_pdf_with_its_numbers_and_pictures(site):
     assert "press" not in words
     drawn = [kind.type for page in document for kind in page.get_objects()]
     assert len(drawn) > 1000  # pictures are vectors
-
-
-@pytest.mark.thorough
-def test_snakemake_makes_a_report_of_its_own_with_captions_and_categories(reported, tmp_path):
-    reported.snakemake("--report", str(tmp_path / "all.zip"), "report")
-    with ZipFile(tmp_path / "all.zip") as archive:
-        (html,) = (archive.read(name).decode() for name in archive.namelist() if name.endswith("report.html"))
-    for category in ("Figures of the chapter", "Companion figures", "Accuracy and speed", "Tables", "Fixed points"):
-        assert category in html
-    for figure in (f"fig10_{number:02d}" for number in range(1, 12)):
-        assert f"{figure}.svg" in html
-    assert "This page holds what one run of the pipeline made of it" in html
 
 
 def test_an_equation_of_the_chapter_is_explained_where_it_is_named(site):

@@ -79,11 +79,6 @@ def test_a_near_miss_has_no_zero(gap):
     assert len(zeros) == 0
 
 
-def test_no_isolated_zeros():
-    with pytest.raises(ArithmeticError):
-        solve(CIRCLE, CIRCLE)
-
-
 CHAPTER = vi.System(**PARAMETERS | dict(gamma2_hat=0.3, gamma12_hat=0.15), f10_hat=1.0, f20_hat=1.0)
 
 
