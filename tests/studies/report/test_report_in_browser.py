@@ -190,8 +190,10 @@ def still(browser, site):
 
 
 def shown(browser, part):
-@pytest.mark.thorough
     return browser.run(f"document.getElementById('play-{part}').textContent")
+
+
+@pytest.mark.thorough
 def test_the_trace_is_the_motion_of_the_library(still):
     """One step after a start: X2 and W2 at the right end of both lines, by their scales."""
     focus(still, "#play-start")
@@ -212,9 +214,10 @@ def test_the_trace_is_the_motion_of_the_library(still):
 
 
 CASE = "[...document.querySelectorAll('#play-cases button')].find(b => b.textContent === 'case {}').click()"
+
+
 @pytest.mark.thorough
 def test_a_case_takes_back_restitution_and_start_and_its_prediction_is_told_unstable(still):
-@pytest.mark.thorough
     for knob in ("kappa", "start"):
         focus(still, f"#play-{knob}")
         still.press("End")
@@ -223,8 +226,10 @@ def test_a_case_takes_back_restitution_and_start_and_its_prediction_is_told_unst
     assert [float(value) for value in values] == [0.65, 0.5]
     assert shown(still, "printed") == "stable"
     assert shown(still, "stable").startswith("unstable: each cycle multiplies a small error by 2.44")
-def test_the_nudged_motion_climbs_and_plays_again(browser, site):
+
+
 @pytest.mark.thorough
+def test_the_nudged_motion_climbs_and_plays_again(browser, site):
     """Its still is the whole climb: a dot per period, on the line of the multiplier; a press begins anew."""
     browser.page.emulate_media(reduced_motion="reduce")
     browser.open(address(site, "findings"))
@@ -242,6 +247,9 @@ def test_the_nudged_motion_climbs_and_plays_again(browser, site):
     browser.run(SOME_FRAMES)
     assert 0 < len(browser.run(dots)) < 20
     browser.page.emulate_media(reduced_motion="no-preference")
+
+
+@pytest.mark.thorough
 def test_the_matrix_of_dots_is_the_table(browser, site):
     browser.open(address(site, "findings"))
     table = pd.read_csv(site.parent / "verdicts_by_epsilon.csv")
