@@ -232,18 +232,6 @@ def test_the_theory_breaks_the_symmetry_where_masri_s_upper_limit_is():
         assert C[1] == pytest.approx(SYMMETRY_BREAKING_C, abs=1e-10)
 
 
-def test_folds_of_identical_machines_are_followed_past_their_branch_points():
-    """Those of motions out of step come in pairs: the number of points changes by four."""
-    limits = [(0.38, 0.46), (0.95, 1.05)]
-    found = vi.bifurcation_curves(SYSTEM.with_(sigma20_hat=0.0), ("kappa", "alpha12_hat"), limits, seeds=1)
-    folds = [curve for curve in found if curve.kind == FOLD]
-    assert len(folds) == 2
-    for kappa, alpha in folds[0].points[1:-1:3]:
-        systems = [SYSTEM.with_(sigma20_hat=0.0, kappa=kappa + side, alpha12_hat=alpha) for side in (-1e-5, 1e-5)]
-        counts = [len(vi.fixed_points(system)) for system in systems]
-        assert abs(counts[0] - counts[1]) == 4
-
-
 @pytest.mark.parametrize(
     ("kind", "interval", "seed"), [(FOLD, (0.72, 0.75), 0.745), (SYMMETRY_BREAKING, (1.2, 1.22), 1.21)]
 )

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.studies.absorbers.references import Tuning, fixed_balls, tuned, without_balls
-from vibroimpact.studies.absorbers.tuning import best_tuning, compared, textbook_tuning
+from vibroimpact.studies.absorbers.tuning import best_tuning, textbook_tuning
 
 DAMPED = vi.System(**{**PARAMETERS, "gamma1_hat": 2.5, "gamma2_hat": 3.5}, f10_hat=1.0, f20_hat=-0.6)
 TUNING = Tuning((0.95, 1.1), (0.2, 0.3))
@@ -64,6 +64,9 @@ def test_steady_amplitudes_are_those_of_integration(linear, rates):
     )
     moved, amplitudes = np.abs(run.y[:2]).max(axis=1), linear.amplitudes(DAMPED.Omega)
     np.testing.assert_allclose(moved, amplitudes, rtol=2e-4)
+    if len(linear.force) == 4:
+        strokes = np.abs(run.y[:2] - run.y[2:4]).max(axis=1)
+        np.testing.assert_allclose(strokes, np.ravel(linear.strokes(np.array([DAMPED.Omega]))), rtol=2e-4)
     np.testing.assert_allclose(np.sqrt((run.y[:2, :-1] ** 2).mean(axis=1)), amplitudes / math.sqrt(2), rtol=1e-5)
 
 
@@ -87,14 +90,6 @@ def test_the_best_tuning_is_the_exact_one_of_a_single_undamped_box():
     assert least < tuned(system, best_tuning(system, band)).peak(band) < least * (1 + 1e-4)
 
 
-@pytest.mark.parametrize("ratio", [0.01, 0.05, 0.1])
-def test_the_peak_of_the_textbook_is_hardly_above_its_fixed_points(ratio):
-    """sqrt(1 + 2 / mu) of the static deflection at both fixed points, which its damping makes nearly the peaks."""
-    system = hosts(epsilon=ratio)
-    peak = tuned(system, textbook_tuning(system)).peak((0.6, 1.5)) / system.forcing[0]
-    assert math.sqrt(1 + 2 / ratio) < peak < 1.002 * math.sqrt(1 + 2 / ratio)
-
-
 @pytest.mark.parametrize("ratio", [0.01, 0.1, 0.25])
 def test_the_damping_of_the_textbook_is_the_printed_one_in_its_own_unit(ratio):
     """c / (2 m Omega_n) as printed, Omega_n of the host: the damper itself does not depend on how a ratio is formed.
@@ -113,49 +108,6 @@ def test_the_damping_of_the_textbook_is_the_printed_one_in_its_own_unit(ratio):
     places = [math.sqrt((1 + sign * math.sqrt(ratio / (2 + ratio))) / (1 + ratio)) for sign in (1, -1)]
     level = [brentq(slope, 0.01, 0.9, args=(place,)) for place in places]
     assert tuning.damping[0] == pytest.approx(math.sqrt(np.mean(np.square(level))), rel=1e-6)
-
-
-def test_absorbers_move_as_far_as_integration_says(chapter):
-    """Largest |X_i - Y_i| at the worst frequency, from forces written out by hand."""
-    tuning = best_tuning(chapter, (0.8, 1.25))
-    linear = tuned(chapter, tuning)
-    frequencies = np.linspace(0.8, 1.25, 2001)
-    worst = frequencies[linear.strokes(frequencies).max(axis=1).argmax()]
-    system = chapter.with_(sigma_e_hat=(worst - 1) / chapter.epsilon)
-    settle, times = 40 * system.period, np.linspace(0, system.period, 401)
-    run = solve_ivp(
-        by_hand(system, 1.0, tuning),
-        (0, settle + times[-1]),
-        np.zeros(8),
-        method="DOP853",
-        rtol=1e-9,
-        atol=1e-11,
-        t_eval=settle + times,
-    )
-    assert np.abs(run.y[:2] - run.y[2:4]).max() == pytest.approx(linear.stroke((0.8, 1.25)), rel=1e-3)
-
-
-def test_balls_without_mass_are_no_balls():
-    """Machines do not feel what a billionth of their mass does, whether it is fixed, tuned or hits walls."""
-    plant = vi.PhysicalSystem(
-        M=3.0, m=3e-9, k1=48.0, k2=50.0, k12=4.0, c1=1.2, c2=1.3, c12=0.1, F10=15.0, F20=-9.0, omega1=4.1, omega2=4.1,
-        L=0.25, kappa=0.65,
-    )  # fmt: skip
-    system = plant.dimensionless()
-    alone = without_balls(system).amplitudes(system.Omega)
-    references = {"fixed": fixed_balls(system), "tuned": tuned(system, Tuning((1.0, 1.1), (0.2, 0.3)))}
-    for linear in references.values():
-        np.testing.assert_allclose(linear.amplitudes(system.Omega), alone, rtol=1e-6)
-    outcome = vi.ensemble(system, np.zeros(8), 60, settle=50)
-    np.testing.assert_allclose(outcome["largest"], alone, rtol=1e-5)
-    assert outcome["impacts"].sum() > 0
-
-
-def test_all_that_balls_are_held_against(chapter):
-    peaks = {name: linear.peak((0.8, 1.25)) for name, linear in compared(chapter, (0.8, 1.25)).items()}
-    assert sorted(peaks, key=peaks.get) == [
-        *("best absorbers", "absorbers of the textbook", "without balls", "balls fixed")
-    ]
 
 
 def test_no_tuning_nearby_is_better_than_the_best(chapter):

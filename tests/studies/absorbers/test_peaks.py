@@ -32,6 +32,7 @@ def test_a_peak_is_a_quantile_of_the_cycles_of_certified_runs():
     assert whole.at == peak_of(found.largest).argmax()
 
 
+@pytest.mark.thorough
 def test_the_peak_of_a_chaotic_response_does_not_grow_with_the_window_as_the_largest_does():
     """In the mean of ten sets of starts: single runs are chaotic, and rounding decides what they meet."""
     short, long = (

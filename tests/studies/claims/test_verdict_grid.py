@@ -43,13 +43,6 @@ def test_partners_are_the_orbits_that_continue_the_fixed_points(forces):
             np.testing.assert_allclose(orbits[partner], reached, atol=1e-9)
 
 
-def test_every_fixed_point_is_judged_at_every_epsilon(grid):
-    for _, rows in grid.groupby(["f10_hat", "f20_hat"]):
-        system = SYSTEM.with_(f10_hat=rows["f10_hat"].iloc[0], f20_hat=rows["f20_hat"].iloc[0])
-        for _, at_epsilon in rows.groupby("epsilon"):
-            np.testing.assert_allclose(at_epsilon[["C1", "C2"]], [p.C for p in vi.fixed_points(system)], rtol=1e-12)
-
-
 def test_by_epsilon_the_multiplier_is_that_of_the_nearest_orbit():
     """Of vi.orbits, which searches anew; point c passes 1 at an epsilon below 0.0022."""
     table = by_epsilon(SYSTEM, [0.1, 0.01, 0.002])

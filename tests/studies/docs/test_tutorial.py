@@ -9,6 +9,7 @@ from PIL import Image
 
 from pipeline_trees import ROOT
 
+pytestmark = pytest.mark.thorough
 PAGE = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
 PICTURES = re.findall(r"!\[.*?\]\((.*?)\)", PAGE)

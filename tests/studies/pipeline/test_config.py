@@ -3,7 +3,6 @@
 import copy
 import keyword
 import re
-import time
 
 import pytest
 from hypothesis import given, settings
@@ -22,10 +21,6 @@ from vibroimpact_pipeline.studies.config.model import Whole
 
 def test_the_config_is_as_it_is_written():
     assert checked(GOOD) == GOOD | {"tile_seconds": 20.0}
-
-
-def test_the_table_is_long_and_has_no_row_twice():
-    assert len(TABLE) == len({edits for edits, _ in TABLE}) > 180
 
 
 @pytest.mark.parametrize(("edits", "keys"), TABLE, ids=[edits[:60] for edits, _ in TABLE])
@@ -57,15 +52,6 @@ def test_an_error_names_the_file_that_holds_the_key(tmp_path):
     assert said == [f"{studies}: regimes.observation.nearness", f"{chapter}: system.kappa"]
 
 
-@pytest.mark.parametrize("entry", [1, {}])
-def test_thousands_of_problems_are_found_within_a_second(entry):
-    config = copy.deepcopy(GOOD)
-    config["sweeps"] |= {f"k{number}": entry for number in range(5000)}
-    started = time.process_time()
-    assert problems(config)
-    assert time.process_time() - started < 1
-
-
 def test_a_name_that_means_something_in_python_is_a_name():
     """Names of attributes of the model, keywords and fields of other sections."""
     names = {name for name in [*dir(Whole), *Whole.model_fields, *keyword.kwlist] if re.fullmatch("[a-z][a-z_]+", name)}
@@ -85,7 +71,7 @@ SWEPT = [place for place in numbers(GOOD) if place[0] in ("system", "cases", "sw
 
 
 @given(st.sampled_from(SWEPT), st.sampled_from([-1, 0, 0.5, 1.5, 2, 10, 1e-3, 1e6]) | st.floats(-3, 3))
-@settings(max_examples=300)
+@settings(max_examples=100)
 def test_every_number_that_is_accepted_builds_the_sweeps(place, factor):
     config = copy.deepcopy(GOOD)
     inside = config

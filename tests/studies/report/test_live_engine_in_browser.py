@@ -98,27 +98,3 @@ def test_a_shallow_contact_is_neither_missed_nor_invented(play, depth):
     rounding = 1e-15 / np.sqrt(depth)  # of 1 - depth, through the arc cosine
     assert first["tau"] == pytest.approx(np.pi / 2 - np.arccos(1 - depth / A), abs=rounding)
     assert first["speed"] == pytest.approx(np.sqrt(2 * A * depth - depth**2), abs=rounding)
-
-
-def test_between_walls_at_rest_each_flight_takes_longer_by_the_restitution(play):
-    """A ball so light that its box does not feel it."""
-    light = PARAMETERS | {"epsilon": 1e-9, "f10_hat": 0.0, "f20_hat": 0.0}
-    (run,) = play([[light, [0.0, 0.0, 0.0, 0.0, 0.0, 5.0, 0.0, 0.0], 3]])
-    times = [event["tau"] for event in run["events"] if event["module"] == 1]
-    assert len(times) >= 5
-    flights = np.diff([0.0, *times])
-    np.testing.assert_allclose(flights[2:] / flights[1:-1], 1 / light["kappa"], rtol=1e-6)
-
-
-def test_a_sticking_ball_is_carried_by_one_heavier_box(play):
-    """Undamped and uncoupled, box and ball swing with sqrt(1 / (1 + epsilon)) until the force between them vanishes."""
-    free = dict.fromkeys(PARAMETERS, 0.0) | {"epsilon": 0.2, "kappa": 0.5, "f10_hat": 0.0, "f20_hat": 0.0}
-    # At wall +1 the box holds the ball while it is accelerated upwards: below its rest.
-    (run,) = play([[free, [-0.4, -1.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 1]])
-    stick, release = run["events"][:2]
-    assert (stick["kind"], stick["tau"]) == ("stick", 0.0)
-    assert release["kind"] == "release"
-    frequency = np.sqrt(1 / 1.2)
-    assert release["tau"] == pytest.approx(np.pi / 2 / frequency, abs=1e-12)
-    np.testing.assert_allclose(release["state"][:2], [0.0, -1.0], atol=1e-12)
-    np.testing.assert_allclose(release["state"][4:6], 0.4 * frequency, atol=1e-12)

@@ -104,19 +104,6 @@ def test_numbers_on_a_page_are_those_of_the_results_and_say_where_they_are_from(
     assert f'title="{source}">{distance:.3f}</abbr>' in (site / "findings.html").read_text(encoding="utf-8")
 
 
-def test_every_figure_tells_where_it_comes_from_and_leads_to_its_notebook_and_back(site):
-    html = (site / "figures.html").read_text(encoding="utf-8")
-    records = sorted((site.parent / "figures").glob("fig10_*.provenance.json"))
-    assert html.count("Origin:") >= len(records) == 11
-    for path in records:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        assert all(f"{part} {number}" in html for part, number in record["versions"].items())
-    notebook = (site / "notebooks/fig10_08.html").read_text(encoding="utf-8")
-    assert 'href="notebooks/fig10_08.html"' in html
-    place = re.search(r'<p class="of"><a href="\.\./figures\.html#(.*?)">', notebook)[1]
-    assert f'id="{place}"' in html
-
-
 def test_the_font_that_is_shipped_has_every_sign_of_a_formula(site):
     """And every letter in italics too, as which browsers draw it."""
     signs = set(map(chr, TTFont(FONT).getBestCmap()))

@@ -3,7 +3,7 @@
 import pytest
 
 from chapter import PARAMETERS
-from vibroimpact.studies.sweeps.cost import MOST_TILES, POINT, core_seconds, points, tiles
+from vibroimpact.studies.sweeps.cost import core_seconds, points, tiles
 from vibroimpact.studies.sweeps.request import parsed
 
 SYSTEM = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
@@ -29,15 +29,6 @@ def test_the_cost_grows_with_points_starts_and_cycles():
 @pytest.mark.parametrize(("seconds", "number"), [(1e9, 1), (1e-9, 40)])
 def test_there_is_one_tile_at_least_and_one_per_point_at_most(seconds, number):
     assert tiles(request(20), seconds) == number
-
-
-def test_there_are_never_more_tiles_than_a_disk_likes():
-    assert tiles(request(100_000), 1e-9) == MOST_TILES
-
-
-def test_starts_and_cycles_are_none_where_a_sweep_has_none():
-    spec = {"observe": ["orbits"]}
-    assert core_seconds({"axes": request(3)["axes"], "spec": spec}) == pytest.approx(6 * POINT)
 
 
 def test_regimes_cost_their_rounds_blocks_and_a_tenth_of_the_retest():

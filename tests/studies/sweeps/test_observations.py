@@ -125,19 +125,6 @@ def test_regimes_are_where_starts_settle_and_fixed_points_those_of_the_theory(fo
     assert found[0]["fixed_points"] == len(vi.fixed_points(system))
 
 
-def test_a_point_and_its_mirror_image():
-    spec = Spec(("regimes", "fixed_points"), starts=1, observation=OBSERVED)
-    for f10, f20 in ((1.0, 0.89), (1.2, 1.3)):
-        ours, mirrored = (observed(BASE.with_(f10_hat=sign * f10, f20_hat=sign * f20), spec) for sign in (1, -1))
-        assert ours == mirrored
-
-
-def test_orbits_are_motions_of_the_system(found):
-    motions = [orbit for orbit in vi.orbits(BASE) if orbit.admissible]
-    assert found[1]["orbits"] == len(motions) > 0
-    assert found[1]["stable_orbits"] == sum(abs(orbit.multipliers[0]) < 1 for orbit in motions)
-
-
 def test_a_point_that_cannot_be_observed_says_why_and_costs_no_other(monkeypatch):
     def fail(system, states, spec):
         if system.f20_hat == 1.0:
@@ -158,13 +145,6 @@ def test_runs_that_do_not_finish_are_counted_and_left_out(monkeypatch):
     row = observed(BASE, AMPLITUDES)
     assert row["unfinished"] == 1
     assert row["largest_X1"] == outcomes["largest"][[0, 2], 0].max()
-    broken["status"] = 1
-    row = observed(BASE, AMPLITUDES)
-    assert row["unfinished"] == 3
-    assert np.isnan(row["rms_X2"])
     states = np.vstack([spread_starts(3, 1), np.full(8, np.nan)])
-    *kept, peaks, lost = (OBSERVATIONS["peaks"][1](BASE, some, SPEC_KEYS) for some in (states[:3], states, states[3:]))
-    assert kept[0][-1] == 0
-    assert peaks == (*kept[0][:-1], 4)
-    assert np.isnan(lost[:-1]).all()
-    assert lost[-1] == 4
+    kept, peaks = (OBSERVATIONS["peaks"][1](BASE, some, SPEC_KEYS) for some in (states[:3], states))
+    assert (kept[-1], peaks) == (0, (*kept[:-1], 4))

@@ -140,11 +140,3 @@ def test_what_is_not_driven_or_not_a_system_is_told():
     assert fixed_points(SYSTEMS["equal"].with_(f10_hat=0.0, f20_hat=0.0)) == []
     with pytest.raises(ValueError, match="system"):
         fixed_points("equal")
-
-
-@pytest.mark.parametrize(("case", "motions"), [("equal", 2), ("unequal", 0), ("weak", 0)])
-def test_few_of_the_proved_points_are_motions(case, motions):
-    """Those of the search with both C and every v^2 above 0; the branch has no other C."""
-    found = [point for point in points(case) if (point.C > 0).all() and (point.squared[point.asymmetric] > 0).all()]
-    assert proof(case).motions == len(found) == motions
-    assert branch.amplitudes(np.linspace(0, 0.999, 1000), 0.65)[0].min() > 1.68

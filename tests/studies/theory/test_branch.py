@@ -129,14 +129,6 @@ def test_the_branch_is_stable_up_to_a_period_doubling(kappa):
         assert said == "undecided" or inside == (said == "stable")
 
 
-@pytest.mark.parametrize("kappa", [0.9, 0.99, 1 - 1e-9])
-def test_where_multipliers_come_back_into_the_circle_the_ball_is_outside(kappa):
-    squared = np.linspace(1.01 * branch.period_doubling(kappa), 0.999, 200)
-    back = [one for one in squared if branch.stable(one, kappa) == "stable"]
-    assert back
-    assert min(branch.overshoot(np.sqrt(one), kappa) for one in back) > 0.1
-
-
 @pytest.mark.parametrize(("v", "kappa"), FLIGHTS)
 def test_overshoot_is_that_of_a_sampled_flight(v, kappa):
     B = branch.amplitudes(v**2, kappa)[1]

@@ -86,10 +86,6 @@ def test_a_number_of_the_findings_is_that_of_the_results(studied, quoted, source
     assert abs(found - float(quoted.replace("−", "-"))) <= 0.5 * 10.0**-decimals + spread
 
 
-def test_long_runs_are_among_the_sources():
-    assert set(LONG) <= {source for _, source in SOURCED}
-
-
 def test_the_dimension_without_double_sticks_is_within_the_bounds_of_the_findings(studied):
     bounds = re.search(r"Kaplan–Yorke dimension\s+between (\d+\.\d+) and (\d+\.\d+)", DOCUMENTS).groups()
     place = "regimes/spectra.csv", 'case == "weak" and start == "spread" and quantity == "Kaplan-Yorke dimension"'
@@ -107,10 +103,3 @@ def test_the_matrix_of_criteria_is_that_of_the_results(studied):
     assert {(case, label): verdicts for case, label, *verdicts in told} == dict(
         zip(points.index, points.to_numpy().tolist(), strict=True)
     )
-
-
-def test_the_findings_quote_numbers_and_show_figures_that_exist(studied):
-    assert len(SOURCED) > 25
-    figures = re.findall(r"\]\(\.\./\.\./([^)]+)\)", FINDINGS)
-    assert figures
-    assert not [figure for figure in figures if not (studied / figure).exists()]

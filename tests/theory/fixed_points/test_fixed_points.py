@@ -151,13 +151,6 @@ def test_powers_balance_and_exchanged_modules_have_exchanged_points(system):
             assert min(np.abs(point.C - other.C[::-1]).max() for other in theirs) < 1e-5
 
 
-def test_epsilon_does_not_enter():
-    """(10.23) is the order-epsilon balance: all its parameters are hatted."""
-    for epsilon in (1e-6, 5.0):
-        ours, theirs = vi.fixed_points(build()), vi.fixed_points(build({"epsilon": epsilon}))
-        assert [p.C.tolist() for p in ours] == [p.C.tolist() for p in theirs]
-
-
 @pytest.mark.parametrize("changes", [{}, IDENTICAL, {"gamma1_hat": 0.0, "f20_hat": 3.0}, {"f10_hat": 0.0}])
 def test_uncoupled_modules_stand_alone(changes):
     system = build(UNCOUPLED | changes)
