@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
 from chapter import PARAMETERS
 from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import run_errors
+from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.work_precision import Problem, fitted_order, measure
 from vibroimpact.integrators.protocol import IMPACT, REFUSED, Method, MethodRun, failed
 from vibroimpact.system import System

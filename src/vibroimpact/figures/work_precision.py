@@ -19,8 +19,8 @@ SPEC = {
     "title": "Error against time, method by method",
     "caption": "Accuracy against speed: error against an independent reference of extended precision, and time per "
         "forcing cycle, of eight methods with their settings on three test problems: the nearer to the lower left, the "
-        "better. Dotted: errors of 1e-6 and 1e-12. Hollow marks: impacts missed or spurious. In the lane at the right: "
-        "runs without a result. The table has every method, setting and reason.",
+        "better. Dotted: errors of :math:`10^{-6}` and :math:`10^{-12}`. Hollow marks: impacts missed or spurious. In "
+        "the lane at the right: runs without a result. The table has every method, setting and reason.",
     "alt": "A panel per test problem with the error of the final state against the time per forcing cycle, both on "
         "logarithmic axes, a named line per method. This engine stands alone in the lower left corner.",
     "method": "error against a reference of extended precision, run time as measured",

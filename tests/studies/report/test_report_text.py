@@ -14,11 +14,12 @@ import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from configs import GOOD as CONFIG
 from pipeline_trees import ROOT
+from vibroimpact.figures.plotting.markdown import digits
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.html.mathematics import mathml
 from vibroimpact_pipeline.studies.report.live import SAMPLES, live_data, verdict_data
-from vibroimpact_pipeline.studies.report.pages import Pages, cell, digits, table
+from vibroimpact_pipeline.studies.report.pages import Pages, cell, table
 from vibroimpact_pipeline.studies.report.results import Results
 
 
@@ -28,6 +29,7 @@ from vibroimpact_pipeline.studies.report.results import Results
         (1.0, "1"), (12345.678, "12300"), (0.00012344, "0.000123"), (2.345e-15, r"$2.35\cdot 10^{-15}$"),
         (1e-300, "$10^{-300}$"), (-2.5e7, r"$-2.5\cdot 10^{7}$"), (0, "0"), (math.nan, "–"), (None, "–"),
         (math.inf, "∞"), (np.True_, "yes"), ("a_b", r"a\_b"),
+        ("2.220446049250313e-16", r"$2.22\cdot 10^{-16}$"),
     ],
 )  # fmt: skip
 def test_a_value_in_the_text(value, text):
@@ -58,11 +60,10 @@ def test_numbers_and_figures_of_documents_are_those_of_the_build():
         "([see](../results/figures/one.png), [two](../results/accuracy/two.png))"
     )
     shown = pages.with_numbers(text)
-    assert re.findall(r"{abbr}`(\S+) \(\S+ results/(.*?)\)`", shown) == [
-        ("0.71", "x, a"),
-        ("−3.2", "x, b"),
-        ("69", "x, c"),
-    ]
+    links = [("0.71", "#number-a"), ("−3.2", "#number-b-1-0"), ("69", "#number-c")]
+    assert re.findall(r"\[(\S+)\]\((#number-.*?)\)", shown) == links
+    assert pages.number("c") == (69.16, "results/x | c")
+    assert pages.number("d") is None
     picture = "```{figure} figures/one.svg\n:alt: What it shows.\n:target: figures/one.svg\n\nOne\n```"
     assert shown.endswith(f"%, 5.\n{picture} \n([see](#one), two)")
     assert pages.with_numbers(text, paper=True).splitlines()[:2] == ["0.71, −3.2; 69 %, 5.", "![One](figures/one.svg) "]

@@ -12,7 +12,7 @@ from vibroimpact import tables
 from vibroimpact.accuracy.window import window
 from vibroimpact.exact.measures.periodicity import distance_after, mirror_distance
 from vibroimpact.figures.plotting.case_points import HINT
-from vibroimpact.figures.plotting.markdown import EXACTLY
+from vibroimpact.figures.plotting.markdown import EXACTLY, digits
 from vibroimpact.system import System
 
 SETTLED, NEAR = 1e-6, 0.02
@@ -93,7 +93,7 @@ def repetition(displacements, per_cycle: int) -> str:
 
 
 def _measured(changes, lag):
-    return f"in the window it changes after {_periods(lag)} by up to {changes[lag]:.2g}"
+    return f"in the window it changes after {_periods(lag)} by up to {digits(changes[lag], 2)}"
 
 
 def _periods(number):

@@ -25,3 +25,23 @@ def code(text) -> str:
     text = one_line(text)
     fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
     return f"{fence} {text} {fence}" if "`" in text else f"{fence}{text}{fence}"
+
+
+WORDS = {"None": "–", "nan": "–", "inf": "∞", "True": "yes", "False": "no"}
+"""Texts that replace values that are not numbers."""
+
+
+def digits(value, number: int = 3) -> str:
+    """Return a number with `number` significant digits, as a power of ten if tiny or huge; other values as text."""
+    try:
+        value = float(value) if isinstance(value, str) else value
+    except ValueError:
+        return plain(value)
+    if str(value) in WORDS:
+        return WORDS[str(value)]
+    rounded = float(f"{value:.{number}g}")
+    if rounded == 0 or 1e-4 <= abs(rounded) < 1e6:
+        return f"{rounded:.15g}"
+    mantissa, exponent = f"{rounded:.{number - 1}e}".split("e")
+    factor = "" if float(mantissa) == 1 else rf"{float(mantissa):.15g}\cdot "
+    return rf"${factor}10^{{{int(exponent)}}}$"

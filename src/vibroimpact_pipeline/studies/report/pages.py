@@ -9,7 +9,7 @@ from urllib.parse import quote
 import jinja2
 import yaml
 
-from vibroimpact.figures.plotting.markdown import code, one_line, plain
+from vibroimpact.figures.plotting.markdown import code, digits, one_line, plain
 from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.studies.report.live import live_data, verdict_data, verdict_dots
@@ -69,6 +69,8 @@ class Pages:
             "tables": tables,
             "about": self.about,
             "figure": self.figure,
+            "number": self.number,
+            "places": self.places,
             "table": table,
             "data": data,
             "dictionary": lambda of_figures: data_dictionary.page(*data_dictionary.read(self.root), of_figures),
@@ -84,7 +86,7 @@ class Pages:
     def with_numbers(self, text: str, paper: bool = False) -> str:
         """Return a document with the numbers and figures of this build.
 
-        A number keeps the number of decimals of the document, and shows its source except on paper. If a build with
+        A number keeps the number of decimals of the document, and links to its source except on paper. If a build with
         other settings has no such value, the number of the document is kept.
         """
         if not paper:
@@ -92,15 +94,20 @@ class Pages:
         text = NUMBER.sub(lambda found: self._number(paper, **found.groupdict()), text)
         return PICTURE.sub(lambda found: self._picture(paper, **found.groupdict()), text)
 
-    def _number(self, paper, number, key):
-        place = self.places[key]
+    def number(self, key: str) -> tuple[float, str] | None:
+        """Return the value and the source of a number of the documents, or None if this build does not have it."""
         try:
-            value = self.results.value(place)
-            shown = f"{value:.{len(number.partition('.')[2])}f}".replace("-", "−")
+            value = float(self.results.value(self.places[key]))
         except (LookupError, TypeError, ValueError, StopIteration, OSError):
+            return None
+        return value, f"results/{self.places[key].removeprefix('percent | ')}"
+
+    def _number(self, paper, number, key):
+        found = self.number(key)
+        if found is None:
             return number
-        source = place.removeprefix("percent | ").replace(" | ", ", ")  # a vertical bar would end the table cell
-        return shown if paper else f"{{abbr}}`{shown} ({value:.6g}: results/{source})`"
+        shown = f"{found[0]:.{len(number.partition('.')[2])}f}".replace("-", "−")
+        return shown if paper else f"[{shown}](#number-{anchor(key)})"
 
     def _picture(self, paper, text, name):
         if text.startswith("!"):
@@ -158,24 +165,6 @@ class Pages:
         if "svg" in files:
             caption = FIGURE.format(name=quote(name), alt=one_line(self.about[name]["alt"]), caption=caption)
         return f"``````````{{eval-rst}}\n{caption}\n``````````"
-
-
-WORDS = {"None": "–", "nan": "–", "inf": "∞", "True": "yes", "False": "no"}
-"""Texts that replace values that are not numbers."""
-
-
-def digits(value, number: int = 3) -> str:
-    """Return a number with `number` significant digits, as a power of ten if tiny or huge; other values as text."""
-    if isinstance(value, str):
-        return plain(value)
-    if str(value) in WORDS:
-        return WORDS[str(value)]
-    rounded = float(f"{value:.{number}g}")
-    if rounded == 0 or 1e-4 <= abs(rounded) < 1e6:
-        return f"{rounded:.15g}"
-    mantissa, exponent = f"{rounded:.{number - 1}e}".split("e")
-    factor = "" if float(mantissa) == 1 else rf"{float(mantissa):.15g}\cdot "
-    return rf"${factor}10^{{{int(exponent)}}}$"
 
 
 def table(frame, heads: dict, number: int = 3) -> str:

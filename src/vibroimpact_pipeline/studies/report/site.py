@@ -15,7 +15,6 @@ from vibroimpact.system.extras import need
 from vibroimpact_pipeline.code import is_source
 from vibroimpact_pipeline.html.mathematics import STYLE, mathml
 from vibroimpact_pipeline.html.policy import policy
-from vibroimpact_pipeline.studies.report.pages import anchor
 
 need("report", "pypandoc", "sphinx", "typst")
 
@@ -106,7 +105,7 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") ->
                 scratch, None, folder, scratch / "doctrees", "html", options, status=None, warning=warnings, parallel=2
             )
             app.connect("source-read", lambda app, name, source: fill(pages, name, source))
-            app.connect("doctree-read", lambda app, tree: explain(app.env.docname, tree, settings["equations"]))
+            app.connect("doctree-read", lambda app, tree: explain(tree, settings["equations"]))
             app.build()
     if of_pages := [line for line in warnings.getvalue().splitlines() if OF_PAGE.search(line)]:
         raise RuntimeError(f"Sphinx: {of_pages[0]}")
@@ -136,8 +135,8 @@ def fill(pages, name: str, source: list[str]) -> None:
         source[0] = pages.with_numbers(ELSEWHERE.sub("", source[0]))
 
 
-def explain(page: str, tree, equations: dict) -> None:
-    """Explain equation numbers of the chapter and add them to the search index; add anchors to rows of claims."""
+def explain(tree, equations: dict) -> None:
+    """Explain equation numbers of the chapter and add them to the search index."""
     named = set()
     for text in list(tree.findall(nodes.Text)):
         if not isinstance(text.parent, NAMES) and EQUATION.search(text):
@@ -151,9 +150,6 @@ def explain(page: str, tree, equations: dict) -> None:
                 ],
             )
     tree.append(addnodes.index(entries=[("single", f"({part})", "", "", None) for part in sorted(named)]))
-    if page == "claims":
-        for row in (row for body in tree.findall(nodes.tbody) for row in body.findall(nodes.row)):
-            row["ids"].append(f"claim-{anchor(row[0].astext())}")
 
 
 def write_article(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
