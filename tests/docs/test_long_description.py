@@ -47,7 +47,7 @@ def test_no_link_of_the_long_description_is_relative_and_addresses_follow_from_t
     for described in metadata(tree.path, tmp_path / "dist"):
         assert described["Description-Content-Type"] == "text/markdown"
         text = described.get_payload()
-        assert text.startswith("# vibroimpact\n\nTwo boxes")
+        assert text.startswith("# vibroimpact\n\nA book chapter")
         found = [target for _, target in targets(text)]
         assert [target for target in found if not target.startswith(("https://", "#"))] == []
         assert sum(target.startswith(REPOSITORY) for target in found) == len(relative) > 15

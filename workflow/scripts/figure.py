@@ -1,6 +1,6 @@
 """Compute and write the tables of one figure, and draw the figure from the written tables.
 
-A figure of an interactive page also writes the data of the page as JSON.
+A figure of an interactive page also writes the data of the page as JSON, and an animated figure a GIF.
 """
 
 import json
@@ -32,4 +32,6 @@ with running(snakemake) as out:
     if "json" in vars(out):
         data = module.page_data(computed, **snakemake.params.settings)
         Path(out.json).write_text(json.dumps(data, separators=(",", ":")) + "\n", encoding="utf-8")
+    if "gif" in vars(out):
+        module.animate(computed, out.gif)
     provenance.write(snakemake, out)

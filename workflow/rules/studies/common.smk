@@ -20,7 +20,7 @@ def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()
     outputs = files(figure, "Companion figures", CAPTION)
     if folder:
         outputs = figure_files(f"results/{folder}/{figure}", spec(figure)["tables"])
-        outputs["json"] = f"results/{folder}/{figure}.json"
+        outputs |= {kind: f"results/{folder}/{figure}.{kind}" for kind in ("json", *spec(figure).get("animated", []))}
     return SimpleNamespace(inputs=inputs, outputs=outputs, params=params)
 
 

@@ -1,8 +1,11 @@
 """A predicted motion nudged by a millionth: how fast it is left, and the motion that it ends in."""
 
+import io
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from PIL import Image
 
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
@@ -23,6 +26,7 @@ SPEC = {
     "alt": "Left: the distance from the predicted motion climbs along a straight line on a logarithmic axis, then "
         "stays large. Right: the flights, at first equal, split into long and short ones for good.",
     "method": "the exact orbit of the fixed point, and a simulation that starts beside it",
+    "animated": ["gif"],
 }  # fmt: skip
 
 PUSH, CYCLES, PER_CYCLE = 1e-6, 40, 40
@@ -74,6 +78,18 @@ def page_data(tables: dict[str, pd.DataFrame]) -> dict:
         "multiplier": [float(f"{value:.6g}") for value in tables["orbit"]["multiplier"]],
         "label": tables["orbit"]["label"].tolist(),
     }
+
+
+def animate(tables: dict[str, pd.DataFrame], path) -> None:
+    """Write the picture as it is drawn over time, one frame for two periods, to a GIF file."""
+    frames = []
+    for cycle in range(1, CYCLES + 1, 2):
+        past = {name: tables[name][tables[name]["t"] <= cycle] for name in ("distance", "flights")}
+        frame = io.BytesIO()
+        draw(tables | past).savefig(frame, dpi=120)
+        frames.append(Image.open(frame).convert("P", palette=Image.Palette.ADAPTIVE, colors=32))
+    durations = [300] * (len(frames) - 1) + [3000]  # [ms]
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=durations, loop=0)
 
 
 def _called_stable(system):
