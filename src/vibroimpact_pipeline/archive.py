@@ -48,10 +48,13 @@ def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, li
 
     Results for which only an input has changed come last, since this may be a consequence of another line.
 
-    Args:
-        targets: paths of results.
-        now: function that returns the current params and inputs of a rule with wildcards; it raises LookupError if the
-            rule no longer exists.
+    Parameters
+    ----------
+    targets
+        Paths of results.
+    now
+        Function that returns the current params and inputs of a rule with wildcards; it raises LookupError if the rule
+        no longer exists.
     """
     known, seen, pending, following = records(), set(), list(targets), []
     while pending:
@@ -90,14 +93,21 @@ def differences(one, other, place: str = "") -> Iterator[tuple]:
 def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None:
     """Write the archive of a clean checkout.
 
-    Args:
-        root: the checkout.
-        results: paths of the results, relative to the working directory.
-        titles: titles of the figures by name.
-        path: path of the archive, a .tar.gz file.
+    Parameters
+    ----------
+    root
+        The checkout.
+    results
+        Paths of the results, relative to the working directory.
+    titles
+        Titles of the figures by name.
+    path
+        Path of the archive, a .tar.gz file.
 
-    Raises:
-        ValueError: if the checkout is not a git checkout or has uncommitted changes.
+    Raises
+    ------
+    ValueError
+        If the checkout is not a git checkout or has uncommitted changes.
     """
     commit = committed(root)
     cited = yaml.safe_load((root / "CITATION.cff").read_text(encoding="utf-8"))

@@ -26,10 +26,12 @@ DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
 def behind(*roots: str) -> list[Path]:
     """Return all files behind a job, sorted.
 
-    Args:
-        roots: names of modules, such as vibroimpact.figures.fig10_06, and paths of files and folders in the checkout.
-            Modules, scripts and notebooks include everything that they import, directly or indirectly. A module also
-            includes the other files in its folder, such as styles and templates.
+    Parameters
+    ----------
+    roots
+        Names of modules, such as vibroimpact.figures.fig10_06, and paths of files and folders in the checkout. Modules,
+        scripts and notebooks include everything that they import, directly or indirectly. A module also includes the
+        other files in its folder, such as styles and templates.
     """
     found, pending = set(), [path for root in roots for path in _paths(root)]
     while pending:

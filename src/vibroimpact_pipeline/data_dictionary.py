@@ -19,13 +19,20 @@ LABEL = "data-"
 class File:
     """One kind of results file.
 
-    Args:
-        paths: paths of the files; a placeholder such as {case} stands for one word.
-        about: description of the content.
-        columns: meaning, unit and, optionally, allowed values of each column by name.
-        specific: names of the columns whose meaning is specific to this file.
-        keys: meaning of each key by its path; * stands for every entry.
-        on_demand: command that makes the file, by path, if the default build does not.
+    Parameters
+    ----------
+    paths
+        Paths of the files; a placeholder such as {case} stands for one word.
+    about
+        Description of the content.
+    columns
+        Meaning, unit and, optionally, allowed values of each column by name.
+    specific
+        Names of the columns whose meaning is specific to this file.
+    keys
+        Meaning of each key by its path; * stands for every entry.
+    on_demand
+        Command that makes the file, by path, if the default build does not.
     """
 
     paths: list[str]

@@ -15,12 +15,21 @@ TYPES = {
 def data_package(headers: dict[str, list[str]], known: list[File], units: dict[str, str], cited: dict) -> dict:
     """Return the data package of CSV files as JSON data.
 
-    Args:
-        headers: names of the columns by path of the table; the package is written to results/.
-        known: kinds of files. units: meaning of each unit. cited: content of CITATION.cff.
+    Parameters
+    ----------
+    headers
+        Names of the columns by path of the table; the package is written to results/.
+    known
+        Kinds of files.
+    units
+        Meaning of each unit.
+    cited
+        Content of CITATION.cff.
 
-    Raises:
-        LookupError: if the dictionary lacks a table or column.
+    Raises
+    ------
+    LookupError
+        If the dictionary lacks a table or column.
     """
     return {
         "profile": "tabular-data-package",

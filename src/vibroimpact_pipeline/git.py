@@ -27,11 +27,19 @@ class GitRefused(ValueError):
 def call(*arguments, root=".", **variables) -> subprocess.CompletedProcess:
     """Run a git command in a directory, with English output and without variables that select another repository.
 
-    Args:
-        arguments: arguments of git. root: directory. variables: additional environment variables.
+    Parameters
+    ----------
+    arguments
+        Arguments of git.
+    root
+        Directory.
+    variables
+        Additional environment variables.
 
-    Raises:
-        OSError: if git is not installed.
+    Raises
+    ------
+    OSError
+        If git is not installed.
     """
     kept = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
     neutral = [word for setting in SETTINGS.items() for word in ("-c", "=".join(setting))]
@@ -42,8 +50,10 @@ def call(*arguments, root=".", **variables) -> subprocess.CompletedProcess:
 def output(*arguments, root=".") -> bytes:
     """Return the output of a git command in a repository.
 
-    Raises:
-        GitRefused: if the command fails; the message is that of git in one line.
+    Raises
+    ------
+    GitRefused
+        If the command fails; the message is that of git in one line.
     """
     run = call(*arguments, root=root)
     if run.returncode:
@@ -57,8 +67,10 @@ def git(*arguments, root=".") -> str | None:
     Git tracks no file of the directory if git is not installed, if there is no repository, or if the directory is an
     untracked copy inside another repository.
 
-    Raises:
-        GitRefused: if git does not read the repository.
+    Raises
+    ------
+    GitRefused
+        If git does not read the repository.
     """
     try:
         tracked = output("ls-files", "-z", ".", root=root)
@@ -90,8 +102,10 @@ def origin(root) -> tuple[str | None, str]:
 def committed(root) -> str:
     """Return the commit of a clean git checkout.
 
-    Raises:
-        ValueError: if there is no git checkout, git does not read it, or it has uncommitted changes.
+    Raises
+    ------
+    ValueError
+        If there is no git checkout, git does not read it, or it has uncommitted changes.
     """
     commit, changed = git("rev-parse", "HEAD", root=root), changes(root)
     if changed is None:

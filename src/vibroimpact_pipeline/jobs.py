@@ -70,9 +70,12 @@ def running(job) -> Iterator[SimpleNamespace]:
 def with_key(error, decided: dict) -> str | None:
     """Return the text of an error with the config key of its argument, or None if the config lacks the argument.
 
-    Args:
-        error: error or text that begins with the name of an argument and a colon.
-        decided: entries of the config by their full key.
+    Parameters
+    ----------
+    error
+        Error or text that begins with the name of an argument and a colon.
+    decided
+        Entries of the config by their full key.
     """
     name, _, _ = str(error).partition(":")
     argument, _, _ = name.partition(".")

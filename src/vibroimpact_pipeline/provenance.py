@@ -23,9 +23,12 @@ CONFIG = "config"
 def write(job, out) -> None:
     """Write the record of a figure: config, code, inputs and files, which must exist.
 
-    Args:
-        job: the Snakemake job.
-        out: temporary paths of its outputs; `out.provenance` already contains the versions of packages.
+    Parameters
+    ----------
+    job
+        The Snakemake job.
+    out
+        Temporary paths of its outputs; `out.provenance` already contains the versions of packages.
     """
     folder = Path(job.output.provenance).parent
     outputs = {path: getattr(out, name) for name, path in job.output.items() if name != "provenance"}
@@ -46,8 +49,10 @@ def write(job, out) -> None:
 def read(path) -> dict:
     """Return the provenance record of a figure, given one of its files.
 
-    Raises:
-        ValueError: if there is no readable record.
+    Raises
+    ------
+    ValueError
+        If there is no readable record.
     """
     path = Path(path)
     try:
@@ -59,10 +64,14 @@ def read(path) -> dict:
 def differences(path, record: dict, config: dict) -> Iterator[str]:
     """Yield one line for each change since the figure was made.
 
-    Args:
-        path: path of a file of the figure.
-        record: provenance record of the figure.
-        config: the current config, validated.
+    Parameters
+    ----------
+    path
+        Path of a file of the figure.
+    record
+        Provenance record of the figure.
+    config
+        The current config, validated.
     """
     for place, value in record["config"].items():
         if (now := _at(config, place)) != value:

@@ -112,8 +112,10 @@ def is_result(path) -> bool:
 def checked_digests(paths: Iterable) -> dict[str, str]:
     """Compare the inputs of a job that are results with their records, and return their SHA-256.
 
-    Raises:
-        ModifiedResult: if an input has no record or has been modified.
+    Raises
+    ------
+    ModifiedResult
+        If an input has no record or has been modified.
     """
     digests = {path: digest_of(path) for path in map(str, paths) if is_result(path)}
     for path, digest in digests.items():

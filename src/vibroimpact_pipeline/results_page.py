@@ -24,9 +24,12 @@ TABLES = "*.csv", "*.json", "*.md", "regimes/*.csv", "accuracy/*.csv", "sweeps/*
 def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
     """Return the index of the results of a build as offline HTML.
 
-    Args:
-        results: the results directory.
-        groups: for each heading, the titles of its figures by name, in the order of display.
+    Parameters
+    ----------
+    results
+        The results directory.
+    groups
+        For each heading, the titles of its figures by name, in the order of display.
     """
     listed = {heading: _listed(results, titles) for heading, titles in groups.items()}
     claims = results / "claims.json"

@@ -81,8 +81,10 @@ def with_model(caption: str, scene: dict) -> str:
 def at(config: dict, path: str):
     """Return the entry of a config at "section.key".
 
-    Raises:
-        LookupError: if there is no such entry.
+    Raises
+    ------
+    LookupError
+        If there is no such entry.
     """
     for key in path.split("."):
         config = config[key]

@@ -62,8 +62,10 @@ class Browser:
     def run(self, expression: str):
         """The value of a JavaScript expression on the page, a promise awaited.
 
-        Raises:
-            playwright.sync_api.Error: it throws.
+        Raises
+        ------
+        playwright.sync_api.Error
+            It throws.
         """
         return self.page.evaluate(expression)
 

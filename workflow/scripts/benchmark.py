@@ -24,6 +24,7 @@ sticking, where the same closed form in C++ takes 99 to 112 ns and one long run 
 
 
 def main(config: dict, output) -> None:
+    """Run the benchmark of a config, print its tables and write them."""
     from vibroimpact.accuracy.benchmark import measure, unavoidable_error
     from vibroimpact.accuracy.throughput import ranges, throughput
     from vibroimpact.accuracy.timing import versions

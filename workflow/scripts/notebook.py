@@ -47,9 +47,12 @@ papermill_engines.register("in_process", InProcess)
 def execute(notebook, executed, parameters: dict):
     """Execute a notebook with parameters and return it.
 
-    Raises:
-        ValueError: if the notebook lacks a parameter (papermill only warns), or if a cell rejects a value.
-        papermill.PapermillExecutionError: if a cell fails.
+    Raises
+    ------
+    ValueError
+        If the notebook lacks a parameter (papermill only warns), or if a cell rejects a value.
+    papermill.PapermillExecutionError
+        If a cell fails.
     """
     if unknown := sorted(parameters.keys() - papermill.inspect_notebook(str(notebook)).keys()):
         raise ValueError(f"notebook: {notebook} lacks the parameters {', '.join(unknown)}")

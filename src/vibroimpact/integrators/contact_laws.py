@@ -86,7 +86,6 @@ def hunt_crossley_number(kappa: float) -> float:
 
     d solves (1 + kappa) d = log((1 + d) / (1 - kappa d)).
     """
-
     if 1.0 - kappa < NEARLY_ELASTIC:
         return 1.5 * (1.0 - kappa)
 

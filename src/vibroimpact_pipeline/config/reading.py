@@ -54,8 +54,10 @@ for kind in ("int", "float"):
 def read(path) -> dict:
     """Return the entries of a config file; a null marks an entry to be removed.
 
-    Raises:
-        ConfigError: if the file cannot be read, is not a YAML mapping, or contains unsupported values; one line.
+    Raises
+    ------
+    ConfigError
+        If the file cannot be read, is not a YAML mapping, or contains unsupported values; one line.
     """
     try:
         with open(path, "rb") as file:
@@ -80,8 +82,10 @@ def merged(sources) -> dict:
 
     A null removes the entry of an earlier source. Inside a mapping given by `--config`, Snakemake passes null as text.
 
-    Raises:
-        ConfigError: if a null has nothing to remove, or a source contains unsupported values; one line for each.
+    Raises
+    ------
+    ConfigError
+        If a null has nothing to remove, or a source contains unsupported values; one line for each.
     """
     whole = {}
     for name, content in sources:
@@ -95,12 +99,17 @@ def merged(sources) -> dict:
 def checked(config: dict, sources=()) -> dict:
     """Validate a config and return its values, with numbers converted and defaults filled in.
 
-    Args:
-        config: all entries, as `merged` returns them.
-        sources: (name, content) of each source, later ones overriding earlier ones; used in messages.
+    Parameters
+    ----------
+    config
+        All entries, as `merged` returns them.
+    sources
+        (name, content) of each source, later ones overriding earlier ones; used in messages.
 
-    Raises:
-        ConfigError: if the config is invalid; one line "source: key: problem" for each problem.
+    Raises
+    ------
+    ConfigError
+        If the config is invalid; one line "source: key: problem" for each problem.
     """
     try:
         whole = {}
@@ -167,8 +176,10 @@ def _source(place, sources):
 def _with_text_keys(config):
     """Return a copy of a config with its keys converted to text.
 
-    Raises:
-        ValidationError: if the config has values of an unsupported type, or too many values.
+    Raises
+    ------
+    ValidationError
+        If the config has values of an unsupported type, or too many values.
     """
     found, values = [], count()
 

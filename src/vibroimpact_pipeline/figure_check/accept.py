@@ -26,14 +26,26 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
 
     Figures that are no longer built are removed from the set.
 
-    Args:
-        verdicts: verdicts on the figures to accept. build: folder that contains results/. reference: folder of the set.
-        reason: one line. date: date of the entry.
-        pictures_only: keep the reference tables and redraw the pictures from them.
+    Parameters
+    ----------
+    verdicts
+        Verdicts on the figures to accept.
+    build
+        Folder that contains results/.
+    reference
+        Folder of the set.
+    reason
+        One line.
+    date
+        Date of the entry.
+    pictures_only
+        Keep the reference tables and redraw the pictures from them.
 
-    Raises:
-        ValueError: if the reason is empty, or if `pictures_only` is set for a figure without reference. Nothing is
-            written in these cases.
+    Raises
+    ------
+    ValueError
+        If the reason is empty, or if `pictures_only` is set for a figure without reference. Nothing is written in these
+        cases.
     """
     reason, reference, build = " ".join(reason.split()), Path(reference), Path(build)
     if not reason:
@@ -75,6 +87,7 @@ def _built_from(verdict, build):
 
 
 def main(arguments=None) -> int:
+    """Accept the figures that the command line names; return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("figures", nargs="*", help="figures to accept; default: all that did not pass")
     parser.add_argument("--reason", default="", help="why the reference set changes")

@@ -34,6 +34,7 @@ def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
 
 
 def reference_sums(reference) -> dict[str, dict]:
+    """Return the checksums of the pictures of a reference set by figure."""
     path = Path(reference) / SUMS
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
 
@@ -49,15 +50,23 @@ def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]
 def check(figure: str, spec: dict | None, reference, build) -> dict:
     """Return the verdict on one figure as JSON data; a damaged file only fails this figure.
 
-    Args:
-        figure: name of the figure.
-        spec: SPEC of the figure with its drawing module as "module"; None if the figure is no longer built.
-        reference: folder of the reference set. build: folder that contains results/, up to date.
+    Parameters
+    ----------
+    figure
+        Name of the figure.
+    spec
+        SPEC of the figure with its drawing module as "module"; None if the figure is no longer built.
+    reference
+        Folder of the reference set.
+    build
+        Folder that contains results/, up to date.
 
-    Returns:
-        Mapping with the keys figure, stem (path of the pictures in the build, without suffix), module, files (name in
-        the reference set and path in the build of each compared table), status, reasons (one line each), distance
-        (the largest; 1 is the limit), tables (distances of `table_differences`, with the name of the table).
+    Returns
+    -------
+    dict
+        Keys figure, stem (path of the pictures in the build, without suffix), module, files (name in the reference set
+        and path in the build of each compared table), status, reasons (one line each), distance (the largest; 1 is the
+        limit), tables (distances of `table_differences`, with the name of the table).
     """
     verdict = {
         "figure": figure,

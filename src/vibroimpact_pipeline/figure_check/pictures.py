@@ -28,8 +28,10 @@ def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:
 def load_png(content: bytes) -> Image.Image:
     """Return the content of a PNG file as an RGBA image.
 
-    Raises:
-        OSError: if the content is not a PNG file.
+    Raises
+    ------
+    OSError
+        If the content is not a PNG file.
     """
     with Image.open(io.BytesIO(content), formats=["PNG"]) as opened:
         return opened.convert("RGBA")

@@ -31,14 +31,22 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
     Rows with equal text in the first two text columns that are not compared form a series. Rows of a series are
     compared one by one.
 
-    Args:
-        old: reference table. new: table of the build.
-        columns: column entries of a SPEC. Text columns that are not compared must be equal.
+    Parameters
+    ----------
+    old
+        Reference table.
+    new
+        Table of the build.
+    columns
+        Column entries of a SPEC. Text columns that are not compared must be equal.
 
-    Returns:
-        Reasons, and for each column and measure a mapping with the keys column, kind, measure, distance (1 is the
-        limit), where (place of the largest distance), reference and new (values there; medians for a measure of the
-        whole column).
+    Returns
+    -------
+    reasons : list of str
+        What cannot be compared.
+    distances : list of dict
+        For each column and measure the keys column, kind, measure, distance (1 is the limit), where (place of the
+        largest distance), reference and new (values there; medians for a measure of the whole column).
     """
     if list(old) != list(new):
         return [f"columns are {', '.join(new)} instead of {', '.join(old)}"], []
@@ -138,10 +146,13 @@ def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[s
 
     The return values are those of `table_differences`.
 
-    Args:
-        points: rows with columns of `table` and `tolerance`, relative to the extent of each axis. The text cells of a
-            point select the rows of `table` that form its curve. Blank cells are ignored.
-        table: plotted table of the build.
+    Parameters
+    ----------
+    points
+        Rows with columns of `table` and `tolerance`, relative to the extent of each axis. The text cells of a point
+        select the rows of `table` that form its curve. Blank cells are ignored.
+    table
+        Plotted table of the build.
     """
     if unknown := set(points) - {*table, "tolerance"}:
         return [f"unknown columns {', '.join(sorted(unknown))}; expected some of {', '.join(table)}, tolerance"], []

@@ -33,9 +33,14 @@ def words(figure: str, scene: dict, parameters: dict) -> dict:
 
     A figure of the chapter with other parameters than in the chapter gets the texts for figures of your own.
 
-    Args:
-        figure: name of the figure.
-        scene: entry of the figure in the config. parameters: parameters of the system that it shows, if any.
+    Parameters
+    ----------
+    figure
+        Name of the figure.
+    scene
+        Entry of the figure in the config.
+    parameters
+        Parameters of the system that it shows, if any.
     """
     known = specs()
     spec = spec_of(figure, scene, known)

@@ -26,8 +26,10 @@ def policy(*scripts: str) -> str:
 def guarded(page: str) -> str:
     """Return a page with a policy that allows no script.
 
-    Raises:
-        ValueError: if the page has no head element.
+    Raises
+    ------
+    ValueError
+        If the page has no head element.
     """
     page, found = HEAD.subn(f"<head>\n{policy()}\n", page, count=1)
     if not found:

@@ -14,8 +14,10 @@ TABLES = "fixed_points", "orbits", "verdict_grid", "modulation", "special_points
 def evidence(inputs: dict) -> Evidence:
     """Return the evidence on the cases of the chapter.
 
-    Args:
-        inputs: paths of results by name; simulations are named <case>_samples, <case>_events and <case>_summary.
+    Parameters
+    ----------
+    inputs
+        Paths of results by name; simulations are named <case>_samples, <case>_events and <case>_summary.
     """
     simulated = [name.removesuffix("_summary") for name in inputs if name.endswith("_summary")]
     return Evidence(
@@ -31,6 +33,7 @@ def of_the_chapter(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def simulation(case: str, inputs: dict) -> Simulation:
+    """Return the simulation of a case from the paths of its results."""
     samples, events = (pd.read_csv(inputs[f"{case}_{name}"]) for name in ("samples", "events"))
     summary = json.loads(Path(inputs[f"{case}_summary"]).read_text(encoding="utf-8"))
     return Simulation(samples, events, summary)

@@ -14,6 +14,7 @@ import yaml
 
 
 def header(path):
+    """Return the names of the columns of a CSV file."""
     with open(path, encoding="utf-8", newline="") as table:
         return next(csv.reader(table))
 

@@ -296,8 +296,7 @@ class Trajectory:
     # -- chatter -----------------------------------------------------------------------------------------
 
     def _follow_chatter(self, contacts):
-        """Add the impacts of this instant to the chatter they continue; complete the chatter once its limit is
-        known."""
+        """Add the impacts of this instant to the chatter they continue; complete it once its limit is known."""
         if self.chatter is None or self.chatter.contacts != contacts:
             self.chatter = Chatter(contacts, self.system.kappa) if contacts else None
         if not contacts or any(self.balls[module].stuck for module, _ in contacts):

@@ -8,6 +8,7 @@ from matplotlib import ft2font
 
 
 def drawing_versions() -> dict[str, str]:
+    """Return the versions on which the pixels of a picture depend."""
     return {"matplotlib": matplotlib.__version__, "freetype": ft2font.__freetype_version__}
 
 

@@ -144,9 +144,7 @@ def _border(system, cells, series):
 
 
 def _squares(cells, square):
-    """Return the centres of every four neighbouring cells, in order round the square, each with its count; gaps left
-    out.
-    """
+    """Yield the centres of each four neighbouring cells, in order round the square, with their counts; skip gaps."""
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
         around = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]

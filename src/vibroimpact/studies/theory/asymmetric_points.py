@@ -40,13 +40,20 @@ class AsymmetricPoint(Representation):
 
     Of a single machine it is that of the module that takes part: of the other, squared, C, B, psi and middle are NaN.
 
-    Attributes:
-        charts: the chart of each module.
-        x: its parameter there, shape (2,).
-        asymmetric: whether each module is on the asymmetric branch, shape (2,).
-        squared: v^2 of each module, shape (2,), v the difference of its flights over the period; 0 where symmetric.
-        C, B, psi, slow_eigenvalues: as of a FixedPoint.
-        middle: phase of U half-way from the impact with W = +1 to the next one [rad], shape (2,).
+    Attributes
+    ----------
+    charts : tuple of str
+        Chart of each module.
+    x : ndarray
+        Parameter of each module in its chart, shape (2,).
+    asymmetric : ndarray
+        True for a module on the asymmetric branch, shape (2,).
+    squared : ndarray
+        v^2 of each module, shape (2,), with the difference v of its flights over the period; 0 if symmetric.
+    C, B, psi, slow_eigenvalues : ndarray
+        As for a FixedPoint.
+    middle : ndarray
+        Phase of U half-way from the impact with W = +1 to the next one [rad], shape (2,).
     """
 
     charts: tuple[str, str]

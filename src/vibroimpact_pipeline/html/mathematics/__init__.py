@@ -29,10 +29,12 @@ MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)'
 
 
 def mathml(tex: str, display: bool) -> str:
-    """Return a LaTeX formula as MathML, within a line or displayed on its own, where it may have a \\tag.
+    r"""Return a LaTeX formula as MathML, within a line or displayed on its own, where it may have a \tag.
 
-    Raises:
-        math_core.LatexError: if the formula cannot be converted.
+    Raises
+    ------
+    math_core.LatexError
+        If the formula cannot be converted.
     """
     if display and r"\tag" in tex:
         tex = rf"\begin{{equation}}{tex}\end{{equation}}"

@@ -40,12 +40,18 @@ FIGURE = """\
 class Pages:
     """Pages of the report.
 
-    Args:
-        root: the checkout.
-        results: a `Results` object.
-        config: the config of the pipeline.
-        shown: names of figures by group, in the order of display.
-        tables: names of additional results to download.
+    Parameters
+    ----------
+    root
+        The checkout.
+    results
+        A `Results` object.
+    config
+        The config of the pipeline.
+    shown
+        Names of figures by group, in the order of display.
+    tables
+        Names of additional results to download.
     """
 
     def __init__(self, root, results, config: dict, shown: dict, tables=()):
@@ -191,8 +197,10 @@ def attribute(text) -> str:
 def data(name: str, text: str) -> str:
     """Return JSON as a script element of a page, with < escaped so that no text ends the element.
 
-    Raises:
-        ValueError: if the text is not JSON.
+    Raises
+    ------
+    ValueError
+        If the text is not JSON.
     """
     inert = json.dumps(json.loads(text), separators=(",", ":")).replace("<", r"\u003c")
     return f'<script type="application/json" id="{attribute(name)}">{inert}</script>'

@@ -13,9 +13,12 @@ FOLDERS = ("figures", "accuracy", "force_sweep", "animations", "nudge")
 class Results:
     """Results of a build in one directory.
 
-    Args:
-        root: the directory.
-        judged: False if claims are not judged because the parameters are not those of the chapter.
+    Parameters
+    ----------
+    root
+        The directory.
+    judged
+        False if claims are not judged because the parameters are not those of the chapter.
     """
 
     def __init__(self, root, judged: bool = True):
@@ -31,8 +34,10 @@ class Results:
     def files(self, figure: str) -> dict[str, Path]:
         """Return the files of a figure by kind, and its additional tables <figure>.<name>.csv by name.
 
-        Raises:
-            ValueError: if there are no files of the figure.
+        Raises
+        ------
+        ValueError
+            If there are no files of the figure.
         """
         for folder in FOLDERS:
             found = {kind: self.root / folder / f"{figure}.{kind}" for kind in KINDS}
@@ -73,8 +78,10 @@ class Results:
     def value(self, place: str):
         """Return a number, given its place as in docs/studies/numbers.yaml.
 
-        Raises:
-            ValueError: if the query does not find exactly one value.
+        Raises
+        ------
+        ValueError
+            If the query does not find exactly one value.
         """
         file, *path = place.removeprefix("percent | ").split(" | ")
         scale = 100 if place.startswith("percent | ") else 1

@@ -66,13 +66,23 @@ SPHINX = {
 def write(folder, root, pages, built: str, departures=()) -> None:
     """Write the site and the PDF into a folder that already contains figures, data and notebooks.
 
-    Args:
-        folder: folder of the site. root: the checkout. pages: a `Pages` object.
-        built: version that the pages are built from.
-        departures: differences from the parameters of the chapter, one line each; every page shows them.
+    Parameters
+    ----------
+    folder
+        Folder of the site.
+    root
+        The checkout.
+    pages
+        A `Pages` object.
+    built
+        Version that the pages are built from.
+    departures
+        Differences from the parameters of the chapter, one line each; every page shows them.
 
-    Raises:
-        RuntimeError: if Sphinx reports a warning on a page; warnings on docstrings are ignored.
+    Raises
+    ------
+    RuntimeError
+        If Sphinx reports a warning on a page; warnings on docstrings are ignored.
     """
     notice = NOTICE + "; ".join(departures) if departures else ""
     write_site(Path(folder), Path(root), pages, built, notice)
