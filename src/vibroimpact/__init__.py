@@ -3,6 +3,7 @@
 - `System`, `PhysicalSystem`: the parameters, dimensionless or in SI units.
 - `fixed_points`: the motions that the chapter's theory predicts.
 - `orbits`, `prove`: exact periodic motions with their Floquet multipliers; the proof of one in interval arithmetic.
+- `periodic_orbit`: a periodic motion of any period and any impacts, refined from a state near it.
 - `simulate`, `simulate_many`, `ensemble`: one exact run; many; summary statistics of many.
 - `largest_lyapunov`, `lyapunov_spectrum`: Lyapunov exponents with errors.
 - `attractors`, `basins`: the attractors of a system; their basins on a plane of initial states.

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
-from vibroimpact.exact.orbits.newton import newton
+from vibroimpact.exact.orbits.newton import follow as from_root
 from vibroimpact.exact.orbits.search import asymmetric_orbit
 from vibroimpact.exact.orbits.symmetric import wrapped
 from vibroimpact.studies.regimes.epsilon_limit import Comparison, paired
@@ -51,14 +51,13 @@ def follow(system, root, values) -> list[Station]:
 
     The way ends early where the orbit merges with a symmetric one or Newton's method loses it.
     """
-    stations = [Station(system, np.asarray(root, dtype=float))]
-    for epsilon in values:
-        last, slower = stations[-1], system.with_(epsilon=epsilon)
-        start = np.concatenate([last.root[:4] * slower.period / last.system.period, last.root[4:]])
-        found = newton(AsymmetricConditions(slower), start[None], reach=0.1)
-        if not len(found) or max(Station(slower, found[0]).place[2:4]) < _BORN:
-            break
-        stations.append(Station(slower, np.concatenate([wrapped(found[0, :4], slower.period), found[0, 4:]])))
+    root = np.asarray(root, dtype=float)
+    stations = [Station(system, root)]
+    for epsilon, x in from_root(lambda epsilon: AsymmetricConditions(system.with_(epsilon=epsilon)), root, values, 1.0):
+        slower = system.with_(epsilon=epsilon)
+        stations.append(Station(slower, np.concatenate([wrapped(x[:4], slower.period), x[4:]])))
+        if max(stations[-1].place[2:4]) < _BORN:
+            return stations[:-1]
     return stations
 
 
