@@ -26,6 +26,7 @@ def long_description(readme: str, repository: str | None, version: str) -> str:
 
 class Metadata(MetadataHookInterface):
     """Add the long description and the addresses of the project to its metadata."""
+
     def update(self, metadata):
         root = Path(self.root)
         found = REPOSITORY.search((root / "CITATION.cff").read_text(encoding="utf-8"))
