@@ -87,7 +87,7 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
         past = {name: tables[name][tables[name]["t"] <= cycle] for name in ("distance", "flights")}
         frame = io.BytesIO()
         draw(tables | past).savefig(frame, dpi=120)
-        frames.append(Image.open(frame).convert("P", palette=Image.Palette.ADAPTIVE, colors=32))
+        frames.append(Image.open(frame).convert("L"))
     durations = [300] * (len(frames) - 1) + [3000]  # [ms]
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=durations, loop=0)
 
