@@ -91,33 +91,53 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
             reasons.append(f"{reason}: {', '.join(missing)}")
     if reasons:
         return verdict
-    old, new = {}, {}
-    for name, (file, path) in files.items():
-        with _errors_as_reasons(reasons, f"{file}: unreadable"):
-            old[name], new[name] = read(reference / file), read(build / path)
-            found, distances = table_differences(old[name], new[name], each(spec["tables"][name]["columns"]))
-            reasons += [f"{file}: {reason}" for reason in found]
-            verdict["tables"] += [{"table": file, **one} for one in distances]
-    printed = reference / f"published/{figure}.csv"
-    if printed.is_file():
-        with _errors_as_reasons(reasons, f"published/{printed.name}: unreadable"):
-            found, distances = printed_distances(read(printed), new["csv"])
-            reasons += [f"published/{printed.name}: {reason}" for reason in found]
-            verdict["tables"] += [{"table": f"published/{printed.name}", **one} for one in distances]
+    old, new = _compare_tables(verdict, spec, reference, build)
+    _compare_with_print(verdict, reference / f"published/{figure}.csv", new)
     others = []
-    with _errors_as_reasons(reasons, "picture: unreadable or not drawable"), TemporaryDirectory() as folder:
-        # If the tables are equal, `draw` would reproduce the built picture from the reference tables.
-        equal = all(name in new and old[name].equals(new[name]) for name in files)
-        today = pictures.sums(built if equal else pictures.draw(spec["module"], old, figure, folder))
-        known = reference_sums(reference).get(figure, {})
-        before = known | pictures.sums({"png": published[0]})
-        others = [kind for kind in pictures.KINDS if today[kind] != before.get(kind)]
-        if pictures.is_blank(built["png"]):
-            reasons.append("picture: blank")
-        if others and known.get("drawn with") == drawing_versions():
-            reasons.append(f"picture: {', '.join(others)} drawn from the reference tables differs from the reference")
+    with _errors_as_reasons(reasons, "picture: unreadable or not drawable"):
+        others = _other_pictures(verdict, reference, built, old, new)
     far = max((one["distance"] for one in verdict["tables"]), default=0.0)
     return verdict | {"status": FAILED if reasons else NOT_COMPARABLE if others else PASSED, "distance": far}
+
+
+def _compare_tables(verdict, spec, reference, build) -> tuple[dict, dict]:
+    """Add the differences of all tables to a verdict; return the tables of the reference set and of the build."""
+    old, new = {}, {}
+    for name, (file, path) in verdict["files"].items():
+        with _errors_as_reasons(verdict["reasons"], f"{file}: unreadable"):
+            old[name], new[name] = read(reference / file), read(build / path)
+            _add(verdict, file, table_differences(old[name], new[name], each(spec["tables"][name]["columns"])))
+    return old, new
+
+
+def _compare_with_print(verdict, printed, new):
+    """Add the distances of a build from points of the printed figure to a verdict, if there are such points."""
+    if printed.is_file():
+        with _errors_as_reasons(verdict["reasons"], f"published/{printed.name}: unreadable"):
+            _add(verdict, f"published/{printed.name}", printed_distances(read(printed), new["csv"]))
+
+
+def _add(verdict, file, differences):
+    reasons, distances = differences
+    verdict["reasons"] += [f"{file}: {reason}" for reason in reasons]
+    verdict["tables"] += [{"table": file, **one} for one in distances]
+
+
+def _other_pictures(verdict, reference, built, old, new) -> list[str]:
+    """Return the kinds of pictures that differ from those of the reference set; a blank picture is a reason to fail."""
+    # If the tables are equal, `draw` would reproduce the built picture from the reference tables.
+    equal = all(name in new and old[name].equals(new[name]) for name in verdict["files"])
+    with TemporaryDirectory() as folder:
+        today = pictures.sums(built if equal else pictures.draw(verdict["module"], old, verdict["figure"], folder))
+    known = reference_sums(reference).get(verdict["figure"], {})
+    before = known | pictures.sums({"png": reference / f"{verdict['figure']}.png"})
+    others = [kind for kind in pictures.KINDS if today[kind] != before.get(kind)]
+    if pictures.is_blank(built["png"]):
+        verdict["reasons"].append("picture: blank")
+    if others and known.get("drawn with") == drawing_versions():
+        differ = f"picture: {', '.join(others)} drawn from the reference tables differs from the reference"
+        verdict["reasons"].append(differ)
+    return others
 
 
 @contextmanager
