@@ -55,6 +55,71 @@ class Strip extends Chart {
   }
 }
 
+// The plane of both forces, a cell per run of the sweep; a click or an arrow key chooses a cell.
+class RegimeMap extends Chart {
+  constructor(parts, data, choose) {
+    super(parts.map, 0);
+    Object.assign(this, { parts, data, choose, bottom: 36, at: -1, count: Math.sqrt(data.cells.length) });
+    parts.regimes.hidden = false;
+    for (const [regime, name] of Object.entries(data.names)) {
+      const entry = document.createElement("span"), box = document.createElement("b");
+      box.className = "line hit";
+      box.style.background = data.colours[regime];
+      entry.append(box, name);
+      parts["regime-key"].append(entry);
+    }
+    parts.map.addEventListener("click", ({ offsetX, offsetY }) => this.take(...this.cellOf(offsetX, offsetY)));
+    parts.map.addEventListener("keydown", (event) => {
+      const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
+      if (!move) return;
+      event.preventDefault();
+      const at = Math.max(this.at, 0);
+      this.take(Math.floor(at / this.count) + move[0], (at % this.count) + move[1]);
+    });
+  }
+
+  get size() { return [this.inner[0] / this.count, this.inner[1] / this.count]; }
+
+  cellOf(x, y) { return [Math.floor((x - this.left) / this.size[0]), this.count - 1 - Math.floor((y - this.top) / this.size[1])]; }
+
+  take(column, row) {
+    const [i, j] = [column, row].map((n) => Math.min(Math.max(n, 0), this.count - 1));
+    this.at = i * this.count + j;
+    this.show();
+    this.choose(this.data.cells[this.at]);
+  }
+
+  layout() {
+    super.layout();
+    const { cells, colours } = this.data, [width, height] = this.size, last = cells.length - 1, end = cells[0][0] + cells[last][0];
+    const corner = (n) => ({ x: this.left + Math.floor(n / this.count) * width, y: this.top + (this.count - 1 - (n % this.count)) * height, width: width + 0.5, height: height + 0.5 });
+    cells.forEach(([, , regime], n) => mark(this.back, "rect", "", { ...corner(n), fill: colours[regime] }));
+    for (const share of [0, 0.5, 1]) {
+      this.text(this.back, this.left + share * this.inner[0], this.height - 20, (share * end).toFixed(1));
+      this.text(this.back, this.left - 6, this.top + (1 - share) * this.inner[1] + 4, (share * end).toFixed(1), "end");
+    }
+    this.text(this.back, this.left + this.inner[0] / 2, this.height - 4, "force on box 1; upwards: on box 2");
+    this.corner = corner;
+    this.show();
+  }
+
+  show() {
+    this.front.replaceChildren();
+    if (this.at < 0) return;
+    const [f10, f20, regime] = this.data.cells[this.at];
+    mark(this.front, "rect", "chosen", this.corner(this.at));
+    this.parts.place.textContent = `Forces ${f10.toFixed(2)} and ${f20.toFixed(2)}: most often ${this.data.names[regime]}`;
+  }
+}
+
+// Prediction of the theory for module 2 over one cycle, (10.9) and (10.10), from C, B and psi of a fixed point.
+function predicted({ C, B, psi, ...point }, { epsilon, kappa }) {
+  const rho = (2 * (1 - kappa)) / (Math.PI * (1 + kappa)), theta = Math.atan2(1 - C, rho * C);
+  const U = Array.from({ length: STEPS }, (_, k) => B * Math.sin((2 * Math.PI * k) / STEPS - psi));
+  const W = U.map((u, k) => u + (2 / Math.PI) * C * Math.asin(Math.cos((2 * Math.PI * k) / STEPS - psi - theta)));
+  return { ...point, W, X: U.map((u, k) => (u + epsilon * W[k]) / (1 + epsilon)) };
+}
+
 class Play {
   constructor(root) {
     this.data = dataOf(root);
@@ -63,7 +128,9 @@ class Play {
     this.machine = new Machine(parts.machine);
     this.strips = [new Strip(parts.box, 170, false), new Strip(parts.ball, 230, true)];
     this.take(Object.values(data.cases)[0].forces, SETTLED);
-    new ResizeObserver(() => { for (const strip of this.strips) strip.layout(); this.show(); }).observe(root);
+    const regimes = document.getElementById("play-map-data");
+    if (regimes) this.map = new RegimeMap(parts, JSON.parse(regimes.textContent), (cell) => this.take(cell, SKIPPED, cell[3]));
+    new ResizeObserver(() => { for (const chart of [...this.strips, this.map]) chart?.layout(); this.show(); }).observe(root);
     this.clock = new Clock(parts.run, (seconds) => this.simulate(seconds * Number(parts.pace.value)));
     this.connect();
   }
@@ -75,7 +142,7 @@ class Play {
     parts.again.addEventListener("click", () => this.begin(0));
     for (const [part, name] of [["f1", "f10_hat"], ["f2", "f20_hat"], ["kappa", "kappa"]]) {
       parts[part].addEventListener("input", () => {
-        this.parameters[name] = Number(parts[part].value);
+        this.parameters = { ...this.parameters, [name]: Number(parts[part].value) };
         this.run.change(this.parameters);
         this.sections = [];
         this.changed();
@@ -91,8 +158,10 @@ class Play {
     }
   }
 
-  take([f10_hat, f20_hat], cycles) {
+  // Take the forces, and the fixed points of the theory there if they are not those of a case.
+  take([f10_hat, f20_hat], cycles, points = []) {
     this.parameters = { ...this.data.system, f10_hat, f20_hat };
+    this.there = { parameters: this.parameters, points: points.map((point) => predicted(point, this.parameters)) };
     this.speed = SPEED;
     this.begin(cycles);
     this.changed();
@@ -126,7 +195,7 @@ class Play {
     this.show();
   }
 
-  // Update the sliders and the predictions, which exist only for the cases of the config.
+  // Update the sliders and the predictions, which exist only for the cases of the config and the cells of the map.
   changed() {
     const { parts, data, parameters } = this, { f10_hat, f20_hat, kappa } = parameters;
     for (const [part, value] of [["f1", f10_hat], ["f2", f20_hat], ["kappa", kappa], ["start", this.speed]]) {
@@ -136,7 +205,7 @@ class Play {
       parts[part].parentElement.querySelector("output").textContent = text;
     }
     const here = Object.values(data.cases).find(({ forces }) => forces[0] === f10_hat && forces[1] === f20_hat && kappa === data.system.kappa);
-    this.points = here?.points ?? [];
+    this.points = here?.points ?? (this.there.parameters === parameters ? this.there.points : []);
     parts.point.replaceChildren(...this.points.map(({ label, printed }, n) => new Option(`${label}: ${printed} by the chapter`, n)), new Option("none", ""));
     parts.point.value = this.points.length ? this.points.length - 1 : "";
     this.show();

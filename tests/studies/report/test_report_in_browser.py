@@ -228,6 +228,23 @@ def test_a_case_takes_back_restitution_and_start_and_its_prediction_is_told_unst
     assert shown(still, "stable").startswith("unstable: each cycle multiplies a small error by 2.44")
 
 
+def test_a_click_on_the_map_shows_exact_motion_and_theory_with_the_multiplier(still):
+    """At the centre of its cell, against vi.orbits; an arrow key goes on to the next cell."""
+    still.page.locator("#play-map").scroll_into_view_if_needed()
+    square = still.run(
+        "(b => [b.x, b.y, b.width, b.height])(document.querySelector('#play-map .frame').getBoundingClientRect())"
+    )
+    still.page.mouse.click(square[0] + 22.5 / 30 * square[2], square[1] + (1 - 20.5 / 30) * square[3])
+    system = vi.System(**PARAMETERS, f10_hat=1.2, f20_hat=20.5 / 30 * 1.6)
+    assert shown(still, "place").startswith("Forces 1.20 and 1.09: most often ")
+    assert still.run("document.getElementById('play-point').options.length") == len(vi.fixed_points(system)) + 1
+    assert still.run("document.querySelector('#play-ball .ghost').points.length") > 100
+    multiplier = float(shown(still, "stable").rpartition(" ")[2])
+    assert any(abs(orbit.multipliers[0]) == pytest.approx(multiplier, rel=0.01) for orbit in vi.orbits(system))
+    still.press("ArrowUp")
+    assert shown(still, "place").startswith("Forces 1.20 and 1.15: ")
+
+
 @pytest.mark.thorough
 def test_the_nudged_motion_climbs_and_plays_again(browser, site):
     """Its still is the whole climb: a dot per period, on the line of the multiplier; a press begins anew."""

@@ -4,6 +4,11 @@ import json
 
 import numpy as np
 
+from vibroimpact.exact.orbits.floquet import floquet
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions_under
+from vibroimpact.studies.claims.verdict_grid import exact_orbits
+from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
+from vibroimpact.studies.regimes.classification import CHAOTIC, REGIMES
 from vibroimpact.system.chapter import PARAMETERS
 from vibroimpact.system.parameters import System
 from vibroimpact.system.verdict import STABLE
@@ -54,6 +59,46 @@ def _exact(results) -> dict:
         }
         for row in points.itertuples()
     }
+
+
+def map_data(results, config: dict) -> str:
+    """Return the data of the map of regimes on the page Play as JSON, or an empty text if it is of another system.
+
+    Each cell has its forces, its most frequent regime, and its fixed points: C, B and psi of module 2, the verdict
+    of (10.26), and the verdict and largest multiplier of the exact orbit.
+    """
+    first, *_ = (case_parameters(config, case) for case in config["cases"])
+    swept = case_parameters(config, config["sweeps"]["regime_map"]["case"]) if "regime_map" in config["sweeps"] else {}
+    if any(swept.get(name) != first[name] for name in PARAMETERS):
+        return ""
+    table, system = (
+        results.table("sweeps/regime_map.csv"),
+        System(**{name: swept[name] for name in (*PARAMETERS, *FORCES)}),
+    )
+    regimes = table[list(REGIMES)].fillna(0.0).idxmax(axis=1)
+    forces = table[list(FORCES)].to_numpy()
+    cells = []
+    for (f10, f20), regime, roots in zip(forces, regimes, symmetric_solutions_under(system, forces), strict=True):
+        here = system.with_(f10_hat=f10, f20_hat=f20)
+        points = fixed_points(here)
+        exact = exact_orbits(here, [point.C for point in points], roots)
+        found = [_of_cell(here, point, orbit) for point, orbit in zip(points, exact, strict=True)]
+        cells.append([round(f10, 4), round(f20, 4), regime, found])
+    names = {regime: "chaotic, always resonant" if regime == CHAOTIC else regime for regime in dict.fromkeys(regimes)}
+    return json.dumps({"cells": cells, "names": names, "colours": {regime: COLOURS[regime] for regime in names}})
+
+
+def _of_cell(system, point, orbit):
+    place = {name: round(float(getattr(point, name)[1]), 4) for name in ("C", "B", "psi")}
+    verdicts = {"label": point.label, "printed": of_fixed_point(system, point)["printed_10_26"]}
+    if orbit is None:
+        return place | verdicts | {"exact": "no exact orbit", "multiplier": ""}
+    largest = abs(orbit.multipliers[0])
+    return (
+        place
+        | verdicts
+        | {"exact": floquet(orbit), "multiplier": f"{largest:.3g}" if largest < 1e3 else f"{largest:.0f}"}
+    )
 
 
 def verdict_data(results, config: dict) -> str:

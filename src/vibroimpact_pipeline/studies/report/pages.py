@@ -12,7 +12,7 @@ import yaml
 from vibroimpact.figures.plotting.markdown import code, digits, one_line, plain
 from vibroimpact_pipeline import data_dictionary
 from vibroimpact_pipeline.html.figure_texts import figure_texts
-from vibroimpact_pipeline.studies.report.live import live_data, verdict_data, verdict_dots
+from vibroimpact_pipeline.studies.report.live import live_data, map_data, verdict_data, verdict_dots
 
 TEMPLATES = "report/pages"
 NUMBER = re.compile(r"\[(?P<number>−?[\d.]+)\]\((?:studies/)?numbers\.yaml#(?P<key>[\w.-]+)\)")
@@ -81,6 +81,7 @@ class Pages:
             "data": data,
             "dictionary": lambda of_figures: data_dictionary.page(*data_dictionary.read(self.root), of_figures),
             "live_data": lambda: live_data(results, config),
+            "map_data": lambda: map_data(results, config),
             "verdict_data": lambda: verdict_data(results, config),
             "verdict_dots": lambda: verdict_dots(results),
         }
