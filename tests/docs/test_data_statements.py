@@ -79,14 +79,6 @@ def test_fixed_points_lie_on_the_manifold_and_criteria_say_what_their_limits_say
         assert ((rows["fast"] == "stable") == derived).all()
 
 
-def test_the_orbit_of_a_fixed_point_is_the_nearest_symmetric_one(table):
-    orbits = table("orbits.csv")
-    for point in table("fixed_points.csv").itertuples():
-        near = orbits[(orbits["case"] == point.case) & orbits["symmetric"]]
-        gaps = np.hypot(near["C1"] - point.C1, near["C2"] - point.C2)
-        assert near.loc[gaps.idxmin(), ["label", "exact"]].tolist() == [point.orbit, point.floquet]
-
-
 @pytest.mark.parametrize("run", ["equal/float64", "weak/reference"])
 def test_a_simulated_window_is_evenly_spaced_and_its_events_are_at_the_walls(built, table, run):
     folder = f"simulations/{run}"

@@ -13,8 +13,6 @@ from pipeline_trees import ROOT
 from verdict_tables import verdicts_of
 from vibroimpact.exact.orbits.search import half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.theory.manifold import largest_C
-from vibroimpact.theory.masri import impact_multipliers
 
 PAGE = (ROOT / "docs/stability.md").read_text(encoding="utf-8")
 TEXT = " ".join(PAGE.split())
@@ -52,23 +50,6 @@ def nearest_orbit(system, C):
 
 def point_c():
     return min(vi.fixed_points(SYSTEMS["equal"]), key=lambda point: abs(point.C[1] - 1.6771)).C
-
-
-def test_largest_C_within_the_walls():
-    kappas, C = cells("$\\kappa$")
-    for kappa, value in zip(kappas[1:], C[1:], strict=True):
-        # At 0.0867, itself rounded, the value is that of symmetry breaking.
-        assert largest_C(float(kappa)) == pytest.approx(float(value), abs=4e-4 if kappa == "0.0867" else 5.1e-5)
-    assert largest_C(1 - 1e-9) == said(r"1 at \$\\kappa\\to0\$ to ([\d.]+) at")
-    largest = max(point.C.max() for system in SYSTEMS.values() for point in vi.fixed_points(system))
-    assert largest == said(r"the largest \$C\$ is ([\d.]+)\)")
-    assert largest < largest_C(0.65) == said(r"holds for \$0\\le C\\le ([\d.]+)\$")
-
-
-def test_the_reading_with_squares():
-    assert said(r"\}\$ was meant: ([\d.]+) in place") == 1.65**2 / (2 * (1 + 0.65**2))
-    assert said(r"in place of ([\d.]+) at") == 3.3 / 3.65
-    assert impact_multipliers(1.65**2 / (2 * (1 + 0.65**2)), 0.65).max() == said(r"multiplier of ([\d.]+) at the limit")
 
 
 def test_the_force_at_which_point_b_passes_a_limit():

@@ -59,12 +59,6 @@ def test_names_cover_no_curve_marker_or_name_whatever_the_timings_are(seed):
         assert len(axes.texts) == len(LOOKS)
 
 
-def test_names_in_the_chart_of_grazing_cover_nothing():
-    (axes,) = grazing.draw(read(ROOT / "figures/grazing.csv")).axes
-    expect_clear_names(axes)
-    assert {text.get_text() for text in axes.texts} == {*LOOKS}
-
-
 @pytest.mark.parametrize("figure", [fig10_06, fig10_09])
 def test_names_of_points_cover_nothing_and_points_near_the_fold_are_drawn_larger(figure):
     table = read(ROOT / f"figures/{figure.__name__.rpartition('.')[2]}.csv")

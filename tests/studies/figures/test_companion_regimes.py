@@ -7,7 +7,6 @@ from matplotlib.colors import to_rgb
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from figure_tables import lightness
 from studies.absorber_sweeps import BAND, tables_of
 from vibroimpact.studies.figures import companion_absorber
 from vibroimpact.studies.figures import companion_branches as branches
@@ -115,15 +114,6 @@ def test_hopping_is_not_painted_as_chaos(map_of_regimes):
     (mark,) = (line for line in figure.axes[0].lines if line.get_marker() == MARKS["hopping"])
     assert mark.get_xydata().tolist() == cells[["f10_hat", "f20_hat"]].iloc[[3]].to_numpy().tolist()
     assert "hopping" in {text.get_text() for text in figure.legends[0].get_texts()}
-
-
-def test_neighbours_in_a_map_differ_in_grey_print():
-    """Asymmetric responses beside modulated ones, and the others that fill patches."""
-    large = ["symmetric", "chaotic", "asymmetric", "strongly modulated", "other periodic"]
-    shades = [lightness(COLOURS[name]) for name in large]
-    assert np.diff(shades).min() > 10
-    assert shades[3] - shades[2] > 15
-    assert abs(lightness(COLOURS["asymmetric"]) - lightness(COLOURS["asymmetric, mirrored"])) > 15
 
 
 def test_lowest_peaks_are_measured_again_at_their_places_with_a_standard_error():

@@ -213,21 +213,6 @@ def test_the_trace_is_the_motion_of_the_library(still):
         assert still.run(f"(1 - 2 * ({last} - {top}) / {height}) * {end}") == pytest.approx(expected, abs=0.005)
 
 
-CASE = "[...document.querySelectorAll('#play-cases button')].find(b => b.textContent === 'case {}').click()"
-
-
-@pytest.mark.thorough
-def test_a_case_takes_back_restitution_and_start_and_its_prediction_is_told_unstable(still):
-    for knob in ("kappa", "start"):
-        focus(still, f"#play-{knob}")
-        still.press("End")
-    still.run(CASE.format("equal"))
-    values = [still.run(f"document.getElementById('play-{knob}').value") for knob in ("kappa", "start")]
-    assert [float(value) for value in values] == [0.65, 0.5]
-    assert shown(still, "printed") == "stable"
-    assert shown(still, "stable").startswith("unstable: each cycle multiplies a small error by 2.44")
-
-
 def test_a_click_on_the_map_shows_exact_motion_and_theory_with_the_multiplier(still):
     """At the centre of its cell, against vi.orbits; an arrow key goes on to the next cell."""
     still.page.locator("#play-map").scroll_into_view_if_needed()

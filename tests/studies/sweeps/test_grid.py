@@ -22,13 +22,6 @@ def test_parameters_move_together_and_the_others_stay():
     assert grid.system(3) == BASE.with_(kappa=0.5, f10_hat=0.8, f20_hat=0.8)
 
 
-def test_parameters_that_move_together_may_have_values_of_their_own():
-    grid = Grid(BASE, [axis(["kappa"], [0.2, 0.8], 2), axis(["f10_hat", "f20_hat"], tuples=[[0.4, 0.4], [0, 1]])])
-    assert len(grid) == 4
-    assert grid.place(3) == {"kappa": 0.8, "f10_hat": 0.0, "f20_hat": 1.0}
-    assert grid.system(1) == BASE.with_(kappa=0.2, f10_hat=0.0, f20_hat=1.0)
-
-
 def test_a_point_without_a_system_is_named():
     grid = Grid(BASE, [axis(["sigma_e_hat"], [-20, 0], 2), axis(["epsilon"], listed=[0.01, 0.1])])
     assert grid.system(0).Omega == pytest.approx(0.8)
