@@ -11,7 +11,7 @@ import numpy as np
 
 from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
-from vibroimpact.integrators.right_hand_side import coefficients, inlined
+from vibroimpact.integrators.right_hand_side import coefficients, inlined, inlined_source
 from vibroimpact.integrators.rigid_contact import (
     ROOM,
     SLOWEST,
@@ -145,49 +145,59 @@ def _march(q, tables, s, tau, end, step, limit):
     Rows hold [time, module, wall, speed].
     """
     counts, all_rates, all_shapes, inverses = tables
-    walls, ahead = np.zeros(2), np.empty((4, 2, 5))
-    amplitudes, now, trial, turns = np.empty((2, 5)), np.empty((2, 5)), np.empty((2, 5)), np.empty((2, 5))
-    before, there, event, found = np.empty(8), np.empty(8), np.empty(8), np.empty(8)
+    walls, ahead, amplitudes = np.zeros(2), np.empty((4, 2, 5)), np.empty((2, 5))
+    memory = np.empty((3, 2, 5)), np.empty((3, 8)), np.empty(8)
     for m in range(4):
         _turn(all_rates[m], counts[m], step, ahead[m])
     rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0, SLOWEST)
     looks = 0
     while tau < end and looks < limit:
         m = (1 if walls[0] != 0.0 else 0) + (2 if walls[1] != 0.0 else 0)
-        count, rates, shape = counts[m], all_rates[m], all_shapes[m]
-        _amplitudes(s, tau, q[8], count, inverses[m], shape, amplitudes)
-        flight = s, walls, count, shape, rates, amplitudes
-        low, high, due, first = 0.0, first_look(tau, s, q, walls, step), -1, 0.0
-        before[:] = s
-        regular = False
-        while looks < limit:
-            looks += 1
-            last = high >= end - tau
-            if last or not regular:
-                high = end - tau if last else high
-                _turn(rates, count, high, turns)
-                _advance(turns, count, amplitudes, now)
-            else:
-                _advance(ahead[m], count, now, now)
-            _state(s, walls, count, shape, now, high, there)
-            for i in range(2):
-                if guard(tau + high, there, q, walls, i) < 0.0:
-                    t = _event(q, flight, tau, i, (low, high), (before, there), (turns, trial), event)
-                    if due < 0 or t < first:
-                        due, first = i, t
-                        found[:] = event
-            if due >= 0 or last:
-                break
-            low, high, regular = high, high + step, True
-            before[:] = there
+        _amplitudes(s, tau, q[8], counts[m], inverses[m], all_shapes[m], amplitudes)
+        flight = s, walls, counts[m], all_shapes[m], all_rates[m], amplitudes
+        due, t, taken = _fly(q, flight, tau, end - tau, (step, ahead[m]), limit - looks, memory)
+        looks += taken
+        s[:] = memory[2]
+        tau = end if due < 0 and t >= end - tau else tau + t
         if due >= 0:
-            s[:] = found
-            tau += first
             rows, noted = resolve(tau, s, q, walls, due, rows, noted, SLOWEST)
-        else:
-            s[:] = there
-            tau = end if last else tau + high
     return s, rows[:noted], looks, tau
+
+
+@inlined_source()
+def _fly(q, flight, tau, length, stride, most, memory):
+    """Sample a flight until an event, its end or `most` samples; return (module due or -1, time, number of samples).
+
+    stride: time between samples, and the factors of the amplitudes over it. The state at that time is written to
+    memory[2].
+    """
+    (s, walls, count, shape, rates, amplitudes), (step, ahead), (modes, states, reached) = flight, stride, memory
+    (now, trial, turns), (before, there, event) = modes, states
+    low, high, due, first, regular, looks = 0.0, first_look(tau, s, q, walls, step), -1, 0.0, False, 0
+    before[:] = s
+    while True:
+        looks += 1
+        last = high >= length
+        if last or not regular:
+            high = length if last else high
+            _turn(rates, count, high, turns)
+            _advance(turns, count, amplitudes, now)
+        else:
+            _advance(ahead, count, now, now)
+        _state(s, walls, count, shape, now, high, there)
+        for i in range(2):
+            if guard(tau + high, there, q, walls, i) < 0.0:
+                t = _event(q, flight, tau, i, (low, high), (before, there), (turns, trial), event)
+                if due < 0 or t < first:
+                    due, first = i, t
+                    reached[:] = event
+        if due >= 0:
+            return due, first, looks
+        if last or looks >= most:
+            reached[:] = there
+            return -1, high, looks
+        low, high, regular = high, high + step, True
+        before[:] = there
 
 
 @inlined()

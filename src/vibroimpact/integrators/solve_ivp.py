@@ -1,8 +1,7 @@
 """SciPy's solve_ivp: terminal events at the walls and at vanishing contact forces, restarted after each."""
 
 import numpy as np
-from scipy.integrate import Radau, solve_ivp
-from scipy.linalg.lapack import dgetrf, dgetrs, zgetrf, zgetrs
+from scipy.integrate import solve_ivp
 
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import jacobian, rates
@@ -14,18 +13,6 @@ LOST = "its interpolant misses the impact that its step has found"
 PATIENCE = 100  # events without progress of time
 
 
-class LeanRadau(Radau):
-    """Radau with LAPACK's solutions of linear systems as in SciPy, but without argument checks.
-
-    For such small systems the checks would take a third of the run.
-    """
-
-    def __init__(self, *arguments, **options):
-        super().__init__(*arguments, **options)
-        self.lu = lambda matrix: (zgetrf if np.iscomplexobj(matrix) else dgetrf)(matrix, overwrite_a=True)[:2]
-        self.solve_lu = lambda lu, right: (zgetrs if np.iscomplexobj(lu[0]) else dgetrs)(*lu, right)[0]
-
-
 class SolveIvp(Method):
     """An integrator of solve_ivp with compiled right-hand side and Jacobian; the setting is rtol.
 
@@ -34,7 +21,7 @@ class SolveIvp(Method):
 
     family, knob = "solve_ivp", "rtol"
 
-    def __init__(self, integrator: str, settings, careful, order=None, implicit=None):
+    def __init__(self, integrator: str, settings, careful, order=None, implicit=False):
         self.name, self.settings, self.careful, self.order = integrator, settings, careful, order
         self._implicit = implicit
 
@@ -56,7 +43,7 @@ class SolveIvp(Method):
                     rates,
                     (tau, end),
                     s,
-                    method=self._implicit or self.name,
+                    method=self.name,
                     args=(contacts.numbers, contacts.walls),
                     events=[event for i, wall in enumerate(contacts.walls) for event in _events(i, wall)],
                     rtol=setting,
@@ -113,6 +100,6 @@ def integrators() -> list[SolveIvp]:
     return [
         SolveIvp("RK45", (*coarse, *fine), careful=1e-9, order=5),
         SolveIvp("DOP853", (*coarse[1:], *fine, 1e-12, 3e-13, 3e-14), careful=1e-12, order=8),
-        SolveIvp("Radau", (*coarse, 1e-8), careful=1e-8, order=5, implicit=LeanRadau),
+        SolveIvp("Radau", (*coarse, 1e-8), careful=1e-8, order=5, implicit=True),
         SolveIvp("LSODA", (*coarse, *fine), careful=1e-10),
     ]
