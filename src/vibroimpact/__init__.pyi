@@ -1,12 +1,12 @@
 from vibroimpact.exact.engine.certificate import Certificate as Certificate
 from vibroimpact.exact.engine.energy import ENERGY as ENERGY
 from vibroimpact.exact.engine.energy import Energy as Energy
-from vibroimpact.exact.engine.ensemble import OUTCOME as OUTCOME
-from vibroimpact.exact.engine.ensemble import STATUSES as STATUSES
-from vibroimpact.exact.engine.ensemble import ensemble as ensemble
 from vibroimpact.exact.engine.simulation import Run as Run
 from vibroimpact.exact.engine.simulation import simulate as simulate
 from vibroimpact.exact.engine.simulation import simulate_many as simulate_many
+from vibroimpact.exact.lanes.ensemble import OUTCOME as OUTCOME
+from vibroimpact.exact.lanes.ensemble import STATUSES as STATUSES
+from vibroimpact.exact.lanes.ensemble import ensemble as ensemble
 from vibroimpact.exact.orbits.search import Orbit as Orbit
 from vibroimpact.exact.orbits.search import orbits as orbits
 from vibroimpact.exact.orbits.search import prove as prove

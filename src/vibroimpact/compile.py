@@ -32,7 +32,7 @@ def event_loop() -> None:
     from vibroimpact.exact.engine.event_loop import integrate
 
     vector, matrix, tables = np.empty(0), np.empty((0, 0)), np.empty((0, 0, 0, 0))
-    arguments = vector, tables, matrix, vector, 0.0, 0.0, 0, 0.0, vector, matrix, vector, matrix, vector, vector
+    arguments = vector, tables, matrix, vector, vector, matrix, matrix, vector
     integrate.compile(tuple(map(typeof, arguments)))
 
 
@@ -60,7 +60,7 @@ def ensembles() -> None:
 
     This comes last because ensembles use all other code.
     """
-    from vibroimpact.exact.engine.ensemble import ensemble
+    from vibroimpact.exact.lanes.ensemble import ensemble
 
     system = _system()
     ensemble(system, [0.0] * 8, cycles=1)
@@ -70,7 +70,7 @@ def ensembles() -> None:
 def _artificial_run():
     import numpy as np
 
-    from vibroimpact.exact.engine.motion import ENTRIES, ROW
+    from vibroimpact.exact.engine.contact import ENTRIES, ROW
     from vibroimpact.exact.engine.simulation import Run
 
     state, final, samples = np.zeros(8), np.zeros(8), np.empty((0, 8))

@@ -23,9 +23,9 @@ from packaging.requirements import Requirement
 from chapter import PARAMETERS
 from pipeline_trees import ROOT, Tree
 from vibroimpact.compile import event_loop
-from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.event_loop import integrate
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.system import System
 from vibroimpact_pipeline import environment
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from vibroimpact.accuracy.timing import interleaved
 from vibroimpact.exact.engine.all_cores import at_most
-from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.integrators.heyoka_batch import LANES, HeyokaBatch
 from vibroimpact.integrators.heyoka_taylor import heyoka
 from vibroimpact.system import System

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from vibroimpact.exact.engine.motion import APPROACH, KIND, MODULE, TIME, WALL
+from vibroimpact.exact.engine.contact import APPROACH, KIND, MODULE, TIME, WALL
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.integrators.protocol import REFUSED, Method, MethodRun, failed
 from vibroimpact.system.state import IMPACT

@@ -3,7 +3,7 @@
 General integrators cannot treat a ball at rest on a wall, which follows chatter. A ball whose rebound is slower than
 `slow` sticks if the box presses it against the wall; the omitted impacts shift the state by less than the third power
 of that speed. The result of the integrator is not checked: if it misses a wall, the ball continues beyond it. The code
-is compiled; q is as in `right_hand_side`.
+is compiled; q is as in `right_hand_side`. The impact law is that of `vibroimpact.system.restitution`.
 """
 
 import math

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.studies.absorbers.peaks import finished
 from vibroimpact.studies.absorbers.references import fixed_balls, tuned, without_balls
 from vibroimpact.studies.absorbers.tuning import best_tuning

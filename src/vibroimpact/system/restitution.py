@@ -1,4 +1,9 @@
-"""Impact law: Newton's restitution rule with conservation of momentum (section 10.2)."""
+"""Impact law: Newton's restitution rule with conservation of momentum (section 10.2).
+
+Compiled code and other arithmetic need implementations of their own: `exact.engine.contact.impact` (runs),
+`exact.lanes.steps` (ensembles), `integrators.rigid_contact` and `integrators.contact_laws` (other methods),
+`accuracy.reference.trajectory` (intervals) and `report/live/exact.js` (browser). Tests compare them.
+"""
 
 
 def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocity: float):

@@ -10,7 +10,6 @@ from vibroimpact.system.stored_energy import stored_energy
 
 PARTS = ("ground", "coupling", "impacts", "stored")
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(24)
-START = [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
 
 
 def total(energies, name):
@@ -81,17 +80,6 @@ def test_parts_and_cycles_are_those_of_quadrature_in_the_reference():
         name, place = (key, ()) if isinstance(key, str) else (key[0], key[1:])
         np.testing.assert_allclose(rows[name][:, *place], values, rtol=1e-11, atol=1e-13, err_msg=str(key))
         np.testing.assert_allclose(np.asarray(getattr(run.energy, name))[place], values.sum(), atol=1e-12)
-
-
-def test_an_ensemble_tells_the_same_of_the_cycles_it_observes(case):
-    outcomes = vi.ensemble(case, [START, np.zeros(8), [9.0, *START[1:]]], 7, tau0=0.3, settle=3, energy=True)
-    plain = vi.ensemble(case, START, 7, tau0=0.3, settle=3)
-    rows = vi.simulate(case, START, 7, tau0=0.3).energy.per_cycle
-    for name in vi.ENERGY.names:
-        np.testing.assert_allclose(outcomes["energy"][name][0], rows[name][3:].sum(axis=0), rtol=1e-12, atol=1e-14)
-        assert np.isnan(outcomes["energy"][name][2]).all()
-    for name in plain.dtype.names:
-        np.testing.assert_array_equal(outcomes[name][0], plain[name])
 
 
 def test_what_happens_at_once_counts_without_any_cycle(case):

@@ -111,17 +111,6 @@ def test_what_is_told_to_be_positive_is(c, t):
     assert lowest > -rounding if positive(c, t) else least(c, t) <= 0.0
 
 
-@settings(derandomize=True, deadline=None)
-@given(c=polynomials, t=st.floats(0.01, 3))
-def test_least_is_a_lower_bound_and_sharp_at_the_ends(c, t):
-    low, seen = least(c, t), np.polyval(c[::-1], np.linspace(0, t, 200))
-    assert low <= seen.min() + 1e-12 * sum(abs(v) * t**k for k, v in enumerate(c))
-    rising = (c[0], *(abs(v) for v in c[1:]))
-    assert least(rising, t) == c[0]
-    falling = tuple(-v for v in rising)
-    assert least(falling, t) == pytest.approx(np.polyval(falling[::-1], t), rel=1e-12)
-
-
 @settings(max_examples=300)
 @given(c=polynomials, horizon=st.floats(0.01, 3))
 @example(c=(0.25, -0.25, 1, 0, 0, 1, 0, -0.125), horizon=3)

@@ -126,8 +126,8 @@ def test_a_run_with_too_many_exclusions_is_given_up():
     program = """
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.exact.engine import event_loop as events, flow, flow_tables, phase
-phase.fused = flow_tables.fused = lambda a, b, c: a * b + c  # what only compiled code can do
+from vibroimpact.exact.engine import event_loop as events, flow, flow_tables
+flow.fused = flow_tables.fused = lambda a, b, c: a * b + c  # what only compiled code can do
 flow.to_fixed_tuple = lambda array, length: tuple(array)
 flow.weighted_sum = lambda table, mode, j, weights: (weights @ table[mode, j]).reshape(2, 8)
 events.MOST_PROOFS = events.MOST_PROOFS_PER_EVENT = events.MOST_PROOFS_PER_UNIT = 0

@@ -10,7 +10,7 @@ from flint import arb, ctx
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.phase import Instant, advance_phase, phase_at, reduced, sine_and_cosine
+from vibroimpact.exact.engine.flow import Instant, advance_phase, phase_at, reduced, sine_and_cosine
 
 START = [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
 

@@ -7,8 +7,6 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.certificate import errors_of
-from vibroimpact.exact.engine.margins import GAP, margins_of
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 STEP = Fraction(1, 10**25)
@@ -69,24 +67,3 @@ def test_jacobian_of_impacts_that_leave_hardly_any_velocity(chapter, kappa):
     assert set(run.events["kind"]) == {IMPACT, STICK, RELEASE}
     expected = jacobian_in_high_precision(system, start, 3, digits=80)
     np.testing.assert_allclose(run.jacobian, expected, rtol=0, atol=1e-14 * np.abs(expected).max())
-
-
-def test_every_miss_is_held_against_the_error_when_it_happened(chapter):
-    """A miss late in a chaotic motion may be open although a nearer one at its beginning is clear."""
-    system, start, cycles = chapter(0.5, 0.5), np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.5]), 30
-    run = vi.simulate(system, start, cycles)
-    flow, flights, rows = run.trajectory
-    errors, error = errors_of(flow, flights, rows, np.inf)
-    hits = np.full((len(rows), 2), np.inf)
-
-    def clearance(**gaps):
-        turns = np.full((len(flights), 3), np.inf)
-        for place, gap in gaps.items():
-            turns[{"first": 0, "last": -1}[place], GAP] = gap
-        margins = margins_of(flow.coefficients, flights, turns, hits, rows, 0.0, np.inf)
-        return (margins / errors).min()
-
-    assert clearance(last=1e-8) < clearance(first=1e-9)
-    assert clearance(first=1e-9, last=1e-8) == clearance(last=1e-8)
-    assert 1e-8 / clearance(last=1e-8) == pytest.approx(error, rel=0.5)
-    assert error == run.certificate.error

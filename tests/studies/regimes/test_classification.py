@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.exact.engine.ensemble import finals
+from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.studies.regimes.classification import (
     ASYMMETRIC,
     CHAOS,

@@ -6,7 +6,7 @@ import numpy as np
 
 import vibroimpact as vi
 from pipeline_trees import ROOT
-from vibroimpact.exact.engine.ensemble import finals
+from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.studies.regimes.basins import plane
 
 PAGE = " ".join((ROOT / "docs/howto.md").read_text(encoding="utf-8").split())

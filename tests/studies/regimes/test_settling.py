@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.exact.engine.ensemble import finals
+from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.exact.measures.periodicity import distance_after
 from vibroimpact.studies.regimes.aperiodic import (
     ALWAYS,

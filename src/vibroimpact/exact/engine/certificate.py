@@ -9,13 +9,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine import motion
+from vibroimpact.exact.engine import contact
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
-from vibroimpact.exact.engine.flow import flow_of
+from vibroimpact.exact.engine.flow import advance_phase
 from vibroimpact.exact.engine.margins import DEPTH, DOUBT, DOUBTS, GAP, hits_of, margins_of, turning_points
-from vibroimpact.exact.engine.phase import advance_phase, phase_at
-from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, FORCING, LENGTH, WALLS, land, start_of
-from vibroimpact.exact.engine.variation import fill_event, fill_flight, fill_rate
+from vibroimpact.exact.engine.variation import (
+    AFTER,
+    BEFORE,
+    COLUMNS,
+    FORCING,
+    LENGTH,
+    WALLS,
+    fill_event,
+    fill_flight,
+    fill_rate,
+    land,
+    start_of,
+)  # fmt: skip
 from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.state import IMPACT
 
@@ -321,21 +331,21 @@ class Certificate(Representation):
     @classmethod
     def of(cls, run) -> "Certificate":
         """Return the certificate of a finished run."""
-        q, counters, (flow, flights, rows) = flow_of(run.system).coefficients, run.counters, run.trajectory
-        phase, duration = phase_at(run.begin, run.system.Omega)[0], run.cycles * run.system.period
+        counters, (flow, flights, rows) = run.counters, run.trajectory
+        q, phase, duration = flow.coefficients, flights[0, FORCING], run.cycles * run.system.period
         turns, hits = turning_points(flow, flights), hits_of(q, flights, rows)
         errors, error = errors_of(flow, flights, rows, HORIZON_ERROR)
         margins = margins_of(q, flights, turns, hits, rows, phase, duration)
         return cls(
-            flights=int(counters[motion.FLIGHTS]),
-            exclusions=int(counters[motion.EVALUATIONS]),
-            chatters=int(counters[motion.CHATTERS]),
-            neglected=float(counters[motion.NEGLECTED]),
-            wall_residual=float(counters[motion.RESIDUAL]),
+            flights=int(counters[contact.FLIGHTS]),
+            exclusions=int(counters[contact.EVALUATIONS]),
+            chatters=int(counters[contact.CHATTERS]),
+            neglected=float(counters[contact.NEGLECTED]),
+            wall_residual=float(counters[contact.RESIDUAL]),
             nearest_miss=float(turns[:, GAP].min()),
             shallowest_hit=float(hits[:, DEPTH].min(initial=np.inf)),
             clearance=_least_ratio(margins, errors),
-            undecided=int(counters[motion.UNDECIDED] + turns[:, DOUBTS].sum() + hits[:, DOUBT].sum()),
+            undecided=int(counters[contact.UNDECIDED] + turns[:, DOUBTS].sum() + hits[:, DOUBT].sum()),
             error=error,
             horizon=run.tau0 + _horizon(errors, error, rows[:, 0], duration),
         )

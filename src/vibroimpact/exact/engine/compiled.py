@@ -1,7 +1,7 @@
 """Compile the inner loops with Numba, cached on disk and without the global interpreter lock.
 
 Rounding: functions that compute a step of a run round every operation as written, so that a run has the same bits alone
-and in a lane of an ensemble (`lanes`). Functions decorated by `compiled`, and `inlined_source` functions in them, may
+and in a lane of an ensemble (`vectors`). Functions decorated by `compiled`, and `inlined_source` functions in them, may
 contract a product and a sum into one rounding.
 
 Inlining: functions that run at every event become part of the loop, because passing a motion and its Taylor polynomials
@@ -33,8 +33,8 @@ from numba.core import event
 SIMULATION = "the simulation, some 15 s"
 ON_DEMAND = "certificates, energies and Jacobians of runs, some 10 s"
 ENSEMBLE = "the simulation of ensembles, some 25 s"
-COMPILED_SEPARATELY = {"flow_tables": SIMULATION, "event_loop": SIMULATION, "ensemble": ENSEMBLE}
-"""Groups of code that are compiled separately, with their duration, by the module that starts them."""
+COMPILED_SEPARATELY = {"engine.flow_tables": SIMULATION, "engine.event_loop": SIMULATION, "lanes": ENSEMBLE}
+"""Groups of code that are compiled separately, with their duration, by the package or module that starts them."""
 
 
 class _Notice(event.Listener):
@@ -49,8 +49,9 @@ class _Notice(event.Listener):
 
     def on_start(self, compilation):
         module = compilation.data["dispatcher"].py_func.__module__ or ""
-        what = COMPILED_SEPARATELY.get(module.removeprefix(f"{__package__}."), ON_DEMAND)
-        if not self.within and module.startswith(__package__) and what not in self.said:
+        _, exact, name = module.partition("vibroimpact.exact.")
+        what = next((what for start, what in COMPILED_SEPARATELY.items() if name.startswith(start)), ON_DEMAND)
+        if not self.within and exact and what not in self.said:
             self.said.add(what)
             say(f"compiling {what}, once{self.hint}")
         self.within += 1

@@ -10,7 +10,7 @@ stick     the end of a chatter, infinitely many impacts in a finite time. It is 
           change is below rounding; from then on box and ball move as one body of mass 1 + epsilon;
 release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it negative.
 
-Time is the forcing phase, kept modulo one period without loss (phase.advance_phase), so that long runs lose no digits.
+Time is the forcing phase, kept modulo one period without loss (flow.advance_phase), so that long runs lose no digits.
 """
 
 import math
@@ -18,28 +18,21 @@ from typing import NamedTuple
 
 import numpy as np
 
+from vibroimpact.exact.engine import contact
 from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
-from vibroimpact.exact.engine.contact import Moment, resolve
+from vibroimpact.exact.engine.contact import EVALUATIONS, EVENTS, Log, Motion, drift_balls, free_flight, pack
 from vibroimpact.exact.engine.exclusion import LOOKAHEAD, SHORT, gap, gap_rounding, module_time, nearby_zero, remainder
-from vibroimpact.exact.engine.flow import evaluate, jet_at, unpacked
-from vibroimpact.exact.engine.motion import (
-    COSINE,
-    ENTRIES,
-    EVALUATIONS,
-    EVENTS,
-    FLIGHTS,
-    PHASE,
-    ROW,
-    SINE,
-    UNDECIDED,
-    Log,
-    Motion,
-    drift_balls,
-    free_flight,
+from vibroimpact.exact.engine.flow import (
+    TWO_PI,
+    TWO_PI_TAIL,
+    advance_phase,
+    evaluate,
+    jet_at,
     mode_of,
-    pack,
-)
-from vibroimpact.exact.engine.phase import TWO_PI, TWO_PI_TAIL, advance_phase, reduced, sine_and_cosine
+    reduced,
+    sine_and_cosine,
+    unpacked,
+)  # fmt: skip
 
 TRIES = 3
 STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
@@ -56,7 +49,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
     reach = min(remaining, flow.longest)
     short = SHORT * flow.unit
     now, t = motion, 0.0
-    counters[FLIGHTS] += 1
+    counters[contact.FLIGHTS] += 1
     while True:
         if t >= reach:
             return t, -1, now.boxes, now.balls
@@ -68,7 +61,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
         step = step if step >= -t else 0.0  # an event just passed is not before the start of the flight
         met, boxes, end = due >= 0 and abs(step) <= short, now.boxes, t + step
         if met:
-            counters[UNDECIDED] += doubt
+            counters[contact.UNDECIDED] += doubt
             boxes = evaluate(jets, step)
         elif due >= 0 and now.walls[due] == 0 and end + width + short < reach:
             met, end, boxes = _refine_impact_time(flow, motion, due, end, end - width, end + width)
@@ -154,8 +147,9 @@ PATIENCE = 100_000  # events without progress of time before a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """Terms of the limit on the exclusions of a run; the time unit is that of the flow."""
 PIECE = 65536  # rows for the events of a long run, 8 MB, for which the system uses large pages
-EARLIER, PLACES = 19, 20
-"""Index, in the array of a paused run, of the number of events before the current rows; length of that array."""
+EARLIER, SPAN, CLOCK, PLACES = 19, 20, 23, 24
+"""Indices in the array of a run, (PLACES,): the state in public order and the rest of its `Progress`, the number of
+events before the current rows, the `Span` of the run, and the start of the clock for its sample times."""
 
 
 class Progress(NamedTuple):
@@ -192,38 +186,33 @@ class Sampling(NamedTuple):
 
 
 @compiled
-def integrate(
-    numbers, series, rotations, state, phase, tail, cycles, start, times, samples, final, rows, counters, checkpoint
-):
-    """Integrate from a state (8,), in public order, over a number of forcing cycles, or continue such a run.
+def integrate(numbers, series, rotations, run, times, samples, rows, counters):
+    """Continue a run to its end or to a pause; return the status.
 
-    numbers, series, rotations: `flow.tables_of` the system. phase, tail: a float in [0, 2 pi) and its remainder.
-    times (n,): ascending, on a clock that shows `start` at the start of the run. samples (n, 8): written; at an event,
-    the state after it. final (8,): written when the run is finished. rows, counters, checkpoint: `memory`, written.
+    numbers, series, rotations: `flow.tables_of` the system. times (n,): ascending, on the clock of the run. samples
+    (n, 8): written; at an event, the state after it. run, rows, counters: `memory`, updated; run[:8] is the state
+    reached.
 
-    Returns the status. It is PAUSED if the rows are full (`is_full`: make room), or after INTERRUPT_INTERVAL
-    exclusions, so that the interpreter can handle an interrupt; then call the function again. The status is a number,
-    because an interrupt during the conversion of a tuple would leave it incomplete.
+    The status is PAUSED if the rows are full (`is_full`: make room), or after INTERRUPT_INTERVAL exclusions, so that
+    the interpreter can handle an interrupt; then call the function again. The status is a number, because an interrupt
+    during the conversion of a tuple would leave it incomplete.
     """
-    flow = unpacked(numbers, series, rotations)
-    if counters[FLIGHTS] == 0.0:
-        boxes, balls = (state[0], state[2], state[4], state[6]), (state[1], state[3], state[5], state[7])
-        progress = Progress(Motion(boxes, balls, (0, 0), (0, 0), 0.0, 1.0), -1, phase, tail, 0, 0.0, 0, 0)
-    else:
-        progress = progress_at(checkpoint)
-    log = Log(rows, counters)
-    span, sampling, interval = Span(phase, tail, cycles), Sampling(start, times, samples), np.int64(INTERRUPT_INTERVAL)
-    progress, status = run_until(flow, progress, span, sampling, log, checkpoint[EARLIER], interval)
-    if status == FINISHED:
-        pack(progress.motion.boxes, progress.motion.balls, final)
-    write_checkpoint(progress, checkpoint)
+    flow, log, interval = unpacked(numbers, series, rotations), Log(rows, counters), np.int64(INTERRUPT_INTERVAL)
+    span, sampling = Span(run[SPAN], run[SPAN + 1], int(run[SPAN + 2])), Sampling(run[CLOCK], times, samples)
+    progress, status = run_until(flow, progress_of(run), span, sampling, log, run[EARLIER], interval)
+    write_progress(progress, run)
     return status
 
 
-def memory(cycles):
-    """Return memory for a run: rows of events, counters, and a checkpoint."""
-    room = min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
-    return np.empty((room, ROW)), np.zeros(ENTRIES), np.zeros(PLACES)
+def memory(state, phase, tail, cycles, clock):
+    """Return memory for a run of some cycles: its array, rows of events, and counters.
+
+    state (8,): initial state, in public order. phase, tail: a float in [0, 2 pi) and its remainder. clock: the time
+    that the clock for the samples shows at the start.
+    """
+    run, room = np.zeros(PLACES), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
+    run[:8], run[12:15], run[SPAN:] = state, (-1.0, phase, tail), (phase, tail, cycles, clock)
+    return run, np.empty((room, contact.ROW)), np.zeros(contact.ENTRIES)
 
 
 def is_full(rows, counters):
@@ -231,36 +220,28 @@ def is_full(rows, counters):
     return counters[EVENTS] + MOST_AT_ONCE > len(rows)
 
 
-def empty_rows(counters, checkpoint):
+def empty_rows(run, counters):
     """Count the events of full rows as earlier ones, so that the run continues in new rows."""
-    checkpoint[EARLIER] += counters[EVENTS]
+    run[EARLIER] += counters[EVENTS]
     counters[EVENTS] = 0.0
 
 
 @inlined_source
-def write_checkpoint(progress, checkpoint):
-    """Write the state of a paused run to a checkpoint."""
-    motion = progress.motion
-    for k in range(4):
-        checkpoint[k], checkpoint[4 + k] = motion.boxes[k], motion.balls[k]
-    for i in range(2):
-        checkpoint[8 + i], checkpoint[10 + i] = motion.walls[i], motion.touching[i]
-    checkpoint[12], checkpoint[13], checkpoint[14], checkpoint[15] = (
-        progress.due,
-        progress.phase,
-        progress.tail,
-        progress.revolutions,
-    )
-    checkpoint[16], checkpoint[17], checkpoint[18] = progress.elapsed, progress.sampled, progress.stalled
+def progress_of(run):
+    """Return the progress of a run from its array."""
+    boxes, balls = (run[0], run[2], run[4], run[6]), (run[1], run[3], run[5], run[7])
+    motion = Motion(boxes, balls, (int(run[8]), int(run[9])), (int(run[10]), int(run[11])), 0.0, 1.0)
+    return Progress(motion, int(run[12]), run[13], run[14], int(run[15]), run[16], int(run[17]), int(run[18]))
 
 
 @inlined_source
-def progress_at(checkpoint):
-    """Return the state of a paused run."""
-    w = checkpoint
-    boxes, balls = (w[0], w[1], w[2], w[3]), (w[4], w[5], w[6], w[7])
-    motion = Motion(boxes, balls, (int(w[8]), int(w[9])), (int(w[10]), int(w[11])), 0.0, 1.0)
-    return Progress(motion, int(w[12]), w[13], w[14], int(w[15]), w[16], int(w[17]), int(w[18]))
+def write_progress(progress, run):
+    """Write the progress of a run to its array."""
+    (boxes, balls, walls, touching, _, _), due, phase, tail, revolutions, elapsed, sampled, stalled = progress
+    pack(boxes, balls, run)
+    run[8], run[9], run[10], run[11] = walls[0], walls[1], touching[0], touching[1]
+    run[12], run[13], run[14], run[15] = due, phase, tail, revolutions
+    run[16], run[17], run[18] = elapsed, sampled, stalled
 
 
 @in_place
@@ -284,10 +265,10 @@ def run_until(flow, progress, span, sampling, log, earlier, interval):
         whole = cycles - revolutions
         remaining = max((whole * TWO_PI - ahead_of_start + whole * TWO_PI_TAIL) / q.omega, 0.0)
         motion = Motion(motion.boxes, motion.balls, motion.walls, motion.touching, sine, cosine)
-        motion = resolve(flow, motion, Moment(elapsed, remaining, due), log)
+        motion = contact.resolve(flow, motion, contact.Moment(elapsed, remaining, due), log)
         count = int(log.counters[EVENTS])
         for k in range(noted, count):
-            log.rows[k, PHASE], log.rows[k, SINE], log.rows[k, COSINE] = phase, sine, cosine
+            log.rows[k, contact.PHASE], log.rows[k, contact.SINE], log.rows[k, contact.COSINE] = phase, sine, cosine
         if remaining == 0.0:
             break
         most = most_proofs + MOST_PROOFS_PER_EVENT * (earlier + count)

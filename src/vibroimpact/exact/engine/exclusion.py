@@ -15,8 +15,7 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import inlined, inlined_source
-from vibroimpact.exact.engine.flow import half_curvature, jet, slope, value
-from vibroimpact.exact.engine.motion import mode_of
+from vibroimpact.exact.engine.flow import half_curvature, jet, mode_of, slope, value
 
 MOMENT = 1e-300  # times do not shrink below this
 

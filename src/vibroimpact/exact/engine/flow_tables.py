@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
-from vibroimpact.exact.engine.phase import fused
+from vibroimpact.exact.engine.vectors import fused
 
 SIZE, BOXES = 6, 4  # length of z = [X1, X2, X1', X2', sin, cos] and of its part for the boxes
 TERMS = 20  # terms of the exponential series; over one spacing the next term is below 1e-40

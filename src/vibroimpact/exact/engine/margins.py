@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
-from vibroimpact.exact.engine.contact import box_accelerations
+from vibroimpact.exact.engine.contact import PHASE, Motion, box_accelerations, drift_balls, pair
 from vibroimpact.exact.engine.exclusion import (
     DOUBTED,
     LOOKAHEAD,
@@ -22,11 +22,9 @@ from vibroimpact.exact.engine.exclusion import (
     least,
     own_remainder,
     remainder,
-)
-from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses, jet, value
-from vibroimpact.exact.engine.motion import PHASE, Motion, drift_balls, mode_of, pair
-from vibroimpact.exact.engine.phase import advance_phase
-from vibroimpact.exact.engine.replay import FORCING, LENGTH, completes_chatter, end_of, start_of
+)  # fmt: skip
+from vibroimpact.exact.engine.flow import acceleration, advance, advance_phase, inverse_masses, jet, mode_of, value
+from vibroimpact.exact.engine.variation import FORCING, LENGTH, completes_chatter, end_of, start_of
 from vibroimpact.system.state import IMPACT, RELEASE
 
 SHORTEST = 1e-9  # in units of the flow; shorter pieces move by less than rounding

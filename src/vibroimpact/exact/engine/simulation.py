@@ -11,16 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vibroimpact import frames
-from vibroimpact.exact.engine import event_loop as kernel
-from vibroimpact.exact.engine import motion
+from vibroimpact.exact.engine import contact, event_loop
 from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_given_up
 from vibroimpact.exact.engine.certificate import HORIZON_ERROR, Certificate, errors_at
 from vibroimpact.exact.engine.energy import Energy
-from vibroimpact.exact.engine.flow import flow_of, tables_of
-from vibroimpact.exact.engine.phase import TWO_PI, Instant, continues, exactly, phase_at
-from vibroimpact.exact.engine.replay import replayed
-from vibroimpact.exact.engine.statistics import rests_at_start
-from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, propagate
+from vibroimpact.exact.engine.flow import TWO_PI, Instant, continues, exactly, flow_of, phase_at, tables_of
+from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, propagate, replayed, rests_at_start
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, real, reals, short_repr, whole
 from vibroimpact.system.representation import Representation, brief
@@ -140,7 +136,7 @@ class Run(Representation):
     final : ndarray
         State at the end, shape (8,).
     pieces, counters : list of ndarray, ndarray
-        Rows of events and counts of the engine (`vibroimpact.exact.engine.motion`).
+        Rows of events and counts of the engine (`vibroimpact.exact.engine.contact`).
     """
 
     system: System
@@ -191,13 +187,13 @@ class Run(Representation):
         """
         rows = self.rows
         if continues(self.begin):  # balls at rest on a wall stuck in the previous run already
-            again = [n for n in range(min(kernel.MOST_AT_ONCE, len(rows))) if rests_at_start.py_func(rows, n)]
+            again = [n for n in range(min(event_loop.MOST_AT_ONCE, len(rows))) if rests_at_start.py_func(rows, n)]
             rows = np.delete(rows, again, axis=0)
         table = np.empty(len(rows), EVENT)
-        table["tau"] = self.tau0 + rows[:, motion.TIME]
-        for name, column in (("module", motion.MODULE), ("wall", motion.WALL), ("kind", motion.KIND)):
+        table["tau"] = self.tau0 + rows[:, contact.TIME]
+        for name, column in (("module", contact.MODULE), ("wall", contact.WALL), ("kind", contact.KIND)):
             table[name] = rows[:, column]
-        table["state"] = rows[:, 4 : motion.PHASE]
+        table["state"] = rows[:, 4 : contact.PHASE]
         table.flags.writeable = False
         return table
 
@@ -316,7 +312,7 @@ class Run(Representation):
 
     @cached_property
     def trajectory(self) -> tuple:
-        """Flow, flights between the events (`replayed`) and rows of events (`motion`)."""
+        """Flow, flights between the events (`replayed`) and rows of events (`contact`)."""
         flow, duration = flow_of(self.system), self.cycles * self.system.period
         phase = phase_at(self.begin, self.system.Omega)[0]
         return flow, replayed(flow, self.start, self.rows, phase, duration), self.rows
@@ -445,22 +441,21 @@ def _run(system, state, cycles, begin, times, clock):
     Sample times are on a clock that shows `clock` at the start.
     """
     status, run = attempt(system, state, cycles, begin, times, clock)
-    if status != kernel.FINISHED:
+    if status != event_loop.FINISHED:
         number, time = len(run.rows), run.rows[-1, 0] if len(run.rows) else 0.0
-        raise ArithmeticError(f"{kernel.FAILURES[status]} after {number} events, tau = {run.tau0 + time}")
+        raise ArithmeticError(f"{event_loop.FAILURES[status]} after {number} events, tau = {run.tau0 + time}")
     return run
 
 
 def attempt(system, state, cycles, begin, times, clock):
     """Return (status, the run up to its end or failure) from checked arguments."""
-    samples, final = np.empty((len(times), 8)), np.empty(8)
-    (rows, counters, checkpoint), pieces = kernel.memory(cycles), []
-    given = *tables_of(system), state, *phase_at(begin, system.Omega), cycles, clock, times, samples, final
-    while (status := kernel.integrate(*given, rows, counters, checkpoint)) == kernel.PAUSED:
-        if kernel.is_full(rows, counters):
-            pieces.append(rows[: int(counters[motion.EVENTS])])
-            kernel.empty_rows(counters, checkpoint)
-            rows = np.empty((kernel.PIECE, motion.ROW))
+    run, rows, counters = event_loop.memory(state, *phase_at(begin, system.Omega), cycles, clock)
+    tables, samples, pieces = tables_of(system), np.empty((len(times), 8)), []
+    while (status := event_loop.integrate(*tables, run, times, samples, rows, counters)) == event_loop.PAUSED:
+        if event_loop.is_full(rows, counters):
+            pieces.append(rows[: int(counters[contact.EVENTS])])
+            event_loop.empty_rows(run, counters)
+            rows = np.empty((event_loop.PIECE, contact.ROW))
         stop_if_given_up()
-    pieces.append(rows[: int(counters[motion.EVENTS])])
-    return status, Run(system, state, begin, cycles, samples, final, pieces, counters)
+    pieces.append(rows[: int(counters[contact.EVENTS])])
+    return status, Run(system, state, begin, cycles, samples, run[:8].copy(), pieces, counters)

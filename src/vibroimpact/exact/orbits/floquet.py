@@ -46,7 +46,7 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
     before: states (..., 8) just before impacts of `module` (1 or 2) at times tau, both (...). The perturbed motion
     meets the wall n . x = const later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n . f-) (Aizerman
     and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through f- and f+, since wall and impact law
-    do not depend on time. det S = kappa^2.
+    do not depend on time. det S = kappa^2. `engine.variation` has the saltation matrix of runs and names the others.
 
     Raises
     ------

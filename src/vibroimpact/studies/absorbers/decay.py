@@ -6,8 +6,8 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.optimize import brentq, minimize_scalar
 
-from vibroimpact.exact.engine.replay import AFTER, BEFORE, COLUMNS, LENGTH, WALLS
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.engine.variation import AFTER, BEFORE, COLUMNS, LENGTH, WALLS
 from vibroimpact.studies.absorbers.linear import checked_fraction
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, real, whole

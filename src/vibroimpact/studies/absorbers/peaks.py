@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vibroimpact.exact.engine.ensemble import STATUSES, ensemble
 from vibroimpact.exact.engine.event_loop import FINISHED
+from vibroimpact.exact.lanes.ensemble import STATUSES, ensemble
 from vibroimpact.system import System
 from vibroimpact.system.state import idle_at_rest
 

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
 from vibroimpact.studies.absorbers.tuning import compared
 from vibroimpact.system import PhysicalSystem

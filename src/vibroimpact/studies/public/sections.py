@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import MOST_CYCLES
+from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.system.arguments import whole
 from vibroimpact.system.progress import track
 from vibroimpact.system.state import takes_part

@@ -5,8 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
-from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.exact.engine.simulation import Run, simulate
+from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.exact.measures.periodicity import mirror_distance, repeats_after
 from vibroimpact.exact.periodic import refined
 from vibroimpact.system.amplitude import sawtooth_amplitude

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from vibroimpact.exact.engine.ensemble import ensemble, finals
+from vibroimpact.exact.lanes.ensemble import ensemble, finals
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
 from vibroimpact.exact.orbits.newton import newton
 from vibroimpact.exact.orbits.search import orbits

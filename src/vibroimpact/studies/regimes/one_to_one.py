@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vibroimpact.exact.engine.ensemble import ensemble
+from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.studies.regimes.families import FixedPoints, SymmetricOrbits
 from vibroimpact.theory.fixed_points.symmetric_points import search
 from vibroimpact.theory.response import leading_order, mean_power

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, simulate
+from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.studies.regimes.aperiodic import name_aperiodic
 from vibroimpact.studies.regimes.classification import (
     APERIODIC,

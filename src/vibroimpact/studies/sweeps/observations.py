@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from vibroimpact.exact.engine.ensemble import ensemble, finals
 from vibroimpact.exact.engine.event_loop import FINISHED
+from vibroimpact.exact.lanes.ensemble import ensemble, finals
 from vibroimpact.exact.measures.modulation import PER_CYCLE, cycle_amplitudes, sampled
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.studies.absorbers.peaks import by_cycle, peak_of

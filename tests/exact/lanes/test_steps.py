@@ -11,10 +11,9 @@ from mpmath import mp
 from scipy.linalg import expm
 
 from attacks import GENES, bred, random_system
-from vibroimpact.exact.engine import ensemble as lanes
-from vibroimpact.exact.engine import march
 from vibroimpact.exact.engine.compiled import compiled
 from vibroimpact.exact.engine.flow import numbers_of
+from vibroimpact.exact.lanes import loop, rows, steps
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 
 GRID = 400
@@ -25,13 +24,13 @@ def begun(numbers, rates, potentials, drifts, starts, memory):
     """Put the first start into the first lane."""
     owners, phases, seen = np.zeros(1, np.int64), np.zeros((1, 2)), np.zeros((1, 1, 1))
     status, systems = np.zeros(1, np.int64), (numbers, rates, phases, potentials, drifts)
-    lanes._begin(lanes.Piece(*systems, owners, starts, (1, 1, 0), status, seen, seen), 0, 0, memory)
+    loop.begin_run(loop.Piece(*systems, owners, starts, (1, 1, 0), status, seen, seen), 0, 0, memory)
 
 
 def constants(system):
     """Constants of a system in the lanes."""
-    memory = lanes._memory()
-    begun(*numbers_of([system], lanes.TABLE), *lanes.UNOBSERVED, np.zeros((1, 8)), memory)
+    memory, unobserved = loop.memory(), (np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0)))
+    begun(*numbers_of([system], loop.TABLE), *unobserved, np.zeros((1, 8)), memory)
     return memory.constants[:, 0]
 
 
@@ -46,22 +45,14 @@ def systems(count):
             continue
 
 
-def test_a_step_is_the_matrix_exponential_less_one():
-    for system in systems(20):
-        c = constants(system)
-        step = expm(rate_matrix(system) * c[march.STEP])
-        np.testing.assert_allclose(c[:24].reshape(4, 6), step[:4] - np.eye(6)[:4], rtol=0, atol=1e-13 * abs(step).max())
-        np.testing.assert_allclose([c[march.CA] + 1.0, c[march.SA]], step[4, 4:], rtol=1e-14)
-
-
 def test_a_step_of_the_boxes_is_known_beyond_rounding():
     """What a float leaves out of an entry would repeat in every step."""
     for system in systems(3):
         c = constants(system)
         with mp.workdps(60):
-            step = mp.expm(exact_rate_matrix(system) * c[march.STEP]) - mp.eye(6)
+            step = mp.expm(exact_rate_matrix(system) * c[rows.STEP]) - mp.eye(6)
             for i, k in np.ndindex(4, 4):
-                left = step[i, k] - mp.mpf(c[6 * i + k]) - mp.mpf(c[march.LOW_PARTS + 4 * i + k])
+                left = step[i, k] - mp.mpf(c[6 * i + k]) - mp.mpf(c[rows.LOW_PARTS + 4 * i + k])
                 assert abs(left) < 2.0**-90 * max(abs(step[i, j]) for j in range(4))
 
 
@@ -86,7 +77,7 @@ def test_the_fourth_derivative_stays_below_its_bound_throughout_a_flight():
         times = np.linspace(0.0, 6.0 / system.Omega, GRID)
         step, fourth = expm(rate * times[1]), np.linalg.matrix_power(rate, 4)[:2]
         for t in times:
-            bound = 72 * (c[march.BEND] * (size + t * c[march.DRIVE]) + c[march.BEND_FORCE])
+            bound = 72 * (c[rows.BEND] * (size + t * c[rows.DRIVE]) + c[rows.BEND_FORCE])
             closest = max(closest, np.abs(fourth @ z).max() / bound)
             z = step @ z
     assert 0.1 < closest <= 1.0
@@ -101,13 +92,13 @@ def test_no_function_with_a_bounded_fourth_derivative_leaves_the_hull():
         limit = 1.0 - bend * h**4 / 72
         ends, middle = rng.choice([1.0, rng.uniform(-1, 1)], 2), limit * rng.choice([1.0, rng.uniform(-1, 1)], 2)
         rates = 3 * (middle[0] - ends[0]) / h, 3 * (ends[1] - middle[1]) / h
-        inside = march._inside(limit + 1e-15, ends[0], rates[0], ends[1], rates[1], h / 3)
+        inside = steps._inside(limit + 1e-15, ends[0], rates[0], ends[1], rates[1], h / 3)
         assert inside
         cubic = (1 - s) ** 3 * ends[0] + 3 * s * (1 - s) * ((1 - s) * middle[0] + s * middle[1]) + s**3 * ends[1]
         worst = (cubic + bend * h**4 * (s * (1 - s)) ** 2 / 24)[1:-1].max()
         nearest = max(nearest, worst)
         assert worst <= 1.0 + 1e-14
-        assert not march._inside(limit - 1e-9, 1.0, 3 * (limit - 1.0) / h, 0.0, 0.0, h / 3)
+        assert not steps._inside(limit - 1e-9, 1.0, 3 * (limit - 1.0) / h, 0.0, 0.0, h / 3)
     assert nearest > 1.0 - 1e-3
 
 

@@ -1,17 +1,21 @@
-"""Vectors of eight floats in compiled code: weighted sums of table rows, and the type `Lanes` for eight runs.
+"""Instructions that Numba's Python does not offer: fused products, sums of table rows, vectors of eight floats.
 
-The compiler does not vectorise the sums of rows by itself. Each operation on Lanes rounds like that on a float, so that
-a formula gives the same bits for both. Comparisons return a `Mask`; `where` selects by it.
+This is the only file that emits code through Numba's internals. It is tested with Numba 0.68 and llvmlite 0.50;
+pyproject.toml excludes later versions.
+
+The compiler does not vectorise the sums of rows by itself. Each operation on `Lanes`, the type of eight floats, rounds
+like that on a float: a formula gives the same bits for both. Comparisons return a `Mask`; `where` selects by it.
 """
 
 import math
 import operator
 
 from llvmlite import ir
-from numba import types
+from numba import config, types
 from numba.core import cgutils
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
+from numba.np.unsafe.ndarray import to_fixed_tuple as to_fixed_tuple
 
 WIDTH = 8
 NUMBERS, INDICES = ir.VectorType(ir.DoubleType(), WIDTH), ir.VectorType(ir.IntType(32), WIDTH)
@@ -174,9 +178,25 @@ _joined(operator.and_, lambda builder, a, b: builder.and_(a, b))
 _joined(operator.or_, lambda builder, a, b: builder.or_(a, b))
 
 
-def fused_lanes(context, builder, signed, args):
-    """Return a b + c, rounded once, in each lane."""
-    return _called("fma")(builder, *(_wide(context, builder, a, k) for a, k in zip(args, signed.args, strict=True)))
+@intrinsic
+def fused(_, a, b, c):
+    """Return a b + c, rounded once, of floats or in each lane."""
+    if LANES in (a, b, c):
+
+        def generate(context, builder, signed, args):
+            wide = (_wide(context, builder, a, k) for a, k in zip(args, signed.args, strict=True))
+            return _called("fma")(builder, *wide)
+
+        return LANES(a, b, c), generate
+    one = types.float64(types.float64, types.float64, types.float64)
+    return one, lambda context, builder, signed, args: builder.fma(*args)
+
+
+if config.DISABLE_JIT:
+
+    def fused(*_):
+        """Raise RuntimeError, since only compiled code rounds a b + c once."""
+        raise RuntimeError("the simulation requires compiled code; unset NUMBA_DISABLE_JIT")
 
 
 @intrinsic
@@ -201,6 +221,18 @@ def load(_, array, k):
     return LANES(array, types.intp), generate
 
 
+@intrinsic(prefer_literal=True)
+def load_rows(_, array, k, count):
+    """Return a number of rows of an array (n, 8), from row k on; the number is a literal."""
+    kind = types.UniTuple(LANES, count.literal_value)
+
+    def generate(context, builder, signed, args):
+        pointers = [_pointer(context, builder, signed, args, n) for n in range(kind.count)]
+        return context.make_tuple(builder, kind, [builder.load(pointer, align=8) for pointer in pointers])
+
+    return kind(array, types.intp, count), generate
+
+
 @intrinsic
 def store(_, array, k, value):
     """Write row k of an array (n, 8)."""
@@ -213,10 +245,25 @@ def store(_, array, k, value):
     return types.void(array, types.intp, value), generate
 
 
-def _pointer(context, builder, signed, args):
+@intrinsic
+def replace_rows(_, array, k, mask, values):
+    """Write a tuple of values to the rows of an array (n, 8) from row k on, in the lanes where the mask is true."""
+
+    def generate(context, builder, signed, args):
+        for n, kind in enumerate(signed.args[3]):
+            pointer = _pointer(context, builder, signed, args, n)
+            value = _wide(context, builder, builder.extract_value(args[3], n), kind)
+            builder.store(builder.select(args[2], value, builder.load(pointer, align=8)), pointer, align=8)
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, mask, values), generate
+
+
+def _pointer(context, builder, signed, args, later=0):
+    """Return a pointer to the row `later` rows after the one that the arguments name."""
     array = context.make_array(signed.args[0])(context, builder, args[0])
-    zero = context.get_constant(types.intp, 0)
-    pointer = cgutils.get_item_pointer(context, builder, signed.args[0], array, [args[1], zero])
+    row, zero = builder.add(args[1], context.get_constant(types.intp, later)), context.get_constant(types.intp, 0)
+    pointer = cgutils.get_item_pointer(context, builder, signed.args[0], array, [row, zero])
     return builder.bitcast(pointer, NUMBERS.as_pointer())
 
 

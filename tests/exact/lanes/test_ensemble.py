@@ -7,8 +7,8 @@ import vibroimpact as vi
 from attacks import PROMISED, ensembles, unlike_single_runs
 from hard_starts import example
 from vibroimpact.accuracy.reference.run import reference_run
-from vibroimpact.exact.engine.ensemble import INADMISSIBLE, MOST_RUNS
 from vibroimpact.exact.engine.event_loop import integrate
+from vibroimpact.exact.lanes.ensemble import INADMISSIBLE, MOST_RUNS
 from vibroimpact.system.state import BALLS, BOXES
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(20)
@@ -275,14 +275,6 @@ def test_starts_in_any_order_of_memory_run_the_same_code(case):
         runs = vi.simulate_many(case, states, 3)
         np.testing.assert_array_equal([run.final for run in plain], [run.final for run in runs])
     assert integrate.signatures == compiled
-
-
-def test_runs_side_by_side_have_the_events_of_each_alone(chapter):
-    """More starts than lanes, so that each lane takes a second one."""
-    system = chapter()
-    settled = vi.simulate(system, [0.0] * 8, 300).final
-    near = np.concatenate([settled + np.linspace(0, 1e-2, 13)[:, None], starts(6)])
-    assert unlike_single_runs([system] * len(near), near, 40) == []
 
 
 def test_a_run_does_not_depend_on_its_neighbours(chapter, case):

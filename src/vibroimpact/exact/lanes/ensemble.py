@@ -1,0 +1,230 @@
+"""Simulate many initial states and systems; return summary statistics instead of events."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vibroimpact.exact.engine import energy as energy_balance
+from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
+from vibroimpact.exact.engine.energy import ENERGY, OBSERVED, energies
+from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED
+from vibroimpact.exact.engine.flow import OMEGA, RATE, Instant, continues, numbers_of, phase_at
+from vibroimpact.exact.engine.simulation import MOST_CYCLES, NO_TIMES, attempt, checked_window, within_walls
+from vibroimpact.exact.engine.variation import FORCING
+from vibroimpact.exact.engine.vectors import WIDTH
+from vibroimpact.exact.lanes import loop
+from vibroimpact.exact.lanes.rows import IMPACTS, INTEGRALS, LARGEST, PATH, STATISTICS, STICKS
+from vibroimpact.exact.lanes.statistics import accumulate_run
+from vibroimpact.system import System
+from vibroimpact.system.arguments import instance, whole
+from vibroimpact.system.state import states_array
+
+INADMISSIBLE = max(FAILURES) + 1
+STATUSES = {FINISHED: "finished", **FAILURES, INADMISSIBLE: "the start is not finite, or has a ball beyond a wall"}
+"""Meaning of the status of a run."""
+
+OUTCOME = np.dtype(
+    [
+        ("status", "i1"),
+        ("final", "f8", (8,)),
+        ("impacts", "i8", (2,)),
+        ("sticks", "i8", (2,)),
+        ("largest", "f8", (2,)),
+        ("mean_square", "f8", (2,)),
+        ("ball_speed", "f8", (2,)),
+    ]
+)
+"""Data type of the outcome of a run: status, a key of STATUSES; the final state; and, for each module over the observed
+cycles, the numbers of impacts and sticks, the largest |X_i|, and the time averages of X_i^2 and |Y_i'|."""
+WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
+"""OUTCOME with the energy balance."""
+
+FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
+"""Indices of the statistics in the fields of OUTCOME."""
+MEANS = slice(PATH, INTEGRALS + 2)
+"""Indices of time integrals."""
+MOST_RUNS, SHARES = 1024, 4
+"""Largest number of runs in a piece of work; pieces per core if there are many runs."""
+DEFERRED = INADMISSIBLE + 1
+MOST_LOG_RATIO = np.log(4.0)  # of the rates of boxes and forcing; beyond it a flight takes many steps, each rounded
+
+
+def ensemble(
+    systems: System | Sequence[System] | Sequence[Sequence[System]] | ArrayLike,
+    states: ArrayLike,
+    cycles: int,
+    tau0: float | Fraction | Instant = 0.0,
+    settle: int = 0,
+    progress: bool = False,
+    energy: bool = False,
+    by_cycle: bool = False,
+) -> np.ndarray:
+    """Simulate many initial states and systems on all cores; return summary statistics.
+
+    Parameters
+    ----------
+    systems : System or array_like of System
+        One System, or an array of them (a list or nested lists).
+    states : array_like
+        Initial states, shape (..., 8), by position or by name as for `simulate`. Systems and states broadcast: n
+        systems and n states pair by pair, one state with every system, or systems (m, 1) with states (n, 8) in all
+        combinations.
+    cycles, tau0
+        As for `simulate`.
+    settle : int, default 0
+        Cycles before the observation, from 0 to `cycles`. If settle equals cycles, only the final state is returned.
+    progress : bool, default False
+        Count finished runs on standard error, about once a second.
+    energy : bool, default False
+        Add the energy balance over the observed cycles (`Run.energy`) as the field `energy` (ENERGY).
+    by_cycle : bool, default False
+        Return an outcome for each observed cycle along an additional last axis, with the state at the end of the cycle.
+
+    Returns
+    -------
+    ndarray
+        Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
+        the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
+        observed cycles are nan. The largest |X_i| is exact except for turns of a box almost at rest (1e-5 of its path);
+        the averages are exact to rounding.
+
+    Raises
+    ------
+    ValueError
+        If an argument is malformed, or if systems and states do not broadcast.
+
+    Notes
+    -----
+    Impacts and sticks equal those of `simulate`, except for grazing contacts that its certificate counts as undecided,
+    and for impacts after which the ball hops by less than four units of rounding. The error of the final state of a
+    decided run is at most 2.6 times the estimate of that certificate (docs/engine.md). Use `simulate` for events,
+    samples or a certificate.
+
+    Examples
+    --------
+    >>> outcome = vi.ensemble(system, np.zeros((4, 8)), cycles=200, settle=100)
+    >>> outcome["largest"].shape
+    (4, 2)
+    """
+    known, numbers, states = _combined(systems, states)
+    cycles = whole("cycles", cycles, 0, MOST_CYCLES)
+    settle = whole("settle", settle, 0, cycles)
+    begins = [checked_window(system, cycles, tau0)[0] for system in known]
+    windows = max(cycles - settle, 1) if by_cycle else 1
+    outcomes = np.empty((*numbers.shape, windows), WITH_ENERGY if energy else OUTCOME)
+    filled, starts = outcomes.reshape(numbers.size, windows), states.reshape(-1, 8)
+    order = np.argsort(numbers, axis=None, kind="stable")  # runs of one system share its tables
+    share = -(-numbers.size // cores())
+    size = max(min(MOST_RUNS, share, max(share // SHARES, 8 * WIDTH)), 1)
+    pieces = [
+        (
+            known,
+            begins,
+            numbers.ravel(),
+            starts,
+            (settle, cycles, 1 if by_cycle else cycles - settle),
+            filled,
+            order[first : first + size],
+        )
+        for first in range(0, len(order), size)
+    ]
+    on_all_cores(_run, pieces, [len(piece[-1]) for piece in pieces], progress)
+    return outcomes[..., : cycles - settle] if by_cycle else outcomes[..., 0]
+
+
+def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
+    """Return the final states (n, 8) of runs of one system from initial states (n, 8) at tau = 0.
+
+    Raises
+    ------
+    ArithmeticError
+        If a run could not be finished.
+    ValueError
+        As for `ensemble`.
+    """
+    outcomes = ensemble(system, states, cycles, settle=cycles)
+    failed = np.flatnonzero(outcomes["status"] != FINISHED)
+    if len(failed):
+        raise ArithmeticError(f"start {failed[0]}: {STATUSES[int(outcomes['status'][failed[0]])]}")
+    return outcomes["final"]
+
+
+def _combined(systems, states):
+    """Return the distinct systems and, in the broadcast shape, each run's system index and initial state."""
+    states = states_array("states", states)
+    if states.ndim == 0 or states.shape[-1] != 8:
+        raise ValueError(f"states: needs shape (..., 8), got {states.shape}")
+    systems, known = np.array(systems, dtype=object), {}
+    numbers = [known.setdefault(instance("systems", system, System), len(known)) for system in systems.flat]
+    try:
+        shape = np.broadcast_shapes(systems.shape, states.shape[:-1])
+    except ValueError:
+        raise ValueError(
+            f"states: their shape {states.shape[:-1]} does not broadcast with that of systems, {systems.shape}"
+        ) from None
+    numbers = np.array(numbers, dtype=int).reshape(systems.shape)
+    return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))
+
+
+def _run(known, begins, numbers, starts, stages, outcomes, places):
+    """Run the initial states at these places and write their outcomes; stages: as for `loop.Piece`."""
+    (settle, cycles, length), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
+    owners, energy, shape = numbers[places] - first, "energy" in outcomes.dtype.names, (len(places), outcomes.shape[1])
+    systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
+    scalars, rates = numbers_of(systems, loop.TABLE)
+    alone = abs(np.log(scalars[:, RATE] / scalars[:, OMEGA])) > MOST_LOG_RATIO
+    potentials, drifts = np.empty((len(systems), 4, 0, 6, 6)), np.empty((len(systems), 4, 0))
+    if settle < cycles:
+        potentials, drifts, sound = energy_balance.potentials_of(rates[:, 0], OBSERVED if energy else OBSERVED[:2])
+        alone |= ~sound
+    statistics, final = np.zeros((*shape, STATISTICS)), np.full((*shape, 8), np.nan)
+    status = np.where(within_walls(starts), FINISHED, INADMISSIBLE)
+    phases = np.array([phase_at(begin, system.Omega) for begin, system in zip(begins, systems, strict=True)])
+    single = np.flatnonzero(alone[owners] & (status == FINISHED))
+    status[single] = DEFERRED
+    runs = owners, starts, stages, status, final, statistics, continues(begins[0])
+    piece, memory = loop.Piece(scalars, rates, phases, potentials, drifts, *runs), loop.memory()
+    while not loop.run_lanes(piece, memory):
+        stop_if_given_up()
+    for n in single:
+        status[n] = _single_run(systems[owners[n]], starts[n], begins[owners[n]], stages, final[n], statistics[n])
+    failed = status != FINISHED
+    final[failed], statistics[failed, :, :LARGEST], statistics[failed, :, LARGEST:] = np.nan, 0.0, np.nan
+    if settle == cycles:
+        statistics[..., LARGEST:] = np.nan
+    else:
+        statistics[..., MEANS] /= length * np.array([system.period for system in systems])[owners, None, None]
+    outcomes["status"][places], outcomes["final"][places] = status[:, None], final
+    for name, place in FIELDS.items():
+        outcomes[name][places] = statistics[..., place : place + 2]
+    if energy:
+        for owner, system in enumerate(systems):
+            outcomes["energy"][places[owners == owner]] = energies(system, statistics[owners == owner][..., INTEGRALS:])
+
+
+def _single_run(system, state, begin, stages, final, statistics):
+    """Return the status of a run by `simulate`; write its final states (k, 8) and statistics (k, STATISTICS).
+
+    This is for systems with fast and slow rates, whose flights would take many steps, and for systems whose potentials
+    lose accuracy by cancellation.
+    """
+    (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
+    stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]
+    for cycle, stop in pairwise(stops):
+        status, run = attempt(system, state, stop - cycle, begin, NO_TIMES, 0.0)
+        if status != FINISHED:
+            return status
+        state, begin, k = run.final.copy(), run.end, max(cycle - settle, 0) // max(length, 1)
+        final[k] = run.final
+        if settle < stop:
+            flow, flights, rows = run.trajectory
+            end = run.cycles * system.period, flights[0, FORCING]
+            accumulate_run(flow, squares, run.start, rows, run.final, end, continues(run.begin), statistics[k])
+            if squares.drifts.size == 0:
+                row = np.zeros((1, energy_balance.ENTRIES))
+                energy_balance.accumulate_energy(flow, flights, rows, squares, end[0], row)
+                statistics[k, INTEGRALS : INTEGRALS + len(OBSERVED)] = row[0, : len(OBSERVED)]
+    return FINISHED

@@ -1,0 +1,343 @@
+"""Run many initial states, as many at once as there are lanes; leave what the lanes cannot do to the event loop."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from vibroimpact.exact.engine import event_loop
+from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
+from vibroimpact.exact.engine.contact import ENTRIES, EVENTS, ROW, Log, Motion
+from vibroimpact.exact.engine.energy import Squares
+from vibroimpact.exact.engine.event_loop import FINISHED, PAUSED, Progress, Sampling, Span, run_until
+from vibroimpact.exact.engine.flow import TWO_PI, mode_of, unpacked
+from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
+from vibroimpact.exact.engine.variation import Departure
+from vibroimpact.exact.engine.vectors import WIDTH
+from vibroimpact.exact.lanes import rows, steps
+from vibroimpact.exact.lanes.rows import STATISTICS, STATISTICS_AT
+from vibroimpact.exact.lanes.statistics import accumulate_statistics, discount_rests, find_turns, open_or_close
+
+TABLE = 64  # times in the flow tables of the event loop, which handles the few events that the lanes cannot
+NEAR = 1e-6  # distance from a wall beyond which a ball cannot rest on it
+INTERRUPT_INTERVAL = 500_000  # steps of all lanes between two checks for an interrupt, about 20 ms
+
+
+class Piece(NamedTuple):
+    """Runs to be computed, and their results.
+
+    numbers, rates, phases, potentials, drifts: of each system. owners (n,): the system of each initial state. starts
+    (n, 8). stages: cycles before the observation, cycles in all, and cycles in each of its k windows. status (n,);
+    final (n, k, 8); statistics (n, k, STATISTICS). continued: the runs continue others.
+    """
+
+    numbers: np.ndarray
+    rates: np.ndarray
+    phases: np.ndarray
+    potentials: np.ndarray
+    drifts: np.ndarray
+    owners: np.ndarray
+    starts: np.ndarray
+    stages: tuple[int, int, int]
+    status: np.ndarray
+    final: np.ndarray
+    statistics: np.ndarray
+    continued: bool = False
+
+
+class Memory(NamedTuple):
+    """Runs in the lanes and their data, between two calls of the loop.
+
+    runs, constants: `rows`; work: workspace of `steps`. members: the initial state in each lane, or -1; begun: number
+    of initial states processed. slots: position of the tables of each lane's system; owners: their systems; made:
+    contact states with tables. series, rotations: `flow_tables.tables`; known: constants. log, counters, statistics,
+    change: workspace.
+    """
+
+    runs: np.ndarray
+    constants: np.ndarray
+    work: np.ndarray
+    members: np.ndarray
+    begun: np.ndarray
+    slots: np.ndarray
+    owners: np.ndarray
+    made: np.ndarray
+    series: np.ndarray
+    rotations: np.ndarray
+    known: np.ndarray
+    log: np.ndarray
+    counters: np.ndarray
+    statistics: np.ndarray
+    change: np.ndarray
+
+
+def memory() -> Memory:
+    """Return memory for `run_lanes`."""
+    return Memory(
+        runs=np.zeros((rows.STATES, WIDTH)),
+        constants=np.zeros((rows.CONSTANTS, WIDTH)),
+        work=np.empty((2 * rows.SECOND, WIDTH)),
+        members=np.full(WIDTH, -1),
+        begun=np.zeros(1, dtype=int),
+        slots=np.zeros(WIDTH, dtype=int),
+        owners=np.full(WIDTH, -1),
+        made=np.zeros((WIDTH, 4), dtype=bool),
+        series=np.empty((WIDTH, 4, TABLE, 6, 2 * ORDERS)),
+        rotations=np.empty((WIDTH, TABLE, 2)),
+        known=np.zeros((WIDTH, rows.CONSTANTS)),
+        log=np.empty((2 * event_loop.MOST_AT_ONCE, ROW)),
+        counters=np.zeros((WIDTH, ENTRIES)),
+        statistics=np.zeros(STATISTICS),
+        change=np.zeros((2, 6, 6)),
+    )
+
+
+@compiled
+def run_lanes(piece, memory):
+    """Run the initial states of a piece whose status is FINISHED.
+
+    Writes their status, final states and statistics. Returns False if it pauses for an interrupt; then call it again.
+    """
+    m, done = memory, 0
+    while True:
+        alive = _fill_lanes(piece, m)
+        if alive == 0:
+            return True
+        if done > INTERRUPT_INTERVAL:
+            _stop_crowded(piece, m)
+            return False
+        done += steps.advance_lanes(m.runs, m.constants, m.work, max(3 * alive // 4, 1)) + 16
+        if steps.step_to_event(m.runs, m.constants, m.work, piece.drifts.shape[2]) == 0:
+            continue
+        for lane in range(WIDTH):
+            if m.members[lane] >= 0 and m.runs[rows.OUTCOME, lane] != steps.NOTHING:
+                done += 64
+                ended = _handle_outcome(piece, lane, m)
+                if ended != PAUSED:
+                    piece.status[m.members[lane]], m.members[lane] = ended, -1
+
+
+@inlined_source
+def _fill_lanes(piece, m):
+    """Begin waiting runs in free lanes; return the number of lanes in use."""
+    alive = 0
+    for lane in range(WIDTH):
+        while m.members[lane] < 0 and m.begun[0] < len(piece.starts):
+            n = m.begun[0]
+            m.begun[0] += 1
+            if piece.status[n] == FINISHED:
+                begin_run(piece, n, lane, m)
+        alive += m.members[lane] >= 0
+        if m.members[lane] < 0:
+            m.runs[rows.ALIVE, lane] = 0.0
+    return alive
+
+
+@inlined_source
+def begin_run(piece, n, lane, m):
+    """Put an initial state into a lane."""
+    owner, settle, runs = piece.owners[n], piece.stages[0], m.runs[:, lane]
+    slot = _slot_of(piece, owner, m)
+    m.members[lane], m.slots[lane], m.counters[lane] = n, slot, 0.0
+    m.constants[:, lane], runs[:] = m.known[slot], 0.0
+    for i in range(4):
+        runs[rows.X1 + i], runs[rows.Y1 + i] = piece.starts[n, 2 * i], piece.starts[n, 2 * i + 1]
+    phase = piece.phases[owner]
+    runs[rows.PHASE], runs[rows.TAIL] = phase
+    runs[rows.SINE], runs[rows.COSINE] = math.sin(phase[0]), math.cos(phase[0])
+    runs[rows.ALIVE], runs[rows.DUE], runs[rows.STOP] = 1.0, -1.0, settle
+    if settle == 0 < piece.stages[1]:
+        flow, squares = _system_of(piece, lane, m)
+        _end_window(piece, flow, squares, _motion_of(m.runs, lane), lane, m)
+
+
+@inlined_source
+def _slot_of(piece, owner, m):
+    """Return the slot with the tables of a system; compute them in a slot without runs if there is none yet."""
+    for slot in range(WIDTH):
+        if m.owners[slot] == owner:
+            return slot
+    slot = 0
+    for lane in range(WIDTH):
+        in_use = False
+        for other in range(WIDTH):
+            in_use = in_use or (m.members[other] >= 0 and m.slots[other] == lane)
+        slot = slot if in_use else lane
+    m.owners[slot], m.made[slot, 0] = owner, True
+    m.made[slot, 1:] = False
+    flow = unpacked(piece.numbers[owner], m.series[slot], m.rotations[slot])
+    j = int(rows.LONGEST_STEP / max(flow.rate, flow.coefficients.omega) * flow.density)
+    fill_table(piece.rates[owner], np.intp(0), flow.spacing, flow.series, flow.rotations, j, m.change)
+    _fill_constants(piece, owner, flow, m.change, j * flow.spacing, m.known[slot])
+    return slot
+
+
+@inlined_source
+def _fill_constants(piece, owner, flow, change, step, c):
+    """Write the constants (CONSTANTS,) of a system."""
+    q = flow.coefficients
+    for row in range(4):
+        for k in range(6):
+            c[6 * row + k] = change[0, row, k]
+        for k in range(4):
+            c[rows.LOW_PARTS + 4 * row + k] = change[1, row, k]
+    for k in range(piece.numbers.shape[1]):
+        c[rows.SCALARS_AT + k] = piece.numbers[owner, k]
+    far, w, rate = max(1.0, 1.0 / np.sqrt(q.ground)), q.omega, flow.rate
+    c[rows.CA], c[rows.SA], c[rows.STEP] = change[0, 4, 4], change[0, 4, 5], step
+    c[rows.BEND] = far * rate**4 / 72
+    c[rows.BEND_FORCE] = far * q.drive * (rate**3 + rate * rate * w + rate * w * w + w**3) / 72
+    c[rows.ROUNDING], c[rows.LEAST_ROUNDING] = steps.ROUNDED * 6.0 * far, steps.ROUNDED * (2.0 + q.shift)
+    c[rows.LOSS] = 0.5 * q.epsilon * q.inverse_mass * (1.0 - q.kappa) * (1.0 + q.kappa)
+    c[rows.FIRST], c[rows.FIRST_TAIL] = piece.phases[owner]
+    for k in range(piece.drifts.shape[2]):
+        c[rows.DRIFTS + k] = piece.drifts[owner, 0, k]
+        for i in range(2):
+            for z in range(6):
+                c[rows.DROPS + 12 * k + 6 * i + z] = piece.potentials[owner, 0, k, 2 + i, z]
+
+
+@inlined_source
+def _system_of(piece, lane, m):
+    """Return the flow and the potentials of the run in a lane."""
+    owner, slot = piece.owners[m.members[lane]], m.slots[lane]
+    flow = unpacked(piece.numbers[owner], m.series[slot], m.rotations[slot])
+    return flow, Squares(piece.potentials[owner], piece.drifts[owner])
+
+
+@inlined
+def _motion_of(runs, lane):
+    r, k = runs[:, lane], rows.Y1
+    boxes, balls = (r[0], r[1], r[2], r[3]), (r[k], r[k + 1], r[k + 2], r[k + 3])
+    return Motion(boxes, balls, (0, 0), (0, 0), r[rows.SINE], r[rows.COSINE])
+
+
+@inlined_source
+def _handle_outcome(piece, lane, m):
+    """Continue the run of a lane after a pass; return PAUSED, or the status of a finished run."""
+    flow, squares = _system_of(piece, lane, m)
+    if m.runs[rows.OUTCOME, lane] == steps.DOUBTFUL:
+        return _run_by_events(piece, flow, squares, lane, m)
+    runs, stop = m.runs[:, lane], m.runs[rows.STOP, lane]
+    finished = _end_window(piece, flow, squares, _motion_of(m.runs, lane), lane, m)
+    runs[rows.PHASE], runs[rows.TAIL] = piece.phases[piece.owners[m.members[lane]]]
+    runs[rows.TURNS], runs[rows.TRIAL], runs[rows.REACH] = stop, 0.0, 0.0
+    return FINISHED if finished else PAUSED
+
+
+@in_place
+def _end_window(piece, flow, squares, motion, lane, m):
+    """Close the window of observation that ends now, and open the next; return True at the end of the run."""
+    (settle, cycles, length), n = piece.stages, m.members[lane]
+    stop, watched = int(m.runs[rows.STOP, lane]), m.runs[rows.WATCHED, lane] > 0.0
+    if watched or stop == cycles:
+        k = (stop - settle) // length - 1 if watched else 0
+        for i in range(4):
+            piece.final[n, k, 2 * i], piece.final[n, k, 2 * i + 1] = motion.boxes[i], motion.balls[i]
+        if watched:
+            find_turns(m.runs, m.constants, m.work)
+            _read_statistics(m, lane)
+            open_or_close(flow, squares, motion, 1.0, m.statistics)
+            for place in range(STATISTICS):
+                piece.statistics[n, k, place] = m.statistics[place]
+    if stop == cycles:
+        return True
+    m.runs[rows.STOP, lane], m.runs[rows.WATCHED, lane] = stop + length, 1.0
+    m.statistics[:] = 0.0
+    open_or_close(flow, squares, motion, -1.0, m.statistics)
+    _write_statistics(m, lane)
+    return False
+
+
+@inlined
+def _read_statistics(m, lane):
+    for k in range(STATISTICS):
+        m.statistics[k] = m.runs[STATISTICS_AT + k, lane]
+
+
+@inlined
+def _write_statistics(m, lane):
+    for k in range(STATISTICS):
+        m.runs[STATISTICS_AT + k, lane] = m.statistics[k]
+
+
+@in_place
+def _stop_crowded(piece, m):
+    """Stop runs with too many events."""
+    most = event_loop.MOST_EVENTS + event_loop.MOST_EVENTS_PER_CYCLE * float(piece.stages[1])
+    for lane in range(WIDTH):
+        if m.members[lane] >= 0 and m.runs[rows.EVENTS, lane] > most:
+            piece.status[m.members[lane]], m.members[lane] = event_loop.CROWDED, -1
+
+
+@inlined_source
+def _run_by_events(piece, flow, squares, lane, m):
+    """Continue the run of a lane by the event loop until both balls fly; return PAUSED or the status of its end."""
+    runs, counters, unsampled = m.runs[:, lane], m.counters[lane], Sampling(0.0, np.empty(0), np.empty((0, 8)))
+    first = m.constants[rows.FIRST, lane], m.constants[rows.FIRST_TAIL, lane]
+    progress = _progress_of(m.runs, lane, first, flow.coefficients.omega)
+    while True:
+        _make_tables(flow, piece.rates[piece.owners[m.members[lane]]], progress, m.made[m.slots[lane]], m.change)
+        leaving, span = progress, Span(*first, int(runs[rows.STOP]))
+        counters[EVENTS] = 0.0
+        log, earlier = Log(m.log, counters), runs[rows.EVENTS]
+        progress, ended = run_until(flow, progress, span, unsampled, log, earlier, np.int64(0))
+        runs[rows.EVENTS] += int(counters[EVENTS])
+        if runs[rows.WATCHED] > 0.0:
+            _watch_events(piece, flow, squares, leaving, progress, lane, m)
+        boxes, balls, walls, _, _, _ = progress.motion
+        motion = Motion(boxes, balls, walls, (0, 0), math.sin(progress.phase), math.cos(progress.phase))
+        if ended == FINISHED and not _end_window(piece, flow, squares, motion, lane, m):
+            continue
+        if ended != PAUSED or mode_of(walls) == 0:
+            break
+    _write_progress(runs, motion, progress)
+    return ended
+
+
+@inlined_source
+def _progress_of(runs, lane, first, omega):
+    """Return the progress of the run in a lane."""
+    phase, tail, turns = runs[rows.PHASE, lane], runs[rows.TAIL, lane], int(runs[rows.TURNS, lane])
+    elapsed = (turns * TWO_PI + ((phase - first[0]) + (tail - first[1]))) / omega
+    stalled, due = int(runs[rows.STALLED, lane]), int(runs[rows.DUE, lane])
+    return Progress(_motion_of(runs, lane), due, phase, tail, turns, elapsed, 0, stalled)
+
+
+@inlined_source
+def _write_progress(runs, motion, progress):
+    """Write the progress of a run in the event loop to its lane, where it begins a flight."""
+    for i in range(4):
+        runs[rows.X1 + i], runs[rows.Y1 + i] = motion.boxes[i], motion.balls[i]
+    runs[rows.SINE], runs[rows.COSINE] = motion.sine, motion.cosine
+    runs[rows.PHASE], runs[rows.TAIL], runs[rows.TURNS] = progress.phase, progress.tail, progress.revolutions
+    runs[rows.DUE], runs[rows.STALLED] = progress.due, progress.stalled
+    runs[rows.TRIAL] = runs[rows.REACH] = runs[rows.PASSED] = 0.0
+    runs[rows.TOUCH1] = runs[rows.TOUCH2] = runs[rows.Y1_LOW] = runs[rows.Y2_LOW] = 0.0
+
+
+@inlined_source
+def _watch_events(piece, flow, squares, leaving, progress, lane, m):
+    """Add the statistics of the events between two states of a run in the event loop to those of its lane."""
+    noted, motion = int(m.counters[lane, EVENTS]), leaving.motion
+    departure = Departure(motion.boxes, motion.balls, motion.walls, leaving.elapsed, leaving.phase)
+    arrival = progress.motion.boxes, progress.elapsed, progress.phase
+    _read_statistics(m, lane)
+    accumulate_statistics(flow, squares, departure, m.log, noted, arrival, m.statistics)
+    if piece.continued:
+        discount_rests(m.log, noted, m.statistics)
+    _write_statistics(m, lane)
+
+
+@inlined_source
+def _make_tables(flow, rates, progress, made, change):
+    """Compute the tables of the contact states that the next events can lead to."""
+    motion = progress.motion
+    modes = mode_of(motion.walls)
+    for i in range(2):
+        near = abs(motion.boxes[i] - motion.balls[i]) > 1.0 - NEAR
+        modes |= (1 << i) if near or progress.due == i else 0
+    for mode in range(4):
+        if mode | modes == modes and not made[mode]:
+            fill_table(rates, np.intp(mode), flow.spacing, flow.series, flow.rotations, np.intp(0), change)
+            made[mode] = True

@@ -1,0 +1,420 @@
+"""Advance eight runs in parallel lanes through free flights and simple impacts; each lane has its own system.
+
+Between impacts each lane advances by its fixed step h, z' = exp(A h) z (`advance_lanes`); only the change of z is
+added, so that its rounding is small. The hull of a cubic polynomial proves that a step has no impact. The position w of
+a ball in its box and its rate r at both ends define Hermite's polynomial, which is bounded by its Bernstein
+coefficients w, w + h r / 3, w' - h r' / 3, w'. With a bound B on the fourth derivative, its error is at most B h^4 s^2
+(1 - s)^2 / 24 at the fraction s of the step; lowering the two middle coefficients by B h^4 / 72 covers more than that.
+B follows from the energy of the boxes, which grows no faster than by the work of the force.
+
+Lanes whose step is not proved wait until there are enough of them for a pass (`step_to_event`): the Taylor polynomials
+of both boxes give the time of an impact, and the same hull proves the flight until then. If a proof fails, it is tried
+again over half the time. All other cases (chatter to be completed, balls at rest, simultaneous events, any doubt) are
+left to the event loop.
+
+The impact law is that of `vibroimpact.system.restitution`, which names its other implementations.
+"""
+
+import math
+from typing import NamedTuple
+
+from vibroimpact.exact.engine.compiled import in_place, inlined
+from vibroimpact.exact.engine.contact import LOW
+from vibroimpact.exact.engine.exclusion import CONVERGING, LOOKAHEAD
+from vibroimpact.exact.engine.flow import (
+    QUARTER,
+    QUARTER_TAIL,
+    TWO_PI,
+    TWO_PI_TAIL,
+    advance_phase,
+    reduced,
+    sine_and_cosine_near,
+)
+from vibroimpact.exact.engine.vectors import Lanes, Mask, count, fused, load, load_rows, replace_rows, store, where
+from vibroimpact.exact.lanes import rows
+from vibroimpact.exact.lanes.rows import LARGEST, ORDER, SECOND, STATISTICS_AT, evaluate, expand, least, most
+from vibroimpact.exact.lanes.statistics import keep_turns, may_turn_beyond, observe
+
+NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
+"""Result of a pass in a lane; DOUBTFUL requires the event loop."""
+
+SHORTEST = 1 / 32  # smallest fraction of a step over which a proof is tried
+LONGEST = 6.0  # forcing angle [rad], below a full turn, after which its sine and cosine are computed again
+ROUNDED = 8.0 * 2.0**-52
+SAME_TIME = 2.0**-48
+
+
+@in_place
+def advance_lanes(runs, c, work, enough):
+    """Advance runs (STATES, 8) with constants (CONSTANTS, 8) until `enough` have an unproved step.
+
+    Returns the number of steps.
+    """
+    x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
+    passed, reach, trial = load_rows(runs, rows.PASSED, 3)
+    limit, step, third = load(runs, rows.LIMIT), load(c, rows.STEP), load(c, rows.STEP) * (1 / 3)
+    alive, ready = load(runs, rows.ALIVE) > 0.0, (trial == step) & (load(runs, rows.DUE) < 0.0)
+    most1, most2 = _records(runs)
+    square = step * step
+    less = fused(load(c, rows.BEND), square * square, load(c, rows.ROUNDING)) * (load(c, rows.DRIVE) * step)
+    ca, sa = load(c, rows.CA), load(c, rows.SA)
+    w1, w2, r1, r2 = x1 - fused(passed, u1, y1), x2 - fused(passed, u2, y2), v1 - u1, v2 - u2
+    steps = 0
+    while True:
+        # a step, and its proof
+        a1, a2 = x1 + _change(c, 0, x1, x2, v1, v2, s, k), x2 + _change(c, 1, x1, x2, v1, v2, s, k)
+        b1, b2 = v1 + _change(c, 2, x1, x2, v1, v2, s, k), v2 + _change(c, 3, x1, x2, v1, v2, s, k)
+        later = passed + step
+        q1, q2 = a1 - fused(later, u1, y1), a2 - fused(later, u2, y2)
+        o1, o2 = b1 - u1, b2 - u2
+        ok = ready & (later <= reach) & (abs(q1) <= limit) & (abs(q2) <= limit)
+        ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
+        if count(alive & ~ok) >= enough:
+            break
+        # turns of the boxes that may be their largest displacements
+        wrong, s_later, k_later = 1.0 - limit, s + fused(k, sa, s * ca), k + fused(k, ca, -s * sa)
+        turns1 = ok & may_turn_beyond(most1 - wrong, x1, v1, a1, b1, third)
+        turns2 = ok & may_turn_beyond(most2 - wrong, x2, v2, a2, b2, third)
+        if count(turns1 | turns2) > 0:
+            early, late = (x1, x2, v1, v2, s, k), (a1, a2, b1, b2, s_later, k_later)
+            keep_turns(runs, c, work, (turns1, turns2), wrong, early, late, step)
+            most1, most2 = _records(runs)
+        # the lanes with a proof take the step
+        s, k = where(ok, s_later, s), where(ok, k_later, k)
+        x1, x2, v1, v2 = where(ok, a1, x1), where(ok, a2, x2), where(ok, b1, v1), where(ok, b2, v2)
+        passed, limit = where(ok, later, passed), where(ok, limit - less, limit)
+        w1, w2, r1, r2 = where(ok, q1, w1), where(ok, q2, w2), where(ok, o1, r1), where(ok, o2, r2)
+        steps += 1
+    replace_rows(runs, rows.TOUCH1, passed > load(runs, rows.PASSED), (0.0, 0.0))
+    replace_rows(runs, rows.X1, alive, (x1, x2, v1, v2))
+    replace_rows(runs, rows.SINE, alive, (s, k))
+    replace_rows(runs, rows.PASSED, alive, (passed,))
+    replace_rows(runs, rows.LIMIT, alive, (limit,))
+    store(runs, rows.OUTCOME, where(alive & ~ok, DONE, NOTHING))
+    return steps
+
+
+@inlined
+def _records(runs):
+    """Return the largest displacements of both boxes so far, or inf in lanes that are not observed."""
+    watched, largest = load(runs, rows.WATCHED) > 0.0, load_rows(runs, STATISTICS_AT + LARGEST, 2)
+    return where(watched, largest[0], math.inf), where(watched, largest[1], math.inf)
+
+
+class Bodies(NamedTuple):
+    """Positions and velocities of boxes (x, v) and balls (y, u)."""
+
+    x1: Lanes
+    x2: Lanes
+    v1: Lanes
+    v2: Lanes
+    y1: Lanes
+    y2: Lanes
+    u1: Lanes
+    u2: Lanes
+
+
+class Contact(NamedTuple):
+    """End of a step in each lane: time from now, and whether a ball meets a wall then.
+
+    meets: one does; missed: one should, but its time is not found; first: the ball of module 1 is the one, else that of
+    module 2; walls: the wall ahead of each ball; at_once: the ball is on its wall already.
+    """
+
+    time: Lanes
+    meets: Mask
+    missed: Mask
+    first: Mask
+    walls: tuple[Lanes, Lanes]
+    at_once: Mask
+
+
+class Clock(NamedTuple):
+    """Forcing phase with its tail, full turns, sine and cosine, and the time left until the run stops."""
+
+    phase: Lanes
+    tail: Lanes
+    turns: Lanes
+    sine: Lanes
+    cosine: Lanes
+    left: Lanes
+
+
+class Impact(NamedTuple):
+    """Wall of an impact, velocities of box and ball after it, and a mask of the lanes where nothing else happens."""
+
+    wall: Lanes
+    box: Lanes
+    ball: Lanes
+    plain: Mask
+
+
+@in_place
+def step_to_event(runs, c, work, integrals):
+    """Advance pending runs over a step, to an impact or to the end of their flight.
+
+    Returns the number of runs that must leave the lanes. work (2 ORDER + 2, 8): workspace for polynomials; integrals:
+    number of observed integrals.
+    """
+    pending, leaves = load(runs, rows.OUTCOME) == DONE, load(runs, rows.TRIAL) < 0.0
+    x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
+    passed = load(runs, rows.PASSED)
+    now = Bodies(x1, x2, v1, v2, fused(passed, u1, y1), fused(passed, u2, y2), u1, u2)
+    expand(c, x1, x2, v1, v2, s, k, work)
+
+    end = _locate(runs, c, work, now, leaves)
+    elapsed = passed + end.time
+    then, lows = _arrive(runs, work, end.time, elapsed)
+    size = fused(elapsed, load(c, rows.DRIVE), load(runs, rows.SIZE))
+    rounding = _rounding(c, size, u1, u2)
+    limit = _limit(c, size, end.time, rounding)
+    proved = _prove(now, then, end, limit, rounding)
+    clock = _advance_clock(runs, c, elapsed)
+    impact = _collide(c, then, end, clock, rounding)
+
+    done = pending & (proved | leaves)
+    hits, doubt = done & end.meets & impact.plain, done & end.meets & ~impact.plain
+    hit1, hit2 = hits & end.first, hits & ~end.first
+    stops = done & ~end.meets & ~leaves & (elapsed >= load(runs, rows.REACH)) & (clock.left <= SAME_TIME)
+    after = Bodies(
+        then.x1, then.x2, where(hit1, impact.box, then.v1), where(hit2, impact.box, then.v2),
+        where(hit1, then.x1 - impact.wall, then.y1), where(hit2, then.x2 - impact.wall, then.y2),
+        where(hit1, impact.ball, u1), where(hit2, impact.ball, u2),
+    )  # fmt: skip
+    if integrals > 0:
+        flight, early = (done, end.time, elapsed, 1.0 - limit), (x1, x2, v1, v2, s, k)
+        late = then[:2], then[2:4], after[2:4], (u1, u2), (clock.sine, clock.cosine)
+        observe(runs, c, work, integrals, flight, (hit1, hit2), early, late)
+    _begin_flight(runs, c, done, after, clock)
+    again = pending & ~done & (end.time > SHORTEST * load(c, rows.STEP))
+    trial = where(done, load(c, rows.STEP), where(again, 0.5 * end.time, -1.0))
+    replace_rows(runs, rows.TRIAL, pending, (trial,))
+    replace_rows(runs, rows.Y1_LOW, done, (where(hit1, 0.0, lows[0]), where(hit2, 0.0, lows[1])))
+    replace_rows(runs, rows.TOUCH1, done & (end.time > 0.0), (0.0, 0.0))
+    replace_rows(runs, rows.TOUCH1, hit1, (impact.wall,))
+    replace_rows(runs, rows.TOUCH2, hit2, (impact.wall,))
+    due = where(leaves, load(runs, rows.DUE), -1.0)
+    replace_rows(runs, rows.DUE, done, (where(doubt, where(end.first, 0.0, 1.0), due),))
+    replace_rows(runs, rows.EVENTS, hits, (load(runs, rows.EVENTS) + 1.0,))
+    replace_rows(runs, rows.STALLED, done & (elapsed > 0.0), (0.0,))
+    out = doubt | (done & leaves)
+    store(runs, rows.OUTCOME, where(out, DOUBTFUL, where(stops, STOPPED, NOTHING)))
+    return count(out | stops)
+
+
+@inlined
+def _locate(runs, c, work, now, leaves):
+    """Return the Contact at the end of a step: the time at which the first ball meets a wall, or the longest time."""
+    x1, x2, v1, v2, y1, y2, u1, u2 = now
+    (touch1, touch2), (s, k) = load_rows(runs, rows.TOUCH1, 2), load_rows(runs, rows.SINE, 2)
+    due, step = load(runs, rows.DUE), load(c, rows.STEP)
+    at_once = (due >= 0.0) & ~leaves
+    until = least(most(load(runs, rows.TRIAL), 0.0), load(runs, rows.REACH) - load(runs, rows.PASSED))
+    a1 = x1 - fused(step, u1, y1) + _rough_change(c, 0, x1, x2, v1, v2, s, k)
+    a2 = x2 - fused(step, u2, y2) + _rough_change(c, 1, x1, x2, v1, v2, s, k)
+    wall1, wall2 = where(a1 > 0.0, 1.0, -1.0), where(a2 > 0.0, 1.0, -1.0)
+    t1 = where(abs(a1) >= 1.0, _about(work, 0, touch1 == wall1, wall1, y1, u1, step), math.inf)
+    t2 = where(abs(a2) >= 1.0, _about(work, SECOND, touch2 == wall2, wall2, y2, u2, step), math.inf)
+    first = where(at_once, due, where(t1 <= t2, 0.0, 1.0)) == 0.0
+    wall, soonest = where(first, wall1, wall2), least(t1, t2)
+    ball, rate = where(first, y1, y2), where(first, u1, u2)
+    near = where(where(first, touch1, touch2) == wall, 0.0, where(first, x1, x2) - ball - wall)
+    t, found = _sharp(work, first, near, where(first, v1, v2) - rate, soonest)
+    found = found & (soonest <= step) & (t > 0.0) & (t <= until)
+    time = where(at_once, 0.0, where(found, t, until))
+    return Contact(time, found | at_once, (soonest <= until) & ~found, first, (wall1, wall2), at_once)
+
+
+@inlined
+def _arrive(runs, work, t, elapsed):
+    """Return the Bodies after a step, and the remainders of the positions of the balls."""
+    x1, v1 = evaluate(work, 0, t)
+    x2, v2 = evaluate(work, SECOND, t)
+    y1, y2, u1, u2 = load_rows(runs, rows.Y1, 4)
+    low1, low2 = load_rows(runs, rows.Y1_LOW, 2)
+    z1, low1 = _drifted(y1, low1, u1, elapsed)
+    z2, low2 = _drifted(y2, low2, u2, elapsed)
+    return Bodies(x1, x2, v1, v2, z1, z2, u1, u2), (low1, low2)
+
+
+@inlined
+def _prove(now, then, end, limit, rounding):
+    """Return a mask of the lanes where no ball certainly meets a wall in a step, except at its end."""
+    t, third = end.time, end.time * (1 / 3)
+    meets1, meets2 = end.meets & end.first, end.meets & ~end.first
+    w1, w2 = then.x1 - then.y1, then.x2 - then.y2
+    r1, r2 = then.v1 - then.u1, then.v2 - then.u2
+    ok = _inside(limit, now.x1 - now.y1, now.v1 - now.u1, where(meets1, end.walls[0], w1), r1, third)
+    ok = ok & _inside(limit, now.x2 - now.y2, now.v2 - now.u2, where(meets2, end.walls[1], w2), r2, third)
+    ok = (ok & ~end.missed) | (t == 0.0)
+    return ok & (meets1 | (abs(w1) <= 1.0 - rounding)) & (meets2 | (abs(w2) <= 1.0 - rounding))
+
+
+@inlined
+def _advance_clock(runs, c, elapsed):
+    """Return the Clock a time after the start of a flight."""
+    phase, tail, turns = load_rows(runs, rows.PHASE, 3)
+    phase, tail = advance_phase(phase, tail, load(c, rows.OMEGA), elapsed)
+    full, (less, rest) = phase >= TWO_PI, reduced(phase, tail)
+    phase, tail, turns = where(full, less, phase), where(full, rest, tail), where(full, turns + 1.0, turns)
+    sine, cosine = _sine_and_cosine(phase, tail)
+    whole = load(runs, rows.STOP) - turns
+    since = (phase - load(c, rows.FIRST)) + (tail - load(c, rows.FIRST_TAIL))
+    left = (whole * TWO_PI - since + whole * TWO_PI_TAIL) / load(c, rows.OMEGA)
+    return Clock(phase, tail, turns, sine, cosine, left)
+
+
+@inlined
+def _collide(c, then, end, clock, rounding):
+    """Return the Impact in the lanes where a ball meets a wall; it is plain unless its chatter would end soon."""
+    x1, x2, v1, v2, y1, y2, u1, u2 = then
+    kappa, epsilon = load(c, rows.KAPPA), load(c, rows.EPSILON)
+    ahead = where(end.first, end.walls[0], end.walls[1])
+    wall = where(end.at_once, where(where(end.first, x1 - y1, x2 - y2) > 0.0, 1.0, -1.0), ahead)
+    before, rate = where(end.first, v1, v2), where(end.first, u1, u2)
+    approach = before - rate
+    gained = fused(load(c, rows.IMPULSE), approach, load(c, rows.REST) * approach)
+    heavy, lower = epsilon > 1.0, fused(-epsilon, gained, before)
+    ball = where(heavy, rate + gained, fused(kappa, approach, lower))
+    box = where(heavy, fused(-kappa, approach, ball), lower)
+    plain = wall * approach > ROUNDED * (abs(before) + abs(rate))
+    plain = plain & (kappa * abs(approach) > ROUNDED * (abs(approach) + abs(box) + abs(ball)))
+
+    e1, e2 = where(end.meets & end.first, box, v1), where(end.meets & ~end.first, box, v2)
+    k11, k12, k22, c11, c12, c22 = (*load_rows(c, rows.K11, 3), *load_rows(c, rows.C11, 3))
+    force1 = load(c, rows.F1) * clock.sine - k11 * x1 - k12 * x2 - c11 * e1 - c12 * e2
+    force2 = load(c, rows.F2) * clock.sine - k12 * x1 - k22 * x2 - c12 * e1 - c22 * e2
+    push, inward = wall * where(end.first, force1, force2), -wall * (box - ball)
+    soon = 4.0 * inward <= push * (1.0 - kappa) * least(clock.left, LOOKAHEAD * load(c, rows.UNIT))
+    plain = plain & ~(soon & (inward * inward <= 2.0 * push * (LOW + 4.0 * rounding)))
+    return Impact(wall, box, ball, plain)
+
+
+@inlined
+def _begin_flight(runs, c, done, start, clock):
+    """Write the start of the next flight of the lanes in a mask, and the bounds for its first step."""
+    x1, x2, v1, v2, _, _, u1, u2 = start
+    step, across = load(c, rows.STEP), x1 - x2
+    energy = fused(x1, x1, load(c, rows.GROUND) * (x2 * x2))
+    size = math.sqrt(fused(v1, v1, v2 * v2) + fused(-load(c, rows.K12), across * across, energy))
+    later = fused(load(c, rows.DRIVE), step, size)
+    limit = _limit(c, later, step, _rounding(c, later, u1, u2))
+    reach = least(clock.left, LONGEST / load(c, rows.OMEGA))
+    replace_rows(runs, rows.X1, done, start)
+    replace_rows(runs, rows.SINE, done, (clock.sine, clock.cosine))
+    replace_rows(runs, rows.PASSED, done, (0.0, reach))
+    replace_rows(runs, rows.SIZE, done, (size, limit))
+    replace_rows(runs, rows.PHASE, done, (clock.phase, clock.tail, clock.turns))
+
+
+@inlined
+def _limit(c, size, t, rounding):
+    """Return the limit for Bernstein coefficients over a time, given a bound on the energy of the boxes."""
+    square = t * t
+    bend = fused(load(c, rows.BEND), size, load(c, rows.BEND_FORCE))
+    return 1.0 - fused(bend, square * square, rounding)
+
+
+@inlined
+def _change(c, k, x1, x2, v1, v2, s, cosine):
+    """Return row k of exp(A h) - 1 times [X1, X2, X1', X2', sin, cos]: the change of one of them in a step."""
+    low = _of_boxes(c, rows.LOW_PARTS + 4 * k, x1, x2, v1, v2)
+    return _rough_change(c, k, x1, x2, v1, v2, s, cosine, low)
+
+
+@inlined
+def _rough_change(c, k, x1, x2, v1, v2, s, cosine, low=0.0):
+    """Return `_change` without the rounding errors of the constants.
+
+    low: their contribution, if it is needed.
+    """
+    boxes = _of_boxes(c, 6 * k, x1, x2, v1, v2)
+    return boxes + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
+
+
+@inlined
+def _of_boxes(c, k, x1, x2, v1, v2):
+    """Return the product of four constants, from row k on, with the boxes."""
+    return fused(load(c, k + 1), x2, load(c, k) * x1) + fused(load(c, k + 3), v2, load(c, k + 2) * v1)
+
+
+@inlined
+def _inside(limit, w, rate, later, rate_later, third):
+    """Return True where the middle Bernstein coefficients are within a limit.
+
+    third: a third of the time.
+    """
+    return (abs(fused(third, rate, w)) <= limit) & (abs(fused(-third, rate_later, later)) <= limit)
+
+
+@inlined
+def _drifted(y, low, u, time):
+    """Return the position of a ball after a time as a pair of floats, since equal flights round in the same way."""
+    way = fused(time, u, low)
+    there = y + way
+    part = there - y
+    return there, (y - (there - part)) + (way - part)
+
+
+@inlined
+def _rounding(c, size, u1, u2):
+    """Return a bound on the rounding of the gaps of a flight."""
+    return fused(load(c, rows.ROUNDING), size, load(c, rows.LEAST_ROUNDING)) + ROUNDED * (abs(u1) + abs(u2))
+
+
+@inlined
+def _about(work, first, leaves, wall, y, u, step):
+    """Return the approximate time at which a ball meets a wall: a quadratic and two Newton steps.
+
+    leaves: True if the ball is on the wall.
+    """
+    c0 = where(leaves, 0.0, 1.0 - wall * (load(work, first) - y))
+    c1, c2 = -wall * (load(work, first + 1) - u), -wall * load(work, first + 2)
+    root = fused(c1, c1, -4.0 * c0 * c2)
+    t = where(leaves, -c1 / c2, 2.0 * c0 / (math.sqrt(where(root > 0.0, root, 0.0)) - c1))
+    t = where((t > 0.0) & (t <= step), t, step)
+    c3, c4, c5 = -wall * load(work, first + 3), -wall * load(work, first + 4), -wall * load(work, first + 5)
+    for _ in range(2):
+        value = fused(t, fused(t, fused(t, fused(t, fused(t, c5, c4), c3), c2), c1), c0)
+        slope = fused(t, fused(t, fused(t, fused(t, 5.0 * c5, 4.0 * c4), 3.0 * c3), 2.0 * c2), c1)
+        t = t - value / slope
+    return t
+
+
+@inlined
+def _sharp(work, one, near, speed, t):
+    """Return (the zero of a relative position by two Newton steps from t, True if they converge).
+
+    one: of module 1; near, speed: the first two coefficients of the position. The first step uses fewer terms, since
+    the second corrects it.
+    """
+    t = t - _newton_step(work, one, near, speed, t, rows.TERMS + 2)
+    change = _newton_step(work, one, near, speed, t, ORDER)
+    t = t - change
+    return t, abs(change) <= CONVERGING * t
+
+
+@inlined
+def _newton_step(work, one, near, speed, t, order):
+    """Return the Newton step at t, with the terms up to an order."""
+    value, slope = where(one, load(work, order), load(work, SECOND + order)), 0.0 * t
+    for m in range(order - 1, 1, -1):
+        slope = fused(slope, t, value)
+        value = fused(value, t, where(one, load(work, m), load(work, SECOND + m)))
+    slope = fused(slope, t, value)
+    value = fused(value, t, speed)
+    slope = fused(slope, t, value)
+    value = fused(value, t, near)
+    return value / slope
+
+
+@inlined
+def _sine_and_cosine(phase, tail):
+    """Return `flow.sine_and_cosine` in each lane."""
+    quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
+    x, y = fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
+    sine, cosine = sine_and_cosine_near(x, y)
+    odd = (quarters == 1.0) | (quarters == 3.0)
+    sine, cosine = where(odd, cosine, sine), where(odd, -sine, cosine)
+    half = (quarters == 2.0) | (quarters == 3.0)
+    return where(half, -sine, sine), where(half, -cosine, cosine)
