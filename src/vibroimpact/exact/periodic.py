@@ -11,8 +11,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vibroimpact.exact.engine.ensemble import ensemble
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, Run, checked_state, simulate, within_walls
+from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.exact.orbits.floquet import by_multipliers, multipliers
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, whole

@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.exact.engine.ensemble import finals
 from vibroimpact.exact.engine.simulation import checked_state, simulate
 from vibroimpact.exact.engine.variation import growth
+from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.system import System
 from vibroimpact.system.arguments import MOST_SEED, instance, whole
 from vibroimpact.system.matrices import damping_matrix
