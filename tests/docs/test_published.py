@@ -18,6 +18,8 @@ ROWS = [
 ]
 NAMES = [re.fullmatch(r"\[(\w+)\]\(published\.py\)", row[0])[1] for row in ROWS]
 MOST_LINES = 8
+SAME = "the same"
+"""Stands for the published numbers in the column of those computed."""
 
 
 def texts(cell):
@@ -42,11 +44,11 @@ def test_each_row_has_a_function_of_a_few_lines():
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
 def test_the_function_of_a_row_gives_the_computed_numbers_of_the_page(published, row):
-    shown, values = texts(row[4]), getattr(published, NAMES[ROWS.index(row)])()
+    shown, values = texts(row[3] if row[4] == SAME else row[4]), getattr(published, NAMES[ROWS.index(row)])()
     assert [
         f"{float(value):.{len(text.partition('.')[2])}f}" for text, value in zip(shown, values, strict=True)
     ] == shown
-    assert (row[3] == row[4]) == (row[5] == "agrees")
+    assert (row[4] == SAME) == (row[5] == "agrees")
 
 
 def test_the_published_numbers_that_are_closed_forms():
