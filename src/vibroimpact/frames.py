@@ -87,8 +87,9 @@ def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dat
 
     Examples
     --------
-    >>> rows = vi.sweep(system, {"kappa": [0.4, 0.6]}, ["fixed_points"])  # doctest: +SKIP
-    >>> vi.to_dataset(rows, along=["kappa"])  # doctest: +SKIP
+    >>> rows = [{"kappa": kappa, "points": len(vi.fixed_points(system.with_(kappa=kappa)))} for kappa in (0.4, 0.6)]
+    >>> vi.to_dataset(rows, along=["kappa"]).sizes["kappa"]
+    2
     """
     need("figures", "xarray")
     table = _pandas().DataFrame(rows)

@@ -1,5 +1,6 @@
 """Every law of contact has the restitution coefficient it is tuned to: one contact, with another integrator."""
 
+import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
@@ -9,6 +10,7 @@ from vibroimpact.integrators.contact_laws import (
     SPRING,
     damping_of,
     fading,
+    hunt_crossley_number,
     power_law,
     stiffness_of,
     stiffness_turning_at_the_wall,
@@ -47,7 +49,7 @@ def stiffness_in(law, kappa):
 
 
 @pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("kappa", [0.1, 0.65, 0.95])
+@pytest.mark.parametrize("kappa", [0.3, 0.65, 0.95])
 def test_restitution_is_kappa_at_every_speed(name, kappa):
     law = LAWS[name]
     stiffness = stiffness_in(law, kappa)
@@ -67,6 +69,15 @@ def test_the_power_law_turns_the_ball_at_the_wall():
     law = power_law(20)
     stiffness = stiffness_in(law, 0.65)
     assert contact(law, stiffness, damping_of(law, MASS, 0.65, stiffness), 1.0)[2] == pytest.approx(1.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("kappa", [1e-9, 1e-3, 0.1, 0.65, 0.999, 1.0 - 1e-9])
+def test_the_hunt_crossley_number_solves_its_equation(kappa):
+    d = hunt_crossley_number(kappa)
+    if kappa > 0.05:  # below, 1 - kappa d is lost in rounding
+        assert (1.0 + kappa) * d == pytest.approx(np.log1p(d) - np.log1p(-kappa * d), rel=1e-9)
+    assert 1.5 * (1.0 - kappa) <= d * (1.0 + 1e-6)  # its limit where kappa tends to 1
+    assert d * kappa <= 1.0
 
 
 def test_one_damping_of_hunt_and_crossley_has_kappa_at_one_speed_only():

@@ -38,9 +38,10 @@ def job(tmp_path, monkeypatch):
     PAGE.parent.mkdir()
     PAGE.write_text("{}")
     params = {"code": code.code_of(str(SCRIPT), str(PAGE))}
-    return SimpleNamespace(
+    yield SimpleNamespace(
         log=[], input=[str(INPUT), str(PAGE)], output={"csv": str(OUTPUT)}, params=params, wildcards={}, rule="rule"
     )
+    code.modules.cache_clear(), code.module_files.cache_clear()
 
 
 def theory():

@@ -18,14 +18,12 @@ rule proofs:
         "../../scripts/studies/proofs.py"
 
 
-# Verdicts of the theory against exact orbits at several epsilon: over a plane of forcing amplitudes, and for all cases.
+# Verdicts of the theory over a plane of forcing amplitudes, against exact orbits at several epsilon.
 rule verdict_grid:
     output:
         **in_report({"csv": "results/verdict_grid.csv"}, "Tables", CAPTION),
-        by_epsilon="results/verdicts_by_epsilon.csv",
     params:
         system=config["system"] | {"f10_hat": 0.0, "f20_hat": 0.0},  # the grid sets the forces
-        systems=all_systems(),
         settings=config["stability"]["verdict_grid"],
         code=code("studies/verdict_grid"),
     log:
@@ -56,8 +54,25 @@ rule modulation:
         "../../scripts/studies/modulation.py"
 
 
+# Verdicts on the fixed points of all cases as epsilon decreases.
+rule verdicts_by_epsilon:
+    output:
+        csv="results/verdicts_by_epsilon.csv",
+    params:
+        systems=all_systems(),
+        epsilon=config["stability"]["verdict_grid"]["epsilon"],
+        code=code("studies/verdicts_by_epsilon"),
+    log:
+        "results/logs/verdicts_by_epsilon.log",
+    conda:
+        "../../envs/vibroimpact.yaml"
+    script:
+        "../../scripts/studies/verdicts_by_epsilon.py"
+
+
 rule stability:
     input:
         rules.modulation.output,
         rules.proofs.output,
         rules.verdict_grid.output,
+        rules.verdicts_by_epsilon.output,
