@@ -13,9 +13,8 @@ def rules():
     for file in sorted((ROOT / "workflow/rules").rglob("*.smk")):
         for rule in re.split(r"\n+ *(?:use )?rule\b.*", file.read_text(encoding="utf-8"))[1:]:
             if script := re.search(r'"(?:\.\./)+scripts/([\w/]+)\.py"', rule):
-                params = re.search(r'code=code\(\s*"([\w/]+)"', rule) or re.search(
-                    r"\*\*(?:scene\(|chart\(|found\.params)()", rule
-                )
+                drawn = r"\*\*(?:scene\(|chart\(|found\.params)()"
+                params = re.search(r'code=code\(\s*"([\w/]+)"', rule) or re.search(drawn, rule)
                 yield script[1], params and (params[1] or "figure")
 
 
