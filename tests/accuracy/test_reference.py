@@ -16,6 +16,7 @@ from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 MODULATED = {name: str(value) for name, value in PARAMETERS.items()} | {"f10_hat": "0.5", "f20_hat": "0.5"}
 # Box 1 alone, a unit oscillator without damping or forcing; box 2 at rest with its ball.
+BUSY = ["0.1", "0.3", "0", "-0.2", "0", "0", "1.4", "0.1"]  # both balls impact from here
 BARE = dict.fromkeys(MODULATED, "0") | {"epsilon": "0.1", "kappa": "0.65"}
 TO_CHATTER = ["-1.9", "-2.88", "0", "0", "0", "-0.05", "0", "0"]
 
@@ -203,6 +204,22 @@ def test_doubled_digits_prove_the_modulated_case_through_chatter():
     nudged = [Fraction(start[0]) + Fraction(1, 10**20), *start[1:]]
     apart = departure(reference_run(MODULATED, nudged, 160, 60), proven.run)[1]
     assert apart.max() > 1e-10
+
+
+def test_impact_at_the_start_comes_before_a_sample_there():
+    run = reference_run(BARE, [0, -1, 0, 0, 1, 0, 0, 0], 0, 30, sample_times=[0])
+    assert tuple(run.events[["module", "wall", "kind"]][0]) == (1, 1, IMPACT)
+    np.testing.assert_allclose(run.samples[0][[4, 5]], [1 - 0.15, 1.5], rtol=1e-15)
+    np.testing.assert_array_equal(run.samples[0], run.final)
+
+
+def test_mirror_symmetry():
+    """Minus the state under minus the forcing, which is the forcing half a period later."""
+    run = reference_run(MODULATED, BUSY, 6, 40)
+    mirrored = [-Fraction(value) for value in BUSY]
+    other = reference_run(MODULATED | {"f10_hat": "-0.5", "f20_hat": "-0.5"}, mirrored, 6, 40)
+    assert np.array_equal(run.events["wall"], -other.events["wall"])
+    assert max(float(abs(a + b).upper()) for a, b in zip(run.final_exact, other.final_exact, strict=True)) < 1e-38
 
 
 def test_a_system_is_judged_with_its_floats_and_decimals_where_one_asks():

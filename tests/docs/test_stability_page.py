@@ -13,11 +13,14 @@ from pipeline_trees import ROOT
 from verdict_tables import verdicts_of
 from vibroimpact.exact.orbits.search import half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
+from vibroimpact.theory.manifold import largest_C
+from vibroimpact.theory.masri import impact_multipliers
 
 PAGE = (ROOT / "docs/stability.md").read_text(encoding="utf-8")
 TEXT = " ".join(PAGE.split())
 SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
 BREAKING = np.pi**2 / (np.pi**2 - 4)
+ALONE = {**PARAMETERS, "alpha12_hat": 0, "gamma12_hat": 0, "sigma20_hat": 0}
 
 
 def cells(heading):
@@ -52,6 +55,63 @@ def point_c():
     return min(vi.fixed_points(SYSTEMS["equal"]), key=lambda point: abs(point.C[1] - 1.6771)).C
 
 
+def test_multipliers_at_the_limits():
+    """By their sum and product, which a double multiplier does not blur."""
+    for C, _, mu in cells("$C$")[1:]:
+        shown = [float(value.replace("−", "-")) for value in mu.split(", ")]
+        expected = impact_multipliers(float(C), 0.65)
+        assert sum(shown) == pytest.approx(expected.sum().real, abs=1.1e-3), C
+        assert np.prod(shown) == pytest.approx(0.65**2, abs=2e-3), C
+
+
+def test_largest_C_within_the_walls():
+    kappas, C = cells("$\\kappa$")
+    for kappa, value in zip(kappas[1:], C[1:], strict=True):
+        # At 0.0867, itself rounded, the value is that of symmetry breaking.
+        assert largest_C(float(kappa)) == pytest.approx(float(value), abs=4e-4 if kappa == "0.0867" else 5.1e-5)
+    assert largest_C(1 - 1e-9) == said(r"1 at \$\\kappa\\to0\$ to ([\d.]+) at")
+    largest = max(point.C.max() for system in SYSTEMS.values() for point in vi.fixed_points(system))
+    assert largest == said(r"the largest \$C\$ is ([\d.]+)\)")
+    assert largest < largest_C(0.65) == said(r"holds for \$0\\le C\\le ([\d.]+)\$")
+
+
+def test_how_far_the_limit_has_moved():
+    assert BREAKING - float(cells("$\\varepsilon$")[1][1]) == said(r"the limit has moved by ([\d.]+):")
+
+
+def test_the_reading_with_squares():
+    assert said(r"\}\$ was meant: ([\d.]+) in place") == 1.65**2 / (2 * (1 + 0.65**2))
+    assert said(r"in place of ([\d.]+) at") == 3.3 / 3.65
+    assert impact_multipliers(1.65**2 / (2 * (1 + 0.65**2)), 0.65).max() == said(r"multiplier of ([\d.]+) at the limit")
+
+
+def test_limits_like_the_printed_one_against_the_captions():
+    rho, fold = 2 * 0.35 / (np.pi * 1.65), 1 / (1 + (2 * 0.35 / (np.pi * 1.65)) ** 2)
+    exponents = {"printed": (1, 1), "\\pi^2": (2, 2), "4+\\rho": (0, 1), "\\pi^3": (3, 3)}
+    second = sorted(point.C.min() for point in vi.fixed_points(SYSTEMS["unequal"]))[1]
+    assert second == said(r"lies between ([\d.]+), the smaller")
+    assert fold == said(r"C_\{\\min\} = ([\d.]+)\$\. So")
+    for (name, value, fits, multiplier, below), (key, (p, q)) in zip(
+        cells("limit")[1:], exponents.items(), strict=True
+    ):
+        limit = 4 / (4 + np.pi**p * rho**q)
+        assert key in name
+        assert limit == number(value)
+        assert fits.startswith("yes" if second < limit < fold else "no")
+        assert impact_multipliers(limit, 0.65).max() == number(multiplier)
+        if "by" in fits:
+            assert second - limit == number(fits.rpartition(" ")[2])
+        kappa = np.linspace(0.0005, 0.9995, 1000)
+        r = 2 * (1 - kappa) / (np.pi * (1 + kappa))
+        under = 4 / (4 + np.pi**p * r**q) < 1 / (1 + r**2)
+        border = kappa[1:][np.diff(under)]
+        if below.startswith("all"):
+            assert under.all()
+        else:
+            assert border == pytest.approx(float(below.strip("$").split(" ")[-1]), abs=1.1e-3)
+            assert under[0 if "<" in below else -1]
+
+
 def test_the_force_at_which_point_b_passes_a_limit():
     limit = 4 / (4 + 2 * 0.35 / (np.pi * 1.65))
 
@@ -59,6 +119,22 @@ def test_the_force_at_which_point_b_passes_a_limit():
         return sorted(point.C.min() for point in vi.fixed_points(SYSTEMS["unequal"].with_(f20_hat=f20)))[1] - limit
 
     assert brentq(above, 0.89, 0.9) == said(r"third at \$\\hat f_\{20\} = ([\d.]+)\$")
+
+
+@pytest.mark.parametrize("column", range(5))
+def test_C_at_which_the_symmetry_of_a_single_module_breaks(column):
+    """The forcing raised until a half-period multiplier of the upper orbit is -1."""
+    epsilons, C = (row[1:] for row in cells("$\\varepsilon$"))
+    epsilon = float(epsilons[column])
+
+    def upper(f):
+        system = vi.System(**ALONE | {"epsilon": epsilon}, f10_hat=f, f20_hat=f)
+        roots = symmetric_solutions(system)
+        return symmetric_orbit(system, roots[roots[:, 2:].min(axis=1).argmax()])
+
+    breaking = brentq(lambda f: half_period_multipliers(upper(f)).real.min() + 1, 1.45, 1.72, xtol=1e-10)
+    np.testing.assert_allclose(upper(breaking).C, float(C[column]), atol=5.1e-5)
+    assert (upper(breaking).C < BREAKING).all()
 
 
 def test_point_c_of_the_equal_case():

@@ -92,6 +92,15 @@ def test_eigenvalues_stay_within_their_error(name, k, seed):
             assert np.abs(shifted - value).min() <= 1.001 * bound
 
 
+def test_error_of_a_fixed_point_covers_its_distance_from_the_exact_one():
+    """A point moved off by hand: the estimate finds how far."""
+    system = case("equal")
+    point = vi.fixed_points(system)[1]
+    away = {"C": point.C + np.array([3e-8, 0]), "psi": point.psi - np.array([0, 2e-8])}
+    moved = type(point)(**{**vars(point), **away})
+    assert 3e-8 <= 1.01 * verdicts.fixed_point_error(system, moved) < 3e-7
+
+
 def test_error_of_a_fixed_point_covers_the_rounding_that_its_residual_does_not_show():
     """Against the same point with 40 digits, over random forces."""
     random, beyond_the_step = np.random.default_rng(5), 0
@@ -117,8 +126,12 @@ def test_nothing_is_decided_where_fixed_points_coincide():
 
 def test_close_to_a_fold_the_slow_flow_is_undecided_and_beyond_not():
     """Two fixed points merge as f20 falls; where they last exist, an eigenvalue vanishes to within its error."""
-    low, high, base = 0.65, 0.75, case("equal")
-    while low < (middle := (low + high) / 2) < high:
+    low, high = 0.65, 0.75
+    base = case("equal")
+    while high - low > 1e-15:
+        middle = (low + high) / 2
+        if middle in (low, high):
+            break
         low, high = (low, middle) if len(vi.fixed_points(base.with_(f20_hat=middle))) == 3 else (middle, high)
     near = base.with_(f20_hat=high)
     assert "undecided" in [verdicts.of_fixed_point(near, point)["slow"] for point in vi.fixed_points(near)]

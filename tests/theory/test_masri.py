@@ -1,10 +1,12 @@
 """Masri's analysis: by computer algebra from the equations of motion, and against a ball flying between real walls."""
 
+import itertools
+
 import mpmath
 import numpy as np
 import pytest
 import sympy
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
@@ -80,7 +82,77 @@ LIMITS = {"printed": lambda k: 4 / (4 + np.pi * rho_of(k)), "with squares": lamb
 """(10.26) as printed, and as it would read if its squares had been lost: 4 / (4 + pi^2 rho^2)."""
 
 
+def conditions(factors, kappa, C):
+    """1 -+ trace + det of the half-cycle map with its nine terms times `factors`."""
+    rho = rho_of(kappa)
+    cos, sin, slope = rho * C, 1 - C, -2 * C / np.pi
+    by_t2 = -factors[0] * cos + factors[1] * slope
+    by_t1 = -factors[2] * cos - factors[3] * slope + factors[4] * np.pi * sin
+    t = np.array([-by_t1, -factors[5] * np.pi]) / by_t2
+    w = kappa * (factors[6] * sin * t + np.array([factors[7] * sin, factors[8]]))
+    trace, det = t[0] + w[1], t[0] * w[1] - t[1] * w[0]
+    return np.array([1 - trace + det, 1 + trace + det])
+
+
+def limits_at(limit, factors):
+    """Whether a multiplier +1, or -1, is met at a limit for three kappa, and not on both sides of it."""
+    at, beside = ([np.abs(conditions(factors, k, share * limit(k))) for k in (0.3, 0.65, 0.8)] for share in (1, 0.9))
+    return (np.max(at, axis=0) < 1e-6) & (np.max(beside, axis=0) > 1e-6)
+
+
+def test_without_a_slip_the_limit_is_the_fold():
+    assert conditions(np.ones(9), 0.65, FOLD)[0] == pytest.approx(0, abs=1e-12)
+    assert limits_at(lambda k: 1 / (1 + rho_of(k) ** 2), np.ones(9)).tolist() == [True, False]
+
+
+@pytest.mark.parametrize("reading", LIMITS)
+def test_no_slip_in_one_or_two_terms_gives_the_printed_limit(reading):
+    """Terms of the linearised conditions dropped, reversed, halved or doubled, one or two at a time."""
+    for places in itertools.combinations(range(9), 2):
+        for slips in itertools.product([1, 0, -1, 0.5, 2], repeat=2):
+            factors = np.ones(9)
+            factors[list(places)] = slips
+            if (factors[:2] != 0).any():
+                assert not limits_at(LIMITS[reading], factors).any()
+
+
 # A ball between walls that oscillate as prescribed
+
+
+def mirrored_impact(phase, speed, B, kappa):
+    """Phase of U and slope of W - U after the next impact, mirrored so that a symmetric motion is a fixed point.
+
+    The ball leaves W = 1 at the phase and flies straight in W - U until W = -1; then Newton's rule.
+    """
+
+    def miss(later):
+        return 2 - B * (mpmath.sin(later) + mpmath.sin(phase)) + speed * (mpmath.pi + later - phase)
+
+    later = mpmath.findroot(miss, phase)
+    before = -B * mpmath.cos(later) + speed
+    return later, -(-kappa * before + B * mpmath.cos(later))
+
+
+@settings(max_examples=20)
+@given(st.floats(0.05, 0.95), st.floats(0.1, 4))
+def test_multipliers_are_those_of_the_impact_map(kappa, C):
+    with mpmath.workdps(40):
+        k, c = mpmath.mpf(kappa), mpmath.mpf(C)
+        r = 2 * (1 - k) / (mpmath.pi * (1 + k))
+        B = mpmath.sqrt((1 - c) ** 2 + (r * c) ** 2)
+        phase, speed = mpmath.atan2(1 - c, r * c), -2 * c / mpmath.pi
+        at = mirrored_impact(phase, speed, B, k)
+        assert max(abs(at[0] - phase), abs(at[1] - speed)) < mpmath.mpf(10) ** -30
+        h = mpmath.mpf(10) ** -15
+        columns = []
+        for change in ((h, 0), (0, h)):
+            ahead = mirrored_impact(phase + change[0], speed + change[1], B, k)
+            behind = mirrored_impact(phase - change[0], speed - change[1], B, k)
+            columns.append([(a - b) / (2 * h) for a, b in zip(ahead, behind, strict=True)])
+        step = np.array(columns, dtype=float).T
+    found = masri.impact_multipliers(C, kappa)
+    assert found.prod().real == pytest.approx(np.linalg.det(step), rel=1e-9)
+    assert found.sum().real == pytest.approx(np.trace(step), rel=1e-9, abs=1e-9)
 
 
 class Ball:

@@ -8,10 +8,11 @@ from chapter import FORCES, PARAMETERS
 from vibroimpact.exact.measures.slow_variables import measure
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.theory.response import leading_order, mean_power
+from vibroimpact.theory.response import impact_times, leading_order, mean_power
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 POINTS = vi.fixed_points(SYSTEM)
+both = pytest.mark.parametrize("module", [0, 1])
 each = pytest.mark.parametrize("point", POINTS, ids=range(len(POINTS)))
 
 
@@ -21,6 +22,19 @@ def test_U_and_W_are_those_of_X_and_Y(point):
     assert response.X + SYSTEM.epsilon * response.Y == pytest.approx(response.U, abs=1e-14)
     assert np.abs(response.X - response.Y - response.W).max() < 1e-14
     assert response.U.shape == (101, 2)
+
+
+@each
+@both
+def test_impacts_at_the_walls_obey_restitution(point, module):
+    for wall, shift in ((1, 0.0), (-1, SYSTEM.period / 2)):
+        at = impact_times(SYSTEM, point)[module] + shift
+        h = 1e-6 * SYSTEM.period
+        W = leading_order(SYSTEM, point, at + h * np.array([-2, -1, 0, 1, 2])).W[:, module]
+        assert W[2] == pytest.approx(wall, abs=1e-12)
+        before, after = (W[1] - W[0]) / h, (W[4] - W[3]) / h
+        assert after == pytest.approx(-SYSTEM.kappa * before, abs=2e-5)
+        assert wall * before > 0
 
 
 @each

@@ -1,10 +1,11 @@
-"""All fixed points and the proof of it, against exact root counts, closed forms and symmetries."""
+"""All fixed points and the proof of it, against exact root counts, blind multistart, closed forms and symmetries."""
 
 import numpy as np
 import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import root
 
 import vibroimpact as vi
 from systems_of_points import (
@@ -151,6 +152,36 @@ def test_powers_balance_and_exchanged_modules_have_exchanged_points(system):
             assert min(np.abs(point.C - other.C[::-1]).max() for other in theirs) < 1e-5
 
 
+def test_epsilon_does_not_enter():
+    """(10.23) is the order-epsilon balance: all its parameters are hatted."""
+    for epsilon in (1e-6, 5.0):
+        ours, theirs = vi.fixed_points(build()), vi.fixed_points(build({"epsilon": epsilon}))
+        assert [p.C.tolist() for p in ours] == [p.C.tolist() for p in theirs]
+
+
+@pytest.mark.parametrize("name", ["equal", "unequal", "weak", "five", "six"])
+def test_blind_multistart_finds_nothing_else(name):
+    """Newton's method from random starts in (C_1, psi_1, C_2, psi_2), blind to the elimination."""
+    system = build(CASES[name][0])
+    r, rng = manifold.rho(system.kappa), np.random.default_rng(1)
+    known, hits = np.array([point.C for point in everything(system)]), set()
+
+    def flow(x):
+        C, psi = x[0::2], x[1::2]
+        B = manifold.B_of_C(C, r)
+        dB, dpsi = rates(system, B, psi, C)
+        return np.ravel([dB, B * dpsi])
+
+    for _ in range(400):
+        start = np.column_stack([rng.uniform(-2, 4, 2), rng.uniform(-np.pi, np.pi, 2)]).ravel()
+        solution = root(flow, start)
+        if solution.success and np.abs(flow(solution.x)).max() < 1e-10:
+            distance = np.abs(known - solution.x[0::2]).max(axis=1)
+            assert distance.min() < 1e-6
+            hits.add(int(distance.argmin()))
+    assert hits == set(range(len(known)))
+
+
 @pytest.mark.parametrize("changes", [{}, IDENTICAL, {"gamma1_hat": 0.0, "f20_hat": 3.0}, {"f10_hat": 0.0}])
 def test_uncoupled_modules_stand_alone(changes):
     system = build(UNCOUPLED | changes)
@@ -163,7 +194,7 @@ def test_uncoupled_modules_stand_alone(changes):
     assert np.array(found).reshape(-1, 2) == pytest.approx(np.array(expected).reshape(-1, 2), abs=1e-11)
 
 
-@pytest.mark.parametrize("loss", [1e-3, 3e-6, 1e-10])
+@pytest.mark.parametrize("loss", [1e-3, 1e-5, 3e-6, 1e-7, 1e-10])
 def test_near_the_conservative_limit_mirrored_phases_are_told_apart(loss):
     """Undamped and almost elastic: two of the points differ in C by some 4 loss, in phase by much more."""
     system = build(UNDAMPED | {"kappa": 1 - loss})

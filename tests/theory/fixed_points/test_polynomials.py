@@ -79,6 +79,11 @@ def test_a_near_miss_has_no_zero(gap):
     assert len(zeros) == 0
 
 
+def test_no_isolated_zeros():
+    with pytest.raises(ArithmeticError):
+        solve(CIRCLE, CIRCLE)
+
+
 CHAPTER = vi.System(**PARAMETERS | dict(gamma2_hat=0.3, gamma12_hat=0.15), f10_hat=1.0, f20_hat=1.0)
 
 
@@ -170,3 +175,16 @@ def test_uncoupled_modules_are_singular_everywhere():
     (point,) = vi.fixed_points(uncoupled)
     assert singular_points(uncoupled, point, 1).shape == (0, 2)
     assert derived(uncoupled, (0.3, 0.4)) == 0
+
+
+def test_a_fixed_point_can_be_singular_without_a_bifurcation():
+    """Against "if P_i gets closer to S_i, the fixed point becomes a singular point, potentially associated to a
+    bifurcation": between f20 = 0.92 and 0.91 the determinant changes sign on a fixed point that persists."""
+    chapter = CHAPTER.with_(gamma2_hat=0.2, gamma12_hat=0.2)
+    values = []
+    for f20_hat in (0.92, 0.91):
+        system = chapter.with_(f20_hat=f20_hat)
+        points = vi.fixed_points(system)
+        assert len(points) == 3
+        values.append(determinant(system, points[1].C))
+    assert values[0] < 0 < values[1]
