@@ -124,7 +124,7 @@ def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
         ]
     assert "vibroimpact = vibroimpact.__main__:main" in texts[1]
     metadata = Parser().parsestr(texts[0])
-    required = {line.split(">")[0] for line in metadata.get_all("Requires-Dist") if "extra ==" not in line}
+    required = {re.split("[<>]", line)[0] for line in metadata.get_all("Requires-Dist") if "extra ==" not in line}
     assert required == {"numpy", "scipy", "numba"}
     assert metadata["License-Expression"] == "MIT"
     shipped = ("figures/plotting/vibroimpact.mplstyle", "py.typed", "__init__.pyi")
