@@ -169,7 +169,7 @@ const VibroImpact = (() => {
       if (completed[0] || completed[1]) for (const i of [0, 1]) if (this.stuck[i] && !completed[i]) this.rest(i, false);
     }
 
-    // Apply Newton's impact law with conserved momentum if a flying ball hits a wall. Return true if it does.
+    // Apply Newton's impact law with conserved momentum (system/restitution.py) if a flying ball hits a wall. Return true if it does.
     meet(i, due) {
       const { e, kappa } = this.system, W = this.X[i] - this.Y[i], dW = this.V[i] - this.U[i], wall = W > 0 ? 1 : -1;
       if (!due && 1 - wall * W > this.blur(i)) return false;

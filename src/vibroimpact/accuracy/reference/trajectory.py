@@ -255,7 +255,7 @@ class Trajectory:
                 self._settle(i, started=True)
 
     def _impact(self, module):
-        """Apply Newton's restitution law, which conserves X' + epsilon Y'.
+        """Apply Newton's restitution law, see system.restitution, which conserves X' + epsilon Y'.
 
         A ball slower than the working precision resolves sticks.
         """
