@@ -8,6 +8,7 @@ import pandas as pd
 
 from configs import GOOD
 from hostile import HOSTILE, STATEMENT
+from vibroimpact.studies.regimes.classification import REGIMES
 
 SHOWN = {
     "chapter": ["fig10_06"],
@@ -72,6 +73,7 @@ def results(folder: Path) -> Path:
             run | {"outcome": outcome, "reason": HOSTILE} for outcome in ("finished", HOSTILE)
         ],
         "accuracy/stress_tests.csv": [run | {"group": HOSTILE, "test": HOSTILE, "verdict": "right"}],
+        "sweeps/regime_map.csv": [{"f10_hat": 0.5, "f20_hat": 0.5, "note": HOSTILE} | dict.fromkeys(REGIMES, 0.1)],
         "force_sweep/force_sweep.csv": [{"value": 0.4, "theory": HOSTILE}, {"value": 0.5, "theory": "stable"}],
         "regimes/special_points.csv": [
             {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}

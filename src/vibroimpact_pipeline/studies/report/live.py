@@ -71,10 +71,8 @@ def map_data(results, config: dict) -> str:
     swept = case_parameters(config, config["sweeps"]["regime_map"]["case"]) if "regime_map" in config["sweeps"] else {}
     if any(swept.get(name) != first[name] for name in PARAMETERS):
         return ""
-    table, system = (
-        results.table("sweeps/regime_map.csv"),
-        System(**{name: swept[name] for name in (*PARAMETERS, *FORCES)}),
-    )
+    table = results.table("sweeps/regime_map.csv")
+    system = System(**{name: swept[name] for name in (*PARAMETERS, *FORCES)})
     regimes = table[list(REGIMES)].fillna(0.0).idxmax(axis=1)
     forces = table[list(FORCES)].to_numpy()
     cells = []
@@ -94,11 +92,8 @@ def _of_cell(system, point, orbit):
     if orbit is None:
         return place | verdicts | {"exact": "no exact orbit", "multiplier": ""}
     largest = abs(orbit.multipliers[0])
-    return (
-        place
-        | verdicts
-        | {"exact": floquet(orbit), "multiplier": f"{largest:.3g}" if largest < 1e3 else f"{largest:.0f}"}
-    )
+    shown = f"{largest:.3g}" if largest < 1e3 else f"{largest:.0f}"
+    return place | verdicts | {"exact": floquet(orbit), "multiplier": shown}
 
 
 def verdict_data(results, config: dict) -> str:
