@@ -78,6 +78,8 @@ def parameters_of(config: dict) -> dict:
     return given
 
 
+BUILD = snakemake.output[0].rpartition("results/")[0]  # the prefix of a module
+
 with running(snakemake) as out:
     for figure, shown in snakemake.params.pages.items():
         texts = words(figure, shown["scene"], shown["system"] or {})
@@ -85,7 +87,8 @@ with running(snakemake) as out:
         given = {"figure": figure, "alt": texts["alt"], **case, **parameters_of(shown["config"])}
         executed = Path(snakemake.log[0]).with_name(f"{figure}.ipynb")
         print(f"Executed notebook: {executed}")
-        done = execute(snakemake.input.notebook, executed, given | {"inputs": shown["inputs"]})
+        inputs = {name: BUILD + path for name, path in shown["inputs"].items()}
+        done = execute(snakemake.input.notebook, executed, given | {"inputs": inputs})
         injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
         injected.id = "injected-parameters"  # otherwise random, which would change the page in every build
         others = snakemake.params.pages.keys() - {figure}  # cells with their names as tags are for their pages

@@ -15,6 +15,8 @@ import pandas as pd  # noqa: E402 (after the dependency check)
 
 CRITERIA = (*criteria.CRITERIA, EXACT)
 NUMBERS = [name for name in COLUMNS if name not in (EXACT, "proved")]
+PROOF = "box_radius", "orbit_error", "moduli_error", "motion_proved", "floquet_proved"
+"""Columns of `OrbitProof.row`, which tables without rows have as well."""
 NO_ORBIT = "no orbit"
 REACH = 1.0
 """Largest distance in C between a fixed point and its orbit. Over the grid of forces at epsilon = 0.1 the distances are
@@ -34,7 +36,7 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
         row, verdicts = orbit.row(), criteria.of_orbit(orbit) | {EXACT: floquet(orbit)}
         proof = orbit.proof.row() if orbit.proof else {}
         rows.append({"case": case, "label": label} | {name: row[name] for name in NUMBERS} | verdicts | proof)
-    return pd.DataFrame(rows, columns=None if rows else ["case", "label", *NUMBERS, *CRITERIA])
+    return pd.DataFrame(rows, columns=None if rows else ["case", "label", *NUMBERS, *CRITERIA, *PROOF])
 
 
 def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.DataFrame:

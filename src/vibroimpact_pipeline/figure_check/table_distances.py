@@ -87,7 +87,8 @@ def _wrong_in_itself(table, columns):
     if table.empty or not compared:
         return ["no rows" if table.empty else "no column that the SPEC compares"]
     finite = [name for name in table.select_dtypes("number") if not columns.get(name, {}).get("infinite")]
-    lacking = [f"{name}: all cells are blank" for name in compared if not _given(table[name]).any()]
+    required = [name for name in compared if columns[name]["compared"] != "of the machine"]
+    lacking = [f"{name}: all cells are blank" for name in required if not _given(table[name]).any()]
     return lacking + [f"{name}: infinite value" for name in finite if np.isinf(table[name]).any()]
 
 

@@ -27,7 +27,9 @@ def test_long_runs_settle_but_for_balls_that_stand_idle(chapter):
         return np.min([np.abs(states - state).max(axis=1) for state in pair], axis=0) > CHANGE
 
     idle = (late[:, [5, 7]] == 0).any(axis=1)
-    told = re.search(r"There (\d+) of 225 runs still change.*?after 400 cycles, and none after 2000\. But in (\d+) of them", PAGE)
+    told = re.search(
+        r"There (\d+) of 225 runs still change.*?after 400 cycles, and none after 2000\. But in (\d+) of them", PAGE
+    )
     assert [changing(early), changing(late), np.count_nonzero(idle)] == [int(told[1]), 0, int(told[2])]
     np.testing.assert_array_equal(away(late), idle)
     nudged = late[idle]
