@@ -85,7 +85,7 @@ def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
 def _rates(tau, z, q, k, boxes, ways, d):
     """Write the derivative of the unfolded coordinates into d, for given boxes and signs of v.
 
-    It continues smoothly beyond the region in which these hold.
+    The formula stays smooth outside the region in which the boxes and signs are the given ones.
     """
     share, s = q[9] / (1.0 + q[9]), np.empty(8)
     for i in range(2):
@@ -188,7 +188,7 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, ways):
-    """Return the shortest fraction of a step found by bisection to end beyond a jump, and the coordinates there."""
+    """Bisect a step that ends beyond a jump; return the shortest such fraction found, and the coordinates there."""
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, ways, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)

@@ -87,7 +87,7 @@ def first_look(tau, s, q, walls, step):
 def newton_or_middle(t, value, slope, low, high):
     """Return the next time at which to evaluate the function, in [low, high].
 
-    The function falls below zero there; an exact zero is returned unchanged.
+    The function falls below zero within this interval. If `t` is a zero already, it is returned.
     """
     after = t - value / slope if slope != 0.0 else math.inf
     return after if low <= after <= high else 0.5 * (low + high)

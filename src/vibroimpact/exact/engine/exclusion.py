@@ -89,10 +89,10 @@ CONVERGING = 1e-8  # after a shorter Newton step the error is below rounding
 
 @inlined
 def crossing(c, remainder, margin, horizon, short):
-    """Return (certain, time, width): a decreasing constraint certainly meets zero at time +- width.
+    """Return (certain, time, width): True if a decreasing constraint provably meets zero, and when, time +- width.
 
     c: its Taylor polynomial (8,), c1 < 0; remainder: bound on its seventh derivative over 5040; margin: rounding of c0.
-    If width is inf, the constraint holds up to time = horizon. A time up to `short` is exact to rounding.
+    If width is inf, the constraint holds up to time = horizon. A time of at most `short` is exact to rounding.
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)

@@ -185,9 +185,9 @@ def _expand(coefficients, powers, series, mode):
 
 @inlined_source
 def _multiply(powers, last, many):
-    """Append powers after the last one: products of the last power with all powers from the first on.
+    """Append the next `many` powers: the products of power `last` with the first powers.
 
-    The forcing phase does not depend on the boxes.
+    Products with the boxes are left out in the rows of the forcing phase, which does not depend on the boxes.
     """
     for i in range(BOXES):
         for j in range(BOXES):

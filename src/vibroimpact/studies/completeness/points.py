@@ -143,13 +143,13 @@ def _all_zeros(system, pairs):
 
 
 def _taking_part(system, both) -> tuple:
-    """Return the what belongs to the modules that take part, of two things."""
+    """Return the entries of a pair, one per module, that belong to modules whose ball impacts."""
     return tuple(both[module - 1] for module in system.modules)
 
 
 def _subdivide(conditions):
     """Return the boxes with exactly one zero, and those that stay open."""
-    pending, found, undecided = [(0.0, 0.0, 1.0)], [], []  # all halves are powers of two, so that centres are exact
+    pending, found, undecided = [(0.0, 0.0, 1.0)], [], []  # half-widths are powers of two, so that centres are exact
     for visited in itertools.count():
         if not pending:
             break

@@ -119,9 +119,9 @@ def _dominant(cells, starts):
 
 
 def _border(system, cells, series):
-    """Yield number, f10_hat and f20_hat of both ends of each piece of the lines where a count of the theory changes.
+    """Yield the ends of the pieces of the lines on which the number of solutions of the theory changes.
 
-    Their ends are found by halving.
+    Each end is the number of its piece, f10_hat and f20_hat, found by bisection.
     """
     which, square = list(BORDERS).index(series), _square(cells, series.replace(" ", "_"))
 

@@ -269,7 +269,7 @@ def kaplan_yorke(exponents) -> float:
 
 
 def _frame_growth(system, state, runs, directions):
-    """Yield the growth of a frame along each of some runs, of so many cycles, one after another."""
+    """Yield, for each of several consecutive runs with given cycles, the growth of a tangent frame."""
     places = np.flatnonzero(takes_part(system))
     frame, state = np.zeros((8, directions)), idle_at_rest(system, state)
     frame[places] = np.linalg.qr(_VECTORS[: len(places), : len(places)])[0][:, :directions]
