@@ -44,7 +44,7 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
 
 
 def _choices(results) -> list[list[str]]:
-    """Return one row per problem and error of accuracy/choices.csv: problem, exponent of the error, methods."""
+    """Return, for each problem and error level in accuracy/choices.csv, the problem, the exponent and the methods."""
     path = results / "accuracy/choices.csv"
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines())) if path.is_file() else []
     found = []
@@ -60,7 +60,7 @@ def _choices(results) -> list[list[str]]:
 
 
 def _listed(results, titles) -> list[dict]:
-    """Return title, links, sentence on the exact system and picture of each existing figure."""
+    """Return, for each existing figure, its title, links, a sentence on the exact system, and its picture."""
     found = []
     for name, title in titles.items():
         drawn = [(kind, f"{place}/{name}{end}") for place in ("figures", "accuracy") for kind, end in KINDS.items()]

@@ -150,7 +150,7 @@ def largest_error(table, reference) -> float:
 
 
 def _plotted(table, column):
-    """Return the values of one column that are compared, by panel, series and, of curves, time."""
+    """Return the values to compare from one column, by panel, series and, for curves, time."""
     rows = table[table["series"].str.startswith("P_")] if column != "value" else table.dropna(subset="value")
     return rows.set_index(["panel", "series", *(["tau"] if column == "value" else [])])[column]
 

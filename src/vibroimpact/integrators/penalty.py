@@ -35,7 +35,10 @@ _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
 
 class Penalty(Method):
-    """Walls of one contact law; the setting is the duration T [forcing periods] of an undamped contact at speed 1."""
+    """Compliant walls with one contact law.
+
+    The accuracy setting is the duration T [forcing periods] of an undamped contact at speed 1.
+    """
 
     family, knob, order = "compliant contact", "contact duration", 1
     limit = 10_000_000

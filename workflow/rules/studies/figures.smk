@@ -64,7 +64,7 @@ COMPANIONS = {
 }
 
 
-# Machines in SI units, each with a page like the figures of the chapter, and moving pictures of the report.
+# Machines in SI units, each with a page of its own as the chapter's figures have, and the animations of the report.
 for name in config["machines"]:
     SCENES[name] = config["machines"][name] | {"like": "machines"}
     COMPANIONS[name] = {"settings": [f"machines.{name}.*"]}

@@ -88,8 +88,8 @@ def ensemble(
     ndarray
         Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
         the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
-        observed cycles are nan. The largest |X_i| is exact except for turns of a box almost at rest (1e-5 of its path);
-        the averages are exact to rounding.
+        observed cycles are nan. The largest |X_i| is exact, except where a box almost at rest turns back (1e-5 of its
+        path); the averages are exact to rounding.
 
     Raises
     ------

@@ -98,9 +98,9 @@ def sampled(system, state, cycles: int) -> Run:
 def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
     """Return measures of a modulated motion by (quantity, module), over `cycles` forcing cycles.
 
-    The state is that at the start of a cycle. amplitude variation: of the box, cycle by cycle (see `variation`).
-    impacts per cycle; sticks per 1000 cycles. resonant share: fraction of the time within bursts (see `bursts`). burst
-    length [cycles]: mean, nan without bursts.
+    The state is that at the start of a cycle. "amplitude variation" is that of the box, cycle by cycle (`variation`);
+    "resonant share" is the fraction of the time within bursts (`bursts`); "burst length" is their mean [cycles], nan
+    without bursts. Impacts are counted per cycle, sticks per 1000 cycles.
     """
     run = sampled(system, state, cycles)
     found = {}

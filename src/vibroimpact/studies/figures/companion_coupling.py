@@ -278,7 +278,7 @@ def _coexisting(system):
 
 
 def _damper_power(system):
-    """Return the mean power in the dampers of linear absorbers of the balls' mass, tuned by the textbook."""
+    """Return the mean power in the dampers of linear absorbers with the mass of the balls and textbook tuning."""
     tuning = textbook_tuning(system)
     damping = 2 * system.epsilon * np.multiply(tuning.frequency, tuning.damping)
     strokes = tuned(system, tuning).strokes(system.Omega)

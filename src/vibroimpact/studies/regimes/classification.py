@@ -31,7 +31,7 @@ for at most _LONGEST cycles."""
 _REPEATED, _MIRRORED = (
     1e-8,
     1e-6,
-)  # the first for a periodic motion known to rounding; the asymmetry of mirror images grows like a square root
+)  # the first for a periodic motion known to rounding; near symmetry breaking the asymmetry grows like a square root
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,7 +208,7 @@ def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
 
 
 def _two_impacts(run):
-    """Return True if each ball meets each wall once a cycle, but for an impact on the edge of the window."""
+    """Return True if each ball meets each wall once a cycle, ignoring an impact at the edge of the window."""
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
     return len(impacts) == len(run.events) and bool(np.all(np.abs(np.array(counts) - run.cycles) <= 1))

@@ -49,7 +49,7 @@ class SteadyBoxes:
         return (self.rate * duration).exp()
 
     def forced(self, tau) -> acb_mat:
-        """Return the complex state (4, 1) without impulses, whose imaginary part is the state."""
+        """Return the complex response (4, 1) to the forcing alone; its imaginary part is the real state."""
         return self.amplitude * (acb(0, 1) * self.omega * tau).exp()
 
 
