@@ -17,7 +17,9 @@ rule report:
         tables=sorted(
             {table["file"] for one in ALL_FIGURES for name, table in spec(one)["tables"].items() if name != "csv"}
         ),
-        config={name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability", "sweeps")},
+        config={
+            name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability", "sweeps")
+        },
         code=code(
             "studies/report", "development.lock", "docs", "report", *(["src/vibroimpact"] if SRC.is_dir() else [])
         ),
