@@ -36,7 +36,7 @@ def test_equal_forces_lead_to_the_stable_asymmetric_orbits(chapter, observation)
     assert {np.sign(regime.flight_asymmetry) for regime in regimes} == {1, -1}
 
 
-def test_the_lean_sums_both_modules_flights_from_either_wall(chapter):
+def test_asymmetry_sums_both_modules_flights_from_either_wall(chapter):
     """Against the phases of the exact orbit: the time from wall +1 to wall -1 less that back, of each module."""
     system, window = chapter(), 24
     for orbit in stable_orbits(system):

@@ -1,4 +1,4 @@
-"""Both balls leaning, from weak to strong coupling: what tells the patterns apart, mirror images, proofs, power."""
+"""Both balls asymmetric, from weak to strong coupling: difference of the patterns, mirror images, proofs, power."""
 
 import numpy as np
 import pytest
@@ -10,14 +10,14 @@ from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
 from vibroimpact.exact.orbits.newton import newton
 from vibroimpact.studies.figures.companion_coupling import ALIKE, LIMITS, WATCHED, errors
 from vibroimpact.studies.regimes.coupling import (
-    OPPOSITE,
-    SAME,
+    ANTIPHASE,
+    IN_PHASE,
     SOUGHT,
-    STRAIGHT,
+    VANISHES,
+    asymmetric_orbits,
     coupled,
+    flight_asymmetry,
     impact_power,
-    lean,
-    leaning_orbits,
     mirrored,
     pattern,
     patterns,
@@ -32,23 +32,25 @@ SMALL = (0.02, 0.01, 0.005)
 
 
 @pytest.fixture(scope="module", params=sorted({*WATCHED, *SOUGHT}))
-def leaning(request):
-    return leaning_orbits(coupled(TUNED_ALIKE, request.param))
+def asymmetric(request):
+    return asymmetric_orbits(coupled(TUNED_ALIKE, request.param))
 
 
 def apart(system):
-    """Exact roots of the same way and of its partner, and how far they are apart, ball 2 of the partner mirrored."""
+    """Exact in-phase root, and its difference from the antiphase root with ball 2 mirrored."""
     roots = [(root, AsymmetricOrbits.member(system, root)) for root in AsymmetricOrbits.roots(system)]
-    root = next(root for root, one in roots if one.admissible and pattern(one) == SAME and lean(one)[0] > 0)
+    root = next(
+        root for root, one in roots if one.admissible and pattern(one) == IN_PHASE and flight_asymmetry(one)[0] > 0
+    )
     partner = newton(AsymmetricConditions(system), mirrored(system, root)[None])[0]
-    assert pattern(AsymmetricOrbits.member(system, partner)) == OPPOSITE
+    assert pattern(AsymmetricOrbits.member(system, partner)) == ANTIPHASE
     difference = root - mirrored(system, partner)
     difference[:4] = (difference[:4] + system.period / 2) % system.period - system.period / 2
     return root, difference
 
 
 def test_the_derived_term_tells_the_patterns_apart_better_than_in_proportion_to_epsilon():
-    """At forces at which both lean however small epsilon; the relative error falls at first order at least."""
+    """The relative error falls at least at first order in epsilon; both balls are asymmetric at any epsilon here."""
     errors, sizes = [], []
     for epsilon in SMALL:
         system = TUNED_ALIKE.with_(epsilon=epsilon, f10_hat=1.7, f20_hat=1.72)
@@ -64,10 +66,10 @@ def test_the_derived_term_tells_the_patterns_apart_better_than_in_proportion_to_
 
 def test_without_coupling_all_patterns_have_the_same_amplitudes():
     system = TUNED_ALIKE.with_(alpha12_hat=0.0, gamma12_hat=0.0)
-    found = {pattern(one): one for one in leaning_orbits(system)}
-    np.testing.assert_allclose(found[SAME].C, found[OPPOSITE].C, atol=1e-9)
-    np.testing.assert_allclose(abs(found[SAME].multipliers), abs(found[OPPOSITE].multipliers), atol=1e-6)
-    np.testing.assert_allclose(splitting(system, patterns(system)[SAME]), 0, atol=1e-15)
+    found = {pattern(one): one for one in asymmetric_orbits(system)}
+    np.testing.assert_allclose(found[IN_PHASE].C, found[ANTIPHASE].C, atol=1e-9)
+    np.testing.assert_allclose(abs(found[IN_PHASE].multipliers), abs(found[ANTIPHASE].multipliers), atol=1e-6)
+    np.testing.assert_allclose(splitting(system, patterns(system)[IN_PHASE]), 0, atol=1e-15)
 
 
 def test_what_an_even_harmonic_passes_through_the_coupling():
@@ -79,14 +81,14 @@ def test_what_an_even_harmonic_passes_through_the_coupling():
     assert sp.simplify(sp.diff(through, K).subs(K, 0) - 1 / (n**2 - 1) ** 2) == 0
 
 
-def test_patterns_come_in_mirror_images(leaning):
+def test_patterns_come_in_mirror_images(asymmetric):
     """state(tau) -> -state(tau + T/2), by the engine: half a period of each orbit ends on its mirror image."""
-    for one in leaning:
+    for one in asymmetric:
         half = vi.simulate(one.system, one.state, 1, sample_times=[one.system.period / 2]).samples[0]
-        distances = [np.abs(half + other.state).max() for other in leaning]
-        image = leaning[int(np.argmin(distances))]
+        distances = [np.abs(half + other.state).max() for other in asymmetric]
+        image = asymmetric[int(np.argmin(distances))]
         assert min(distances) < 1e-9
-        np.testing.assert_allclose(lean(image), -lean(one), atol=1e-9)
+        np.testing.assert_allclose(flight_asymmetry(image), -flight_asymmetry(one), atol=1e-9)
         assert pattern(image) == pattern(one)
 
 
@@ -97,10 +99,10 @@ def ranges():
 
 def test_the_page_says_how_the_stable_ranges_end(ranges):
     assert [(name, ends) for name, _, _, ends in ranges] == [
-        (SAME, (FOLD, FOLD)),
-        (OPPOSITE, (PERIOD_DOUBLING, NEIMARK_SACKER)),
-        (OPPOSITE, (NEIMARK_SACKER, STRAIGHT)),
-        (SAME, (STRAIGHT, "")),
+        (IN_PHASE, (FOLD, FOLD)),
+        (ANTIPHASE, (PERIOD_DOUBLING, NEIMARK_SACKER)),
+        (ANTIPHASE, (NEIMARK_SACKER, VANISHES)),
+        (IN_PHASE, (VANISHES, "")),
     ]
 
 
@@ -110,10 +112,10 @@ def test_stable_ranges_end_where_a_search_from_many_starts_ends_to_find_the_patt
         for (value, orbit), end, outwards in zip((found[0], found[-1]), ends, (0.99, 1.01), strict=True):
             if not end:
                 continue
-            inside, outside = (leaning_orbits(coupled(TUNED_ALIKE, value * by)) for by in (1 / outwards, outwards))
+            inside, outside = (asymmetric_orbits(coupled(TUNED_ALIKE, value * by)) for by in (1 / outwards, outwards))
             assert name in map(pattern, inside)
             assert name not in map(pattern, outside)
-            if end != STRAIGHT:
+            if end != VANISHES:
                 assert abs(orbit.multipliers[0]) == pytest.approx(1, abs=0.03)
 
 
@@ -128,11 +130,11 @@ def test_the_resonance_that_takes_motions_away_moves_with_epsilon_times_the_coup
         assert np.isnan(found).sum() == missing
 
 
-def test_all_stable_patterns_that_the_page_names_are_proved(leaning):
+def test_all_stable_patterns_that_the_page_names_are_proved(asymmetric):
     named = {1.0: (2, 2), 3.0: (2, 2), 14.0: (0, 2), 30.0: (2, 0)}
-    found = [pattern(one) for one in leaning]
-    assert (found.count(SAME), found.count(OPPOSITE)) == named[leaning[0].system.alpha12_hat]
-    for one in leaning:
+    found = [pattern(one) for one in asymmetric]
+    assert (found.count(IN_PHASE), found.count(ANTIPHASE)) == named[asymmetric[0].system.alpha12_hat]
+    for one in asymmetric:
         proved = one.with_proof()
         assert proved.proved
         assert proved.stable

@@ -1,4 +1,4 @@
-"""Companion: the method from weak to strong coupling, two ways to lean, and the power that impacts take."""
+"""Companion: errors of the method, asymmetric patterns and impact power, from weak to strong coupling."""
 
 import numpy as np
 import pandas as pd
@@ -16,13 +16,13 @@ from vibroimpact.studies.claims.verdict_grid import exact_orbits
 from vibroimpact.studies.regimes.basins import plane
 from vibroimpact.studies.regimes.classification import starts
 from vibroimpact.studies.regimes.coupling import (
-    OPPOSITE,
-    SAME,
-    STRAIGHT,
+    ANTIPHASE,
+    IN_PHASE,
+    VANISHES,
+    asymmetric_orbits,
     coupled,
+    flight_asymmetry,
     impact_power,
-    lean,
-    leaning_orbits,
     patterns,
     shares,
     stable_ranges,
@@ -47,9 +47,9 @@ SPEC = {
         "on. Third: the mean over starts falls from above the dotted level to the diamonds of the asymmetric orbit.",
     "method": "fixed points, exact responses followed along the coupling, simulations from many starts",
     "columns": {
-        "panel": {"meaning": "error, lean or power", "values": ["error", "lean", "power"]},
-        "series": {"meaning": "of error: damper in proportion or held; of lean: the pattern and where it was found; of "
-            "power: the motion"},
+        "panel": {"meaning": "error, asymmetry or power", "values": ["error", "asymmetry", "power"]},
+        "series": {"meaning": "of error: damper in proportion or held; of asymmetry: pattern, and where it was found; "
+            "of power: the motion"},
         "case": {"meaning": "of error: the case of the config", "unit": "text"},
         "coupling": {"meaning": r"$\hat\alpha_{12}$", "unit": "dimensionless", "compared": "algebra"},
         "error": {"meaning": "largest error of $C_1$ or $C_2$ over the larger exact one; blank without a motion",
@@ -67,7 +67,7 @@ SPEC = {
         "power": {"meaning": r"mean power over $\hat f_{10}^2$; of starts their mean", "unit": "dimensionless",
             "compared": {"all starts": "extremes", "others": "roots"}},
         "spread": {"meaning": "standard deviation over starts", "unit": "dimensionless", "compared": "spreads"},
-        "leaning": {"meaning": "part of the starts that end on the leaning orbit", "unit": "share",
+        "asymmetric_share": {"meaning": "part of the starts that end on the asymmetric orbit", "unit": "share",
             "compared": "shares"},
     },
     "tables": {
@@ -90,7 +90,7 @@ WEAK = "weak"
 COUPLINGS = (0.0, 0.3, 1.0, 1.4, 1.5, 1.6, 1.7, 2.0, 3.0, 5.0, 10.0, 16.0, 25.0, 35.0, 40.0, 43.0, 50.0, 70.0, 100.0)
 PROPORTION, HELD = "damper in proportion", "damper held"
 ALIKE = {"sigma20_hat": 0.0, "f10_hat": 1.52, "f20_hat": 1.54}
-"""Where both balls lean: modules tuned alike, their impacts not in the same instant."""
+"""Parameters at which both balls are asymmetric: modules tuned alike, impacts at different instants."""
 LIMITS = (0.5, 100.0)
 FORCES = (0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2, 1.3)
 SETTLED, OBSERVED = 1500, 500
@@ -98,25 +98,23 @@ SAME_POWER = 1e-3
 """Largest relative difference of powers of the same motion."""
 STARTS, SEED, CYCLES = 32, 1, SETTLED + OBSERVED
 LONG = 10000
-"""Cycles of starts that are not on the leaning orbit after SETTLED: some are on long transients."""
+"""Cycles for starts that are not on the asymmetric orbit after SETTLED: some transients are long."""
 SIDE = 8
 WATCHED, POINTS, ENOUGH = (1.0, 3.0, 30.0), 15, 600
-SYMMETRIC, LEANING, ALL, LINEAR = "symmetric", "leaning", "all starts", "linear absorber"
+SYMMETRIC, ASYMMETRIC, ALL, LINEAR = "symmetric", "asymmetric", "all starts", "linear absorber"
 TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
-"""Couplings at which patterns are looked for at the forces of the cases, too."""
+"""Couplings at which patterns are also searched for at the forces of the cases."""
 NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 """Couplings at which the second term of (10.7) is computed."""
 WELL = 5.0
-"""Coupling from which errors and missing motions are told apart from those of weaker coupling."""
-IN_WORDS = {SAME: "in phase", OPPOSITE: "antiphase", SYMMETRIC: "symmetric", LEANING: "asymmetric"}
-"""Words of the picture for the patterns and motions of the table."""
-ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", STRAIGHT: "v"}
+"""Least coupling at which errors and missing motions are reported separately."""
+ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", VANISHES: "v"}
 """Marks of how a stable range ends."""
 _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
 
 
 def compute(systems: dict) -> dict:
-    """Return the errors over the coupling, the patterns of lean, and the power at the impacts.
+    """Return the errors over the coupling, the asymmetric patterns, and the power at the impacts.
 
     Parameters
     ----------
@@ -124,15 +122,15 @@ def compute(systems: dict) -> dict:
         Case -> system; patterns and power are of the case "equal", patterns with the modules tuned alike.
 
     Returns "csv": panel "error" (series damper in proportion, held: case, coupling, error, predicted, stable, orbits),
-    "lean" (series pattern and where it was found: coupling, v, stable, ends), "power" (force, power, spread, leaning,
-    stable); and "summary".
+    "asymmetry" (series pattern and where it was found: coupling, v, stable, ends), "power" (force, power, spread,
+    asymmetric_share, stable); and "summary".
     """
     equal = systems["equal"]
     strong = {case: system for case, system in systems.items() if case in STRONG}
     found = [_errors(strong, held) for held in (False, True)]
-    leans, watched = _patterns(equal.with_(**ALIKE))
+    asymmetric, watched = _patterns(equal.with_(**ALIKE))
     power, lasting = _power(equal)
-    summary = _of_errors(found) | _two_terms(equal) | _of_patterns(leans) | watched | _of_power(power) | lasting
+    summary = _of_errors(found) | _two_terms(equal) | _of_patterns(asymmetric) | watched | _of_power(power) | lasting
     tried = [coupled(system, value) for system in strong.values() for value in TRIED]
     summary |= {
         "searches at the forces of the cases": len(tried),
@@ -145,7 +143,7 @@ def compute(systems: dict) -> dict:
     known = [value if isinstance(value, tuple) else (value, 0.0) for value in summary.values()]
     rows = pd.DataFrame(known, columns=["value", "uncertainty"])
     rows.insert(0, "quantity", list(summary))
-    return {"csv": join([*found, *leans, power]), "summary": rows}
+    return {"csv": join([*found, *asymmetric, power]), "summary": rows}
 
 
 def errors(system) -> list[dict]:
@@ -212,69 +210,76 @@ def _patterns(system):
     for name, start, found, (below, above) in stable_ranges(system, LIMITS):
         ends = [below or None, *[None] * (len(found) - 2), above or None]
         coupling, orbits = zip(*found, strict=True)
-        v = [abs(lean(orbit)[0]) for orbit in orbits]
-        curves.append(curve("lean", f"{name}, from {start:g}", coupling=coupling, v=v, stable=True, ends=ends))
+        v = [abs(flight_asymmetry(orbit)[0]) for orbit in orbits]
+        curves.append(curve("asymmetry", f"{name}, from {start:g}", coupling=coupling, v=v, stable=True, ends=ends))
     shared = {}
     for value in WATCHED:
         here = coupled(system, value)
-        leaning = leaning_orbits(here)
-        if leaning:
-            ended = shares(leaning, plane(leaning[0].state, POINTS), ENOUGH)
+        asymmetric = asymmetric_orbits(here)
+        if asymmetric:
+            ended = shares(asymmetric, plane(asymmetric[0].state, POINTS), ENOUGH)
             shared |= {f"share of starts, {name}, coupling {value:g}": share for name, share in ended.items()}
     return curves, shared
 
 
 def _power(equal):
-    """Return the powers along the force, and how those starts did that settle late."""
-    rows, lasting, begun = [], {}, starts(STARTS, SEED)
-    for force in FORCES:
-        system = equal.with_(f10_hat=force, f20_hat=force)
-        unit = force**2
-        taken = impact_power(system, begun, CYCLES, SETTLED) / unit
-        leaning = leaning_orbits(system, both=False)[:1]
-        found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
-        powers = [impact_power(system, [one.state], 1)[0] / unit for one in leaning]
-        on_it = np.isclose(taken, powers[0], rtol=SAME_POWER) if leaning else np.zeros(STARTS, bool)
-        if leaning and not on_it.all():
-            late = ~on_it
-            lasting[f"leaning share after {SETTLED} cycles, force {force:g}"] = on_it.mean(), on_it.std() / STARTS**0.5
-            taken[late] = impact_power(system, begun[late], LONG, LONG - CYCLES + SETTLED) / unit
-            on_it = np.isclose(taken, powers[0], rtol=SAME_POWER)
-        for one in (one for one in found if one.admissible):
-            alone = impact_power(system, [one.state], 1)[0] / unit
-            rows.append((SYMMETRIC, force, alone, 0.0, 0.0, bool(one.stable)))
-        rows += [(LEANING, force, power, 0.0, on_it.mean(), True) for power in powers]
-        rows.append((ALL, force, taken.mean(), taken.std(), on_it.mean(), False))
-        rows.append((LINEAR, force, _damper_power(system) / unit, 0.0, 0.0, True))
-        symmetric = [one for one in found if one.admissible]
-        if leaning and symmetric:
-            near = min(symmetric, key=lambda one: np.abs(one.C - leaning[0].C).max())
-            beside = impact_power(system, [near.state], 1)[0] / unit
-            lasting[f"leaning over symmetric, force {force:g}"] = powers[0] / beside
-    table = pd.DataFrame(rows, columns=["series", "force", "power", "spread", "leaning", "stable"])
+    """Return the powers along the force, and the quantities of starts that settle late and of the asymmetric orbit."""
+    found = [_power_at(equal.with_(f10_hat=force, f20_hat=force), force) for force in FORCES]
+    rows = [row for rows, _ in found for row in rows]
+    table = pd.DataFrame(rows, columns=["series", "force", "power", "spread", "asymmetric_share", "stable"])
     table.insert(0, "panel", "power")
-    return table, lasting
+    return table, {name: value for _, quantities in found for name, value in quantities.items()}
+
+
+def _power_at(system, force):
+    """Return the rows of `_power` at one force, and its quantities there."""
+    unit, begun, quantities = force**2, starts(STARTS, SEED), {}
+    symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
+    symmetric = [orbit for orbit in symmetric if orbit.admissible]
+    powers = [_power_on(orbit) / unit for orbit in symmetric]
+    rows = [
+        (SYMMETRIC, force, power, 0.0, 0.0, bool(orbit.stable)) for orbit, power in zip(symmetric, powers, strict=True)
+    ]
+    taken, share = impact_power(system, begun, CYCLES, SETTLED) / unit, 0.0
+    for orbit in asymmetric_orbits(system, both=False)[:1]:
+        alone = _power_on(orbit) / unit
+        late = ~np.isclose(taken, alone, rtol=SAME_POWER)
+        if late.any():
+            name = f"asymmetric share after {SETTLED} cycles, force {force:g}"
+            quantities[name] = 1 - late.mean(), late.std() / STARTS**0.5
+            taken[late] = impact_power(system, begun[late], LONG, LONG - CYCLES + SETTLED) / unit
+        share = np.isclose(taken, alone, rtol=SAME_POWER).mean()
+        rows.append((ASYMMETRIC, force, alone, 0.0, share, True))
+        if symmetric:
+            nearest = np.argmin([np.abs(other.C - orbit.C).max() for other in symmetric])
+            quantities[f"asymmetric over symmetric, force {force:g}"] = alone / powers[nearest]
+    rows.append((ALL, force, taken.mean(), taken.std(), share, False))
+    rows.append((LINEAR, force, _damper_power(system) / unit, 0.0, 0.0, True))
+    return rows, quantities
+
+
+def _power_on(orbit):
+    """Return the mean power at the impacts of an orbit."""
+    return impact_power(orbit.system, [orbit.state], 1)[0]
 
 
 def _coexisting(system):
-    """Return the power of modulated starts over that of the leaning orbit, which attracts the others."""
-    leaning = leaning_orbits(system, both=False)[:1]
-    if not leaning:
-        return {}
-    alone = impact_power(system, [leaning[0].state], 1)[0]
-    taken = impact_power(system, plane(leaning[0].state, SIDE), CYCLES, SETTLED) / alone
-    others = taken[~np.isclose(taken, 1.0, rtol=SAME_POWER)]
-    if not len(others):
-        return {"leaning share, unequal forces": 1.0}
-    mean, spread, share = others.mean(), others.std(), len(others) / len(taken)
-    error = spread / len(others) ** 0.5
-    return {
-        "starts at unequal forces": len(taken),
-        "leaning share, unequal forces": 1 - share,
-        "modulated over leaning, unequal forces": (mean, error),
-        "spread over leaning, unequal forces": (spread, error / 2**0.5),
-        "all starts over leaning, unequal forces": (taken.mean(), share * error),
-    }
+    """Return the power of modulated starts over that of the asymmetric orbit, which attracts the other starts."""
+    for orbit in asymmetric_orbits(system, both=False)[:1]:
+        taken = impact_power(system, plane(orbit.state, SIDE), CYCLES, SETTLED) / _power_on(orbit)
+        others = taken[~np.isclose(taken, 1.0, rtol=SAME_POWER)]
+        share = {
+            "starts at unequal forces": len(taken),
+            "asymmetric share, unequal forces": 1 - len(others) / len(taken),
+        }
+        if not len(others):
+            return share
+        error = others.std() / len(others) ** 0.5
+        return share | {
+            "modulated over asymmetric, unequal forces": (others.mean(), error),
+            "spread over asymmetric, unequal forces": (others.std(), error / 2**0.5),
+        }
+    return {}
 
 
 def _damper_power(system):
@@ -293,11 +298,9 @@ def _of_errors(tables):
         beyond = known[known["coupling"] >= WELL]
         summary |= {
             f"points, {name}": len(table),
-            f"motions, {name}": table.groupby(["case", "coupling"])["orbits"].first().sum(),
             f"largest error, {name}": known["error"].max(),
             f"largest error from coupling {WELL:g}, {name}": beyond["error"].max(),
             f"largest error at coupling 1, {name}": at_ours.max(),
-            f"least of the largest errors, {name}": known.groupby("coupling")["error"].max().min(),
             f"largest error over its own C, coupling 1, {name}": table[table["coupling"] == 1.0]["own_error"].max(),
             f"largest error over its own C, coupling 100, {name}": table[table["coupling"] == 100.0]["own_error"].max(),
             f"without a motion, {name}": len(missing),
@@ -336,7 +339,6 @@ def _of_power(table):
         mean, spread = by[ALL]["power"].iloc[0], by[ALL]["spread"].iloc[0]
         error, linear = spread / STARTS**0.5, by[LINEAR]["power"].iloc[0]
         summary[f"starts over linear, force {force:g}"] = mean / linear, error / linear
-        summary[f"leaning share, force {force:g}"] = by[ALL]["leaning"].iloc[0]
         if len(by.get(SYMMETRIC, ())) == 1:
             only = by[SYMMETRIC]["power"].iloc[0]
             summary[f"starts over symmetric, force {force:g}"] = mean / only, error / only
@@ -346,7 +348,7 @@ def _of_power(table):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table "csv" of `compute`: errors, patterns of lean, power."""
+    """Draw the table "csv" of `compute`: errors, asymmetric patterns, power."""
     table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 78.0)
     grid = figure.subplots(1, 3)
@@ -354,7 +356,7 @@ def draw(tables: dict) -> Figure:
     for axes, letter, words in zip(grid, "abc", heads, strict=True):
         heading(axes, letter, words)
     _draw_errors(grid[0], table)
-    _draw_leans(grid[1], table[table["panel"] == "lean"])
+    _draw_asymmetry(grid[1], table[table["panel"] == "asymmetry"])
     _draw_power(grid[2], table)
     return figure
 
@@ -377,24 +379,23 @@ def _draw_errors(axes, table):
     axes.set_xlim(-0.15, 150)
 
 
-def _draw_leans(axes, table):
-    table = table.reindex(columns=["series", "coupling", "v", "ends"])  # no balls may lean
+def _draw_asymmetry(axes, table):
+    table = table.reindex(columns=["series", "coupling", "v", "ends"])  # no ball may be asymmetric
     for series, rows in table.groupby("series", sort=False):
-        axes.plot(rows["coupling"], rows["v"], **STABLE | {"color": BLACK if series.startswith(SAME) else GREY})
+        axes.plot(rows["coupling"], rows["v"], **STABLE | {"color": BLACK if series.startswith(IN_PHASE) else GREY})
     for end, marker in ENDS.items():
         rows = table[table["ends"] == end]
         if len(rows):
-            words = "asymmetry vanishes" if end == STRAIGHT else end
-            axes.plot(rows["coupling"], rows["v"], marker=marker, label=words, zorder=3, **_END)
+            axes.plot(rows["coupling"], rows["v"], marker=marker, label=end, zorder=3, **_END)
     beside = {"textcoords": "offset points", "fontsize": 8.5}
     for name, near, look in (
-        (SAME, 30.0, {"xytext": (0, 5), "ha": "center", "color": BLACK}),
-        (OPPOSITE, 3.0, {"xytext": (6, -8), "ha": "left", "color": GREY}),
+        (IN_PHASE, 30.0, {"xytext": (0, 5), "ha": "center", "color": BLACK}),
+        (ANTIPHASE, 3.0, {"xytext": (6, -8), "ha": "left", "color": GREY}),
     ):
         rows = table[table["series"].str.startswith(name)]
         if len(rows):
             place = rows.iloc[(rows["coupling"] - near).abs().argmin()]
-            axes.annotate(IN_WORDS[name], place[["coupling", "v"]], **beside, **look)
+            axes.annotate(name, place[["coupling", "v"]], **beside, **look)
     axes.set(xscale="log", xlabel=r"coupling $\hat\alpha_{12}$", xlim=LIMITS)
     axes.set(ylabel="flight asymmetry, $|v_1|$", ylim=(0, 0.6))
     if table["ends"].notna().any():
@@ -404,11 +405,11 @@ def _draw_leans(axes, table):
 def _draw_power(axes, table):
     marks = {
         SYMMETRIC: {"marker": "o", "markerfacecolor": "white", "markersize": 3.6},
-        LEANING: {"marker": "D", "markerfacecolor": BLACK, "markersize": 3.4},
+        ASYMMETRIC: {"marker": "D", "markerfacecolor": BLACK, "markersize": 3.4},
     }
     for name, look in marks.items():
         rows = select(table, "power", name)
-        axes.plot(rows["force"], 100 * rows["power"], linestyle="none", color=BLACK, label=IN_WORDS[name], **look)
+        axes.plot(rows["force"], 100 * rows["power"], linestyle="none", color=BLACK, label=name, **look)
     rows = select(table, "power", ALL)
     axes.errorbar(
         rows["force"], 100 * rows["power"], 100 * rows["spread"], color=GREY, capsize=2, linewidth=1.2, label=ALL

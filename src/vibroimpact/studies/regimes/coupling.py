@@ -1,7 +1,7 @@
 """Patterns of asymmetric flights of both balls, from weak to strong coupling, and the power dissipated by impacts.
 
 The flight asymmetry v of a ball is the difference of its two flight times over the period. The balls may be asymmetric
-in phase (SAME) or in antiphase (OPPOSITE), each with a mirror image (docs/derivation.md, section 14).
+in phase (IN_PHASE) or in antiphase (ANTIPHASE), each with a mirror image (docs/derivation.md, section 14).
 """
 
 from collections.abc import Iterator
@@ -21,11 +21,11 @@ from vibroimpact.studies.regimes.families import (
     flight_fractions,
 )
 
-SAME, OPPOSITE = "the same way", "opposite ways"
-STRAIGHT = "a ball no longer leans"
+IN_PHASE, ANTIPHASE = "in phase", "antiphase"
+VANISHES = "asymmetry vanishes"
 SOUGHT = (1.0, 14.0, 30.0)
 """Couplings at which stable orbits of each pattern are searched."""
-LEANING = 0.05
+LEAST_ASYMMETRY = 0.05
 """Smallest |v| of both modules in an asymmetric pattern."""
 STEP, SHARP = 0.1, 3e-5
 """Longest and shortest step in the logarithm of the coupling."""
@@ -43,7 +43,7 @@ def coupled(system, alpha12_hat: float, held: bool = False):
     return system.with_(alpha12_hat=alpha12_hat, gamma12_hat=system.gamma12_hat * scale)
 
 
-def lean(orbit) -> np.ndarray:
+def flight_asymmetry(orbit) -> np.ndarray:
     """Return the flight asymmetry (v_1, v_2) of an orbit, shape (2,).
 
     v is the time from wall -1 to +1 minus that from +1 to -1, over the period.
@@ -53,21 +53,23 @@ def lean(orbit) -> np.ndarray:
 
 
 def pattern(orbit) -> str | None:
-    """Return SAME or OPPOSITE, or None if a ball has no flight asymmetry."""
-    v = lean(orbit)
-    return None if not _both_lean(v) else SAME if v.prod() > 0 else OPPOSITE
+    """Return IN_PHASE or ANTIPHASE, or None if a ball has no flight asymmetry."""
+    v = flight_asymmetry(orbit)
+    return None if not _both_asymmetric(v) else IN_PHASE if v.prod() > 0 else ANTIPHASE
 
 
-def _both_lean(v):
-    return np.abs(v).min() >= LEANING
+def _both_asymmetric(v):
+    return np.abs(v).min() >= LEAST_ASYMMETRY
 
 
 def patterns(system) -> dict[str, np.ndarray]:
     """Return the root (6,) of a stable orbit of each pattern, for one of two mirror images."""
-    leaning = [root for root in AsymmetricOrbits.roots(system) if _both_lean(1 - 2 * flight_fractions(system, root))]
-    roots = [(root, AsymmetricOrbits.member(system, root)) for root in leaning]
+    roots = [
+        root for root in AsymmetricOrbits.roots(system) if _both_asymmetric(1 - 2 * flight_fractions(system, root))
+    ]
+    roots = [(root, AsymmetricOrbits.member(system, root)) for root in roots]
     stable = [(root, one) for root, one in roots if one.admissible and AsymmetricOrbits.stable(system, one)]
-    return {name: root for root, one in stable if (name := pattern(one)) and lean(one)[0] > 0}
+    return {name: root for root, one in stable if (name := pattern(one)) and flight_asymmetry(one)[0] > 0}
 
 
 def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
@@ -81,7 +83,7 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
         Smallest and largest alpha12_hat.
 
     Yields (pattern, where it was found, [(alpha12_hat, Orbit), ...] ascending, how it ends below and above): a fold,
-    Neimark-Sacker, a period doubling, grazing, STRAIGHT; "" at a limit.
+    Neimark-Sacker, a period doubling, grazing, VANISHES; "" at a limit.
     """
     seen = []
     for start in SOUGHT:
@@ -115,8 +117,8 @@ def _followed(system, root, value, name, limit):
 def _end(orbit):
     """Return the way in which a pattern ends, from its last stable orbit."""
     mu = orbit.multipliers[0]
-    if np.abs(lean(orbit)).min() < LEANING + _AT_THE_END:
-        return STRAIGHT
+    if np.abs(flight_asymmetry(orbit)).min() < LEAST_ASYMMETRY + _AT_THE_END:
+        return VANISHES
     if orbit.excursion > 1 - _AT_THE_END:
         return GRAZING
     if abs(mu.imag) > _AT_THE_END:
@@ -152,17 +154,17 @@ def mirrored(system, root) -> np.ndarray:
     return root[[0, 1, 3, 2, 4, 5]] + np.array([0, 0, 1, 1, 0, 0]) * system.period / 2
 
 
-def leaning_orbits(system, both: bool = True) -> list:
+def asymmetric_orbits(system, both: bool = True) -> list:
     """Return the stable asymmetric orbits of a system, or only those with two asymmetric balls if `both`."""
     found = [one for one in orbits(system) if not one.symmetric and one.admissible and one.stable]
     return [one for one in found if pattern(one) or not both]
 
 
-def shares(leaning, states, cycles: int) -> dict[str, float]:
+def shares(asymmetric, states, cycles: int) -> dict[str, float]:
     """Return the fraction of the initial states (n, 8) that end on each pattern after `cycles` forcing cycles."""
-    ends = finals(leaning[0].system, states, cycles)
-    near = {name: np.zeros(len(ends), bool) for name in (SAME, OPPOSITE)}
-    for orbit in leaning:
+    ends = finals(asymmetric[0].system, states, cycles)
+    near = {name: np.zeros(len(ends), bool) for name in (IN_PHASE, ANTIPHASE)}
+    for orbit in asymmetric:
         near[pattern(orbit)] |= np.abs(ends - orbit.state).max(axis=1) < _NEAR
     return {name: float(reached.mean()) for name, reached in near.items()}
 
