@@ -1,4 +1,4 @@
-"""Figures beyond the chapter, as its own: compute(...) -> tables, draw(tables) -> Figure."""
+"""Figures beyond the chapter, built like its own: compute(...) -> tables, draw(tables) -> Figure."""
 
 from vibroimpact.system.extras import need
 

@@ -1,4 +1,4 @@
-"""The two modules in motion: what an animation shows, frame by frame, and instants of it as a still picture."""
+"""Animate the motion of both modules: frames of the animation, and a still picture of several instants."""
 
 import numpy as np
 import pandas as pd
@@ -20,9 +20,9 @@ SPEC = {
 PLACES = {1: -3.0, 2: 3.0}
 """Rest positions of the boxes in units of L, far enough apart for every motion of the chapter."""
 BALL, WALL, HALF_HEIGHT, EDGE = 0.28, 0.12, 0.62, 6.2
-"""Radius of a ball, thickness of a wall, half the height of a box, distance of the supports, in units of L."""
+"""Ball radius, wall thickness, half the box height, and distance of each support from the middle, in units of L."""
 INSTANTS, ROW = 6, 15.0
-"""Instants of the still picture, and the height of each in mm."""
+"""Number of instants in the still picture, and height of the row of each instant in mm."""
 COORDINATES = ["X1", "Y1", "X2", "Y2"]
 
 
@@ -34,15 +34,15 @@ def compute(samples: pd.DataFrame, events: pd.DataFrame, system, cycles: int) ->
     samples : DataFrame
         Columns tau, X1, Y1, X2, Y2 (others are ignored), ascending in tau.
     events : DataFrame
-        Impacts, sticks and releases, columns tau, module, wall, kind and the coordinates.
+        Impacts, sticks and releases; columns tau, module, wall, kind, X1, Y1, X2, Y2.
 
-    Returns "motion": columns t (in periods from the start), X1, Y1, X2, Y2, at all samples and events, so that straight
-    lines between the rows follow every flight up to its corner; "impacts": columns t, module, wall.
+    Returns two tables. "motion" has columns t (forcing periods from the start), X1, Y1, X2, Y2 and a row per sample and
+    event, so that straight lines between rows keep the corners at impacts. "impacts" has columns t, module, wall.
 
     Raises
     ------
     ValueError
-        If the window holds fewer cycles.
+        If the window has fewer than `cycles` cycles.
     """
     start, period = samples["tau"].iloc[0], system.period
     end = start + cycles * period
@@ -62,7 +62,7 @@ def _timed(table, start, period):
 
 
 def page_data(tables: dict[str, pd.DataFrame], cycles: int) -> dict:
-    """Return the frames for the animation of the report; 0.001 L is less than a pixel."""
+    """Return the frames for the animation in the report, rounded to 0.001 L, which is less than a pixel."""
     motion = tables["motion"].round({"t": 4} | dict.fromkeys(COORDINATES, 3))
     impacts = tables["impacts"].round({"t": 4}).to_numpy().tolist()
     return {"cycles": cycles, "places": list(PLACES.values()), "motion": motion.to_dict("list"), "impacts": impacts}
@@ -70,9 +70,9 @@ def page_data(tables: dict[str, pd.DataFrame], cycles: int) -> dict:
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Return a still of the animation: one row per instant, over the first cycle that has impacts; impacts are marked.
+    """Draw instants of the first cycle with impacts, one row per instant, and mark the impacts.
 
-    Of more than a cycle it is the displacement of each box over time, and its envelope.
+    If the motion lasts more than one cycle, draw the displacement of each box over time with its envelope instead.
     """
     if round(tables["motion"]["t"].iloc[-1]) > 1:
         return _envelopes(tables["motion"])
@@ -89,7 +89,7 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
 
 
 def _envelopes(motion):
-    """Return the displacements of both boxes, and their largest and smallest value in each cycle."""
+    """Draw the displacement of both boxes over time, with its largest and smallest value in each cycle."""
     figure = new_figure(DOUBLE_COLUMN, ROW * INSTANTS)
     cycle = np.minimum(motion["t"].astype(int), round(motion["t"].iloc[-1]) - 1)
     for axes, module in zip(figure.subplots(2, 1, sharex=True, sharey=True), PLACES, strict=True):
@@ -118,13 +118,13 @@ def _instant(axes, tables, t):
         axes.plot([PLACES[module]] * 2, [-0.78, -0.68], color=BLACK, linewidth=0.7)
     near = tables["impacts"][(tables["impacts"]["t"] - t).between(0.0, 1.0 / INSTANTS, inclusive="left")]
     for hit in near.itertuples():
-        # W = X - Y is 1 at the left wall of the cavity, seen from the box.
+        # W = X - Y = 1 means that the ball is at the left wall of its cavity.
         place = boxes[hit.module] - hit.wall * (side - 0.5 * WALL)
         axes.plot(place, -0.86, marker="*", color=BLACK, markersize=6, markeredgewidth=0)
 
 
 def _spring(left: float, right: float, turns: int = 7):
-    """Return a zigzag between two places."""
+    """Return the coordinates x and y of a zigzag line between two positions."""
     lead = 0.15 * (right - left)
     inner = np.linspace(left + lead, right - lead, 2 * turns + 1)
     x = np.concatenate([[left], inner, [right]])

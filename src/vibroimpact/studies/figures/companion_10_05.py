@@ -40,21 +40,21 @@ NAMES = {
     "printed": ("(10.26)", 0.4, (5, -8), "left"),
     "penetration": (r"$\leftarrow$ the ball would leave the box", 0.16, (5, 0), "left"),
 }
-"""By limit: its name in the figure, the kappa where it stands, its distance from the line in points, and its side."""
+"""For each limit: name in the figure, kappa of the name, offset from the line in points, and horizontal alignment."""
 END = 1e-9
-"""Distance from kappa = 0 and 1, where the impact law ends."""
+"""Smallest distance of kappa from 0 and from 1, which the impact law excludes."""
 
 
 def compute(C_range: tuple[float, float]) -> dict:
-    """Return the limits of docs/stability.md and of (10.26) over kappa, and the region between, for C in C_range.
+    """Return the limits in docs/stability.md and (10.26) as functions of kappa, and the region of stable motions.
 
-    Returns "csv": columns series ("fold", "symmetry breaking", "penetration", "printed"), kappa, C, lines that stop
-    where they leave C_range; "outline" of the region of stable motions within the walls: kappa, C.
+    Returns "csv": columns series ("fold", "symmetry breaking", "penetration", "printed"), kappa, C, where C is in
+    C_range; and "outline", the outline of the region of stable motions within the walls: columns kappa, C.
 
     Raises
     ------
     ValueError
-        If C_range does not hold all of the stable region and of (10.26).
+        If C_range does not contain the stable region and the limit (10.26).
     """
     lowest, highest = C_range
     kappa = np.clip(np.linspace(0.0, 1.0, 401), END, 1 - END)
@@ -74,7 +74,7 @@ def compute(C_range: tuple[float, float]) -> dict:
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: stable shaded, limits solid, no motion beyond the dashed line, (10.26) dotted."""
+    """Draw the tables of `compute`: stable region shaded, its limits solid, penetration dashed, (10.26) dotted."""
     figure = new_figure(SINGLE_COLUMN, 62.0)
     axes = figure.add_subplot()
     axes.fill(*tables["outline"].to_numpy().T, facecolor=LIGHT_GREY, edgecolor="none", zorder=0)

@@ -1,4 +1,4 @@
-"""Companion to figures 10.7 and 10.8: two motions, one figure. What the theory says of module 2, and what happens."""
+"""Companion to figures 10.7 and 10.8: the motion of module 2 as the theory predicts it and as simulated."""
 
 import numpy as np
 import pandas as pd
@@ -35,7 +35,7 @@ SPEC = {
 PANELS = {"theory": "theory: fixed point ({})", "simulation": "simulated"}
 PERIODS = 2
 MOST_FLIGHTS = 4
-"""Most flights per period that are named in the figure."""
+"""Largest number of flights per period at which the figure shows their lengths."""
 
 
 def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
@@ -48,20 +48,20 @@ def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.Data
     points : DataFrame
         The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
     samples : DataFrame
-        Of the simulation, evenly spaced from the start of a forcing period on; columns tau, X1, Y1, X2, Y2.
+        Samples of the simulation, evenly spaced from the start of a forcing period; columns tau, X1, Y1, X2, Y2.
     events : DataFrame
-        Of the same, columns tau, module, wall, kind, X2, Y2.
+        Events of the simulation; columns tau, module, wall, kind, X2, Y2.
 
-    Returns columns panel ("theory", "simulation"), series ("W_2"; "mirror image": the motion half a period later,
-    turned over; "impact"), label (of the fixed point), phase (periods of the forcing since one began), W2. Without a
-    fixed point there are no rows of "theory".
+    Returns columns panel ("theory", "simulation"), series ("W_2", "impact", or "mirror image": W_2 half a period later
+    with opposite sign), label (of the fixed point), phase (in forcing periods, 0 at the start of a period), W2. Without
+    a fixed point the panel "theory" has no rows.
     """
     start, period = samples["tau"].iloc[0], system.period
     hits = events[(events["module"] == 2) & (events["kind"] == "impact")]
     sampled = pd.DataFrame({"phase": (samples["tau"] - start) / period, "W2": samples["X2"] - samples["Y2"]})
     impacts = pd.DataFrame({"phase": (hits["tau"] - start) / period, "W2": hits["wall"].astype(float)})
     motion = pd.concat([sampled, impacts]).drop_duplicates("phase").sort_values("phase")
-    # The equations stay as they are when all displacements change sign and half a period passes.
+    # The equations are invariant if all displacements change sign and time is shifted by half a period.
     image = motion.assign(phase=motion["phase"] - 0.5, W2=-motion["W2"])
     return join(
         [
@@ -75,7 +75,7 @@ def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.Data
 
 
 def _theory(system, points, samples):
-    """Yield the curves of the nearest fixed point, none if there is none."""
+    """Yield the curves predicted at the fixed point nearest to the simulation; without fixed points, yield nothing."""
     period = system.period
     whole = samples[samples["tau"] < samples["tau"].iloc[0] + period * (1 - 1e-9)]
     U = np.column_stack([whole[f"X{i}"] + system.epsilon * whole[f"Y{i}"] for i in (1, 2)])
@@ -93,7 +93,7 @@ def _theory(system, points, samples):
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: theory above simulation, its mirror image in grey, flight times between arrows."""
+    """Draw the table of `compute`: theory above simulation, mirror image in grey, with the lengths of flights."""
     figure = new_figure(SINGLE_COLUMN, 88.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True, sharey=True)
     for axes, (panel, title) in zip(grid, PANELS.items(), strict=True):

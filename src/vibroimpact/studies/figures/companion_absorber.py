@@ -1,6 +1,6 @@
-"""Companion: how low balls bring the peak over a band of frequencies, against no balls and tuned absorbers.
+"""Companion: peak response with balls over a band of frequencies, compared with no balls and with tuned absorbers.
 
-All is per force: X / f over 1 / f, displacement over static deflection, clearance over static deflection.
+Peaks and clearances are divided by the static deflection: X / f and 1 / f, with f = epsilon f10_hat.
 """
 
 from collections import Counter
@@ -103,54 +103,54 @@ SPEC = {
 
 BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
 PEAK, LOWEST, PLATEAU, STROKE, DECAY = "peak", "lowest peak", "plateau", "stroke", "decay"
-"""Quantities of the summary, beside those of `_held_against`."""
+"""Names of quantities in the summary; `_held_against` has further ones."""
 LIGHT = "#D55E00"
 STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgewidth": 0.4, "linestyle": "none"}
-"""Colour of the best restitution coefficient, and mark of the lowest peaks."""
+"""Colour for the best restitution coefficient, and marker of the lowest peaks."""
 NEARLY = 1.25
-"""The margin of a clearance: where the peak is at most so many times the lowest."""
+"""Factor that defines the margin of a clearance, in which the peak is at most NEARLY times the lowest peak."""
 LEVEL = 1.2
-"""The plateau of the restitution: from the least kappa on, lowest peaks at most so many times the lowest of all."""
+"""Factor that defines the plateau, from the least kappa on: lowest peaks are at most LEVEL times the lowest of all."""
 FROM, TO = "plateau from", "plateau to"
 FEW = 2
-"""The lowest peaks of a sweep that are measured again."""
+"""Number of the lowest peaks of a sweep that are measured again."""
 FRESH = 8
-"""Starts that a lowest peak is measured from again, rest among them."""
+"""Number of starts, rest among them, in the second measurement of a lowest peak."""
 IMPULSES, LEFT = np.geomspace(0.5, 50.0, 81), 0.1
-"""Velocities given to box 1, in units of L omega_10, and the part of their energy that is left after a decay."""
+"""Impulses on box 1 (as velocities, in units of L omega_10), and the fraction of the energy left after a decay."""
 TOLD = ("value", "spread", "largest", "swept", "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest")
-"""Columns of the summary."""
+"""Columns of the summary that describe a lowest peak."""
 
 
 def compute(
     system, response, clearance, design, band: dict, observation: dict, starts: int, seed: int, cycles: int, settle: int
 ) -> dict:
-    """Return results of the sweeps with balls, per force, beside linear systems in closed form.
+    """Return the peaks with balls per unit force, and a summary that compares them with linear systems.
 
-    A lowest peak of a sweep is too low: the lowest of many places is where chance was kind. So the FEW lowest are
-    measured again at their places, from rest and other starts and at the frequencies of the band and those half-way
-    between them (`absorbers.peaks`), and the lowest of these is taken, with its standard error. A motion that none of
-    the starts meets may still move the boxes further.
+    The lowest peak of a sweep is biased: the lowest of many values with random errors is too low. So the FEW lowest
+    peaks are measured again (`absorbers.peaks`), from rest and other starts, at the frequencies of the band and
+    half-way between them. The lowest of the new values counts, with its standard error. A motion that no start reaches
+    may still move the boxes further.
 
     Parameters
     ----------
     system
-        Whose other parameters the sweeps keep.
+        System of the sweeps, for the parameters that do not vary.
     response
-        Table of a sweep over sigma_e_hat, then both forces, of regimes, amplitudes and envelopes.
+        Table of a sweep over sigma_e_hat, then both forces, with regimes, amplitudes and envelopes.
     clearance, design
-        Of peaks along `band`, over both forces; over kappa, then both forces.
+        Tables of sweeps with the peaks along `band`: over both forces, and over kappa, then both forces.
     band : dict
         Arguments of `sweeps.grid.axis`, along sigma_e_hat.
     observation, starts
-        How long, and from how many starts, the regime at an optimum is looked for.
+        Arguments of `regimes.settling.Observation`, and number of starts, to find the regime at a lowest peak.
     seed : int
-        Of the starts of the sweeps.
+        Seed of the starts in the sweeps.
     cycles, settle : int
-        Of their runs.
+        Cycles of a run in the sweeps, and cycles before its observation.
 
-    Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f), one_ball.
-    "summary": columns quantity, who, value, ... (see SPEC).
+    Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f), one_ball; and "summary":
+    columns quantity, who, value, ... (see SPEC).
     """
     linear = linear_systems(system, (1.0, 1.0), band)
     peaks = {name: one.peak(frequencies(system, band)) / system.epsilon for name, one in linear.items()}
@@ -161,7 +161,7 @@ def compute(
     restitution = [_lowest_again(system, mine, **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
     best = min(restitution, key=lambda place: place["value"])
     optima = {BALLS: (own, starts), BEST_KAPPA: (best, starts)}
-    if len(alone):  # from rest only: there are no starts to draw again
+    if len(alone):  # this peak is for the start from rest, so that other starts do not apply
         (one_ball,) = _lowest(alone, 1)
         optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}, 1
 
@@ -183,7 +183,7 @@ def compute(
 
 
 def _peaks(system, table):
-    """Return the table with peaks over f, f = epsilon f10_hat, and 1 / f."""
+    """Return the table with the clearance 1 / f and the peaks divided by f = epsilon f10_hat."""
     force = system.epsilon * table["f10_hat"]
     kappa = table.get("kappa", system.kappa)
     return table.assign(
@@ -192,7 +192,7 @@ def _peaks(system, table):
 
 
 def _lowest(table, number):
-    """Return the points of a sweep over the clearance with the lowest peaks, and the margin of each clearance."""
+    """Return the points with the lowest peaks in a sweep over the clearance, each with the margin of its clearance."""
     beside, places = table.sort_values("clearance").reset_index(drop=True), []
     for here in beside["ratio"].nsmallest(number).index:
         place = beside.loc[here].to_dict()
@@ -204,14 +204,14 @@ def _lowest(table, number):
 
 
 def _lowest_again(system, table, **again):
-    """Return the lowest of the FEW lowest peaks of a sweep, measured again."""
+    """Measure the FEW lowest peaks of a sweep again, and return the point with the lowest result."""
     return min((_again(system, place, **again) for place in _lowest(table, FEW)), key=lambda place: place["value"])
 
 
 def _again(system, place, band, states, cycles, settle):
-    """Return a point with its peak measured again.
+    """Return a point of a sweep with its peak measured again.
 
-    The result has value, spread, largest, per force, and the sigma_e_hat of the peak.
+    Added are value, spread and largest, all divided by the force, and the sigma_e_hat of the peak.
     """
     there = system.with_(**{name: place[name] for name in ("kappa", *FORCES)})
     detunings = np.sort(np.ravel(axis(**band).values))
@@ -227,7 +227,7 @@ def _told(place):
 
 
 def _regime(system, place, observation, number, seed):
-    """Return the regime that most starts end in at a place, at the frequency of its peak."""
+    """Return the regime in which most starts end at a point of a sweep, at the frequency of its peak."""
     there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
     names = Counter(regime.name for regime in settled(there, spread_starts(number, seed), Observation(**observation)))
     return names.most_common(1)[0][0]
@@ -240,9 +240,9 @@ def _of_restitution(places):
 
 
 def plateau(places):
-    """Return the largest kappa of the plateau, and the least and greatest of its lowest peaks.
+    """Return the largest kappa on the plateau, and the least and the greatest of the lowest peaks on it.
 
-    Up to this kappa all lowest peaks are at most LEVEL times the lowest; nan if the first is not.
+    Up to this kappa each lowest peak is at most LEVEL times the lowest of all. If the first is higher, all are nan.
     """
     level = LEVEL * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))
@@ -251,14 +251,14 @@ def plateau(places):
 
 
 def _strokes(system, linear, band):
-    """Yield the strokes of the absorbers in their boxes."""
+    """Yield the largest strokes |X_i - Y_i| / f of the linear absorbers in a band."""
     for name in ("absorbers of the textbook", "best absorbers"):
         stroke = linear[name].stroke(frequencies(system, band)) / system.epsilon
         yield {"quantity": STROKE, "who": name, "value": stroke}
 
 
 def _held_against(system, response, band):
-    """At each pair of forces, of each reference: at how many frequencies boxes move less with balls, times how much."""
+    """For each pair of forces and linear system, yield statistics of the response with balls relative to the system."""
     for pair, rows in response.groupby(FORCES, sort=False):
         for name, one in linear_systems(system, pair, band).items():
             times = rows["ratio"] / ratios(system, one, rows["sigma_e_hat"])
@@ -268,7 +268,7 @@ def _held_against(system, response, band):
 
 
 def _decays(system, linear):
-    """Yield the forcing periods that an impulse on box 1 is felt, with balls after the best impulse for them."""
+    """Yield decay times after an impulse on box 1, in forcing periods; with balls, the shortest for any impulse."""
     times = [decay_time(system, impulse, fraction=LEFT) for impulse in IMPULSES]
     found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=LEFT)[1]}
     found |= {name: one.decay_time(1, LEFT) for name, one in linear.items()}
@@ -277,7 +277,7 @@ def _decays(system, linear):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: peaks over the clearance at two restitution coefficients, between two levels."""
+    """Draw the tables of `compute`: peaks against clearance for two restitution coefficients and two linear systems."""
     swept, peaks = tables["csv"], tables["summary"].query(f"quantity == '{PEAK}'").set_index("who")
     figure = new_figure(SINGLE_COLUMN, 72.0)
     axes = figure.add_subplot()

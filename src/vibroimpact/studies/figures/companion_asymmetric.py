@@ -1,4 +1,4 @@
-"""Companion: the manifold with its asymmetric branch, and the exact asymmetric pairs followed to small epsilon."""
+"""Companion: the manifold with its asymmetric branch, and exact pairs of mirror images followed to small epsilon."""
 
 from itertools import pairwise, product
 from string import ascii_lowercase
@@ -136,41 +136,41 @@ MARKS = {
     ORBIT: {"marker": "D", "markersize": 3.6, "color": BLACK, "linestyle": "none"},
 }
 BESIDE = 0.2
-"""Reach of the picture of the manifold beyond the branch and marks, in C."""
+"""Margin, in C, of the panel of the manifold around the asymmetric branch and the markers."""
 SKEWED = 1e-3
-"""Flights of a module are unequal where its v^2 is above this."""
+"""Value of v^2 above which the two flights of a ball count as unequal."""
 _PHASES, _SPEEDS = (
     [f"{what}{module}_{wall}" for module, wall in product((1, 2), ("plus", "minus"))] for what in ("phase", "speed")
 )
 COLUMNS = ["case", "label", "squared1", "squared2", "C1", "C2", "B1", "B2", "psi1", "psi2"]
 JUDGED = ["real", "admissible", "impact_map", "slow_flow", "modulus"]
 RELAXED = 400, 100
-"""Cycles that the slow flow is followed for, and that it is left to settle before."""
+"""Cycles of the slow flow that are observed, and cycles of the transient before them."""
 COMPARED = ["lost_at", "orbit", "distance", "onset", "order", "uncertainty", "slow_error", "fast_error", "at_epsilon"]
 
 
 def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fit_below: float, C_max: float) -> dict:
-    """Return the manifold, all asymmetric fixed points of the cases, and the exact pairs that lead to them.
+    """Return the manifold, all asymmetric fixed points of the cases, and the exact pairs of orbits that lead to them.
 
     Parameters
     ----------
     systems : dict
         Case -> system.
     orbits : DataFrame
-        `verdict_table.orbit_rows` of all cases.
+        Rows of `verdict_table.orbit_rows` for all cases.
     kappa
-        Of the manifold; cases of another are left out.
-    epsilon
-        Ends of so many values, evenly on a log scale, to which the pairs are followed from the systems' own.
+        Restitution coefficient of the manifold; cases with another one are left out.
+    epsilon, values
+        Range and number of values of epsilon, evenly on a log scale. Pairs are followed to those below their own.
     fit_below : float
-        The order in which the distance falls is fitted where epsilon is below this.
+        Largest epsilon in the fit of the order with which the distance falls.
     C_max : float
-        Right end of the symmetric branch.
+        Largest C of the symmetric branch.
 
-    Returns "csv", the manifold: columns series (a piece of a branch), C, B; "modules" with unequal flights: case,
-    series (fixed point or exact orbit), label, module, C, B; "pairs": case, label, exact, epsilon, squared (the larger
-    v^2), limit (that of the fixed point it leads to);
-    "points", a row per fixed point; and "relaxation", what the slow flow makes of balls that it loses, by module.
+    Returns "csv", the manifold: columns series (a piece of a branch), C, B; "modules", those with unequal flights:
+    case, series (fixed point or exact orbit), label, module, C, B; "pairs": case, label, exact, epsilon, squared (the
+    larger v^2), limit (the larger v^2 of the fixed point to which the pair leads); "points", a row per fixed point;
+    and "relaxation", statistics of the modulated response by the slow flow, a row per module.
     """
     systems = {case: system for case, system in systems.items() if system.kappa == kappa}
     modules, pairs, rows, relaxed = [], [], [], []
@@ -205,7 +205,7 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fi
 def _manifold(kappa, C_max):
     """Return the pieces of both branches.
 
-    The asymmetric branch ends where its B equals that of the symmetric one at C_max.
+    The asymmetric branch ends where its B equals the B of the symmetric branch at C_max.
     """
     edges = (0.0, lower_limit(kappa), SYMMETRY_BREAKING_C, C_max)
     r, end = rho(kappa), branch.period_doubling(kappa)
@@ -219,7 +219,7 @@ def _manifold(kappa, C_max):
 
 
 def _pairs(system, orbits):
-    """Yield one orbit of each mirror pair with positive C: label and root of the asymmetric equations."""
+    """For one orbit of each mirror pair with positive C, yield its label and its root of the asymmetric equations."""
     rows = orbits[~orbits["symmetric"].astype(bool) & ~(orbits["C1"] <= 0) & ~(orbits["C2"] <= 0)]
     one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]
     for _, row in one_each.iterrows():
@@ -229,7 +229,7 @@ def _pairs(system, orbits):
 
 
 def _in_plane(case, series, label, *places):
-    """Yield the modules whose flights are unequal; places: C, B and v^2, each (2,)."""
+    """Yield the rows of the modules with unequal flights; `places` holds C, B and v^2 of both modules, each (2,)."""
     for module, C, B, squared in zip((1, 2), *places, strict=True):
         if squared > SKEWED:
             yield case, series, label, module, C, B
@@ -258,7 +258,7 @@ def _row(system, case, name, point, label, way, fit_below):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: the manifold with both branches, and per case v^2 of the pairs over epsilon."""
+    """Draw the tables of `compute`: the manifold with both branches, and v^2 of the pairs against epsilon by case."""
     pairs = tables["pairs"]
     cases = list(dict.fromkeys(pairs["case"]))
     figure = new_figure(DOUBLE_COLUMN, 84.0)
@@ -279,7 +279,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _draw_manifold(axes, pieces, modules):
-    """Draw the manifold where its branches part; return the names of these with their lines."""
+    """Draw the manifold around its asymmetric branch; return the name and line of each branch."""
     lines = {}
     for series, style in PIECES.items():
         piece = pieces[pieces["series"] == series]
@@ -287,7 +287,7 @@ def _draw_manifold(axes, pieces, modules):
     for series, style in MARKS.items():
         rows = modules[modules["series"] == series]
         axes.plot(rows["C"], rows["B"], label=f"{series}s", zorder=3, **style)
-    # The rest of the manifold is in figure 10.4.
+    # Figure 10.4 shows the rest of the manifold.
     near = pd.concat([modules["C"], pieces["C"][pieces["series"].str.startswith("asymmetric")]])
     axes.set(xlim=(near.min() - BESIDE, near.max() + BESIDE), xlabel="$C_i$", ylabel="$B_i$")
     seen = pd.concat([pieces["B"][pieces["C"].between(*axes.get_xlim())], modules["B"]])

@@ -1,4 +1,4 @@
-"""Companion: basins of the coexisting regimes on a plane of starts, the balls anywhere in their cavities."""
+"""Companion: basins of coexisting regimes in the plane of the initial positions of both balls."""
 
 import numpy as np
 import pandas as pd
@@ -53,22 +53,22 @@ _MARK = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "marke
 
 
 def compute(system, case: str, points: int, observation: dict) -> dict:
-    """Return the regimes of starts with boxes and velocities of the stable asymmetric orbit at tau = 0.
+    """Return the regimes of starts that differ in the positions of the balls only.
 
-    Where there is no such orbit, the boxes start from rest.
+    Boxes and velocities are those of the stable asymmetric orbit at tau = 0, or at rest if there is no such orbit.
 
     Parameters
     ----------
     case : str
-        What the system is called.
+        Name of the system.
     points : int
-        Starts along each axis, in the middles of equal parts of -1 < W_i < 1.
+        Number of starts along each axis, at the midpoints of equal parts of -1 < W_i < 1.
     observation : dict
         Arguments of `regimes.settling.Observation`.
 
-    Returns "csv", a row per start: columns panel (the case), label (regime), W1, W2; "orbits": series ("shared",
-    the state that all starts have in common but for the balls, "mirror image", of the orbit), NAMES; and "shares":
-    columns regime, share, uncertainty (of a share of so many independent starts, binomial).
+    Returns "csv", a row per start: columns panel (the case), label (regime), W1, W2; "orbits": columns series
+    ("shared": the state with the boxes and velocities of all starts; "mirror image": its mirror image) and NAMES; and
+    "shares": columns regime, share, uncertainty (binomial standard error of the share).
     """
     orbit = stable_response(system)
     states = plane(np.zeros(8) if orbit is None else orbit.state, points)
@@ -88,7 +88,7 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: a colour per regime, the orbit a circle, its mirror image a diamond."""
+    """Draw the tables of `compute`: a colour per regime, a circle at the orbit, a diamond at its mirror image."""
     starts, orbits = tables["csv"], tables["orbits"].set_index("series")
     figure = new_figure(SINGLE_COLUMN, 100.0)
     axes = figure.add_subplot()

@@ -1,4 +1,4 @@
-"""Companion: branches of 1:1 responses against the forcing, of the theory and exact, with simulated attractors."""
+"""Companion: branches of 1:1 responses against the forcing, by the theory and exact, with simulated attractors."""
 
 from string import ascii_lowercase
 
@@ -122,7 +122,7 @@ MARKERS = {
     "end, by grazing or at speed zero": ("X", (GRAZING, SPEED_ZERO)),
     "stability is lost": ("D", (SYMMETRY_BREAKING, PERIOD_DOUBLING, NEIMARK_SACKER, HOPF, MANIFOLD_FOLD)),
 }
-"""Marked are ENDS wherever branches turn or end, of the other special points those that bound a stable piece."""
+"""Legend name -> marker, kinds of special points. Kinds in ENDS are always marked, others only at a stable piece."""
 _SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.2}
 _SPECIAL |= {"zorder": 4, "clip_on": False}
 REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"
@@ -131,7 +131,7 @@ DOTS = {
     VARYING: {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "markersize": 3.0, "color": GREY},
     PASSING: {"linestyle": "none", "marker": "x", "markeredgewidth": 0.7, "markersize": 3.4, "color": BLACK},
 }
-"""Looks of the regimes in which simulated starts end."""
+"""Styles of the dots for the regimes in which simulations end."""
 KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
 CASE = {"color": GREY, "linewidth": 0.6, "zorder": 0.7}
 HUES = {
@@ -140,9 +140,9 @@ HUES = {
     AsymmetricOrbits.name: COLOURS[ASYMMETRIC],
 }
 NAMES = {SymmetricOrbits.name: "symmetric", AsymmetricOrbits.name: "asymmetric"}
-"""Names of lines of exact orbits; those of the theory are named by their stability."""
+"""Names of the branches of exact orbits; branches of the theory are named by their stability."""
 CROWD, INSET = 0.1, (0.03, 0.72, 0.36, 0.25)
-"""Part of an axis within which three marks are crowded, and where the axes show them larger."""
+"""Fraction of each axis within which three marks count as crowded, and place of the inset that enlarges them."""
 COLUMNS = ["panel", "series", "label", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
 _NAMES = {"f10_hat": r"\hat f_{10}", "f20_hat": r"\hat f_{20}"}
 
@@ -161,20 +161,20 @@ def compute(
     Parameters
     ----------
     paths : list of dict
-        Each with `along` (names of the parameters that move together) and `range` (low, high).
+        For each path, `along` (names of the parameters that vary together) and `range` (low, high).
     longest_step, seeds
-        Of the continuation, see `regimes.branches`; the seeds are evenly spread over the range.
+        Settings of the continuation, see `regimes.branches`; the seeds are evenly spread over the range.
     attractors : dict
-        `values` of the parameter, evenly spread, `starts` at each, `seed`.
+        `values` (number of parameter values, evenly spread), `starts` (number of starts at each value), `seed`.
     observation : dict
         Arguments of `regimes.settling.Observation`.
     systems : dict
-        Case -> system; those on a path are marked.
+        Case -> system; cases on a path are marked.
 
     Returns "csv", the nodes of the branches (columns panel, series, label, branch, piece, p, C1, C2, stable,
-    admissible), "attractors" (panel, label, p, and C1, C2 of half of the ball's mean path per cycle), "cases" (panel,
-    case, p), "special_points" (path, family, kind, p, C1, C2; a path without any has a row of the kind "none"), and
-    "onsets" (rows of `regimes.onset.onsets`).
+    admissible), "attractors" (panel, label, p, and C1, C2 from half the mean path of the ball per cycle), "cases"
+    (panel, case, p), "special_points" (path, family, kind, p, C1, C2, admissible; one row of the kind "none" for a path
+    without special points), and "onsets" (rows of `regimes.onset.onsets`).
     """
     nodes, attracting, cases, onsets = [], [], [], []
     names = {panel: " ".join(settings["along"]) for panel, settings in zip(ascii_lowercase, paths, strict=False)}
@@ -198,7 +198,7 @@ def compute(
 
 
 def _special_points(nodes, names):
-    """Return the special points by path, in the order of the paths; a path without any has a row that says so."""
+    """Return the special points in the order of the paths, with one row of the kind "none" for a path without any."""
     found = nodes[nodes["label"].ne("")].sort_values("admissible")
     found = found.drop_duplicates(["panel", "series", "label", "branch", "p"], keep="last").sort_index()
     without = pd.DataFrame({"panel": [one for one in names if one not in set(found["panel"])], "label": "none"})
@@ -208,7 +208,7 @@ def _special_points(nodes, names):
 
 
 def _on(path, interval, systems):
-    """Yield the cases on a path, and where."""
+    """Yield each case on a path, with its value of the parameter."""
     places = {case: getattr(system, path.names[0]) for case, system in systems.items()}
     for case, p in places.items():
         if interval[0] <= p <= interval[1] and path(p) == systems[case]:
@@ -216,7 +216,7 @@ def _on(path, interval, systems):
 
 
 def _pieces(panel, number, branch):
-    """Yield the nodes of each piece of a branch."""
+    """For each piece of a branch, yield the table of its nodes."""
     for piece, (inner, nodes) in enumerate(branch.pieces()):
         amplitudes = np.array([node.amplitudes for node in nodes])
         place = {"panel": panel, "series": branch.family.name, "label": [node.kind for node in nodes]}
@@ -270,7 +270,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _cases(theory, exact, cases):
-    """Draw thin lines at the cases, with their names above the foot of the first panel."""
+    """Draw a thin vertical line at each case, with its name at the bottom of the theory's panel."""
     for case, p in cases[["case", "p"]].itertuples(index=False):
         for axes in (theory, exact):
             axes.axvline(p, **CASE)
@@ -279,7 +279,7 @@ def _cases(theory, exact, cases):
 
 
 def _branches(axes, nodes):
-    """Draw the lines of the pieces and the marks on them; return the names of the longest ones with their lines."""
+    """Draw all pieces and marks; return each name with the line of its longest piece, a stable one if there is any."""
     named = {}
     for (family, stable, *_), piece in nodes.groupby(["series", "stable", "branch", "piece"], sort=False):
         line = axes.plot(piece["p"], piece["C2"], **(STABLE if stable else UNSTABLE) | {"color": HUES[family]})
@@ -291,18 +291,18 @@ def _branches(axes, nodes):
 
 
 def _marks(axes, nodes):
-    """Return the marker and the special points within an axis, by name of the mark."""
+    """For each name of a mark, return the marker and the special points within the limits of the p axis."""
     special = nodes[nodes["label"].ne("") & nodes["p"].between(*axes.get_xlim())]
     found = {}
     for name, (marker, kinds) in MARKERS.items():
-        rows = special[special["label"].str.split(",").str[0].isin(kinds)]  # some name the module, too
+        rows = special[special["label"].str.split(",").str[0].isin(kinds)]  # some kinds also name a module
         rows = rows[rows["stable"].eq(True) | (set(kinds) <= {*ENDS})]
         found[name] = marker, rows.drop_duplicates(["series", "branch", "p"])
     return found
 
 
 def _crowded(axes, nodes):
-    """Return the window, xlim and ylim, around most marks that are too close to each other; None without such."""
+    """Return xlim and ylim of a window around the densest group of at least three marks, or None without a group."""
     marks = pd.concat([rows[["p", "C2"]] for _, rows in _marks(axes, nodes).values()]).to_numpy(float)
     size = CROWD * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
     near = (np.abs(marks[:, None] - marks) < size).all(axis=2)

@@ -1,4 +1,4 @@
-"""Companion: theory and exact orbit as epsilon tends to 0, in distance, slow and fast multipliers."""
+"""Companion: errors of the theory as epsilon tends to 0, in fixed points, slow rates and fast multipliers."""
 
 from contextlib import suppress
 
@@ -57,32 +57,32 @@ LOOKS = {
     "distance": ("amplitudes and phases", {"color": BLACK, "marker": "o"}),
     TWO_TERMS: ("the same, first-order term added", {"color": GREY, "marker": "D"}),
 }
-"""Names and looks of the errors that are drawn."""
+"""Names and styles of the errors in the figure."""
 SLOPES = {"slow": (1, 20.0), TWO_TERMS: (2, 0.1)}
-"""Triangles: slope, and how many times the error of a curve they stand above it."""
+"""For each curve with a triangle: slope, and factor by which the triangle lies above the end of the curve."""
 
 
 def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict | None = None) -> dict:
-    """Return the errors of the theory at every fixed point of the cases, over epsilon, and the orders fitted to them.
+    """Return the errors of the theory for each fixed point of the cases at each epsilon, and the orders of the errors.
 
     Parameters
     ----------
     systems : dict
         Case -> system.
-    epsilon
-        First and last, with so many values between them, evenly on a log scale.
+    epsilon, values
+        First and last epsilon and number of values, evenly on a log scale, both ends included.
     fit_below : float
-        The orders are fitted where epsilon is below this.
+        Upper limit of epsilon in the fit of the orders.
     mixed : dict, optional
-        `case` and `label` of a point that is left out, where fast and slow multipliers cannot be told apart.
+        `case` and `label` of a point to leave out because its fast and slow multipliers cannot be distinguished.
 
-    Returns "csv": columns panel (one of PANELS, or "two terms": as "distance", the term of first order added to the
+    Returns "csv": columns panel (one of PANELS, or "two terms": the distance with the first-order term added to the
     fixed point), series ("case, label"), epsilon, error; and "orders": case, label, panel, order, uncertainty.
 
     Raises
     ------
     ValueError
-        If the case of `mixed` has no fixed point of its label.
+        If the case of `mixed` has no fixed point with its label.
     """
     epsilon = np.geomspace(*epsilon, values)
     curves, orders = [], []
@@ -111,13 +111,13 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
 
 
 def _by_label(system):
-    """Return the fixed points by their labels, in ascending order."""
+    """Return a mapping from label to fixed point, sorted by label."""
     points = fixed_points(system)
     return dict(sorted(zip(labels(system, points), points, strict=True), key=lambda pair: pair[0]))
 
 
 def _compared(system, point, epsilon):
-    """Yield the comparisons at every epsilon at which there is an orbit."""
+    """Yield the comparison of a fixed point with its exact orbit at each epsilon at which an orbit exists."""
     for value in epsilon:
         with suppress(NoOrbit):
             yield distance_to_orbit(system.with_(epsilon=value), point)
@@ -131,7 +131,7 @@ def _errors(found):
 
 
 def _two_terms(system, point, found):
-    """Return the distances with the term of first order added; nan where there is no orbit to take it from."""
+    """Return the distances with the first-order term added to the fixed point; nan if no orbit gives this term."""
     added = np.nan
     with suppress(NoOrbit):
         added = first_order(system, point)[:, np.isfinite(point.C)].ravel()
@@ -140,7 +140,7 @@ def _two_terms(system, point, found):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table "csv" of `compute`: the largest of each error over all fixed points, a triangle of slope 1."""
+    """Draw the table "csv" of `compute`: the largest error of each kind over all fixed points, with slope triangles."""
     table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 92.0)
     axes = figure.add_subplot()
@@ -159,7 +159,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _slope(axes, epsilon, error, slope, times):
-    """Draw a triangle that shows a slope beside the end of a curve."""
+    """Draw a triangle with the given slope next to the end of a curve."""
     x = epsilon * np.array([0.05, 0.5])
     y = error * times * (x / epsilon) ** slope
     axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))

@@ -1,4 +1,4 @@
-"""Companion to figure 10.11: where float64 leaves the true trajectory of the modulated response."""
+"""Companion to figure 10.11: when a float64 run leaves the true trajectory of the modulated response."""
 
 import numpy as np
 import pandas as pd
@@ -29,10 +29,10 @@ SPEC = {
 
 
 def compute(system: System, initial_state, strobe: pd.DataFrame) -> pd.DataFrame:
-    """Return the error of the float64 run at the start of every forcing cycle, and its estimate by the run.
+    """Return the error of the float64 run at the start of each forcing cycle, and the estimate by the run itself.
 
-    strobe: the true states there (columns tau and `NAMES`). Returns columns panel ("error"), series ("measured",
-    "expected": curves; "horizon": the cycle at which the expected error passes 1e-3), cycle, error.
+    strobe: the true states at these instants (columns tau and `NAMES`). Returns columns panel ("error"), series
+    ("measured", "expected": curves; "horizon": the cycle at which the expected error passes 1e-3), cycle, error.
     """
     difference, expected, horizon = departure(system, initial_state, strobe[list(NAMES)].to_numpy(float))
     cycles = np.arange(len(difference))
@@ -48,7 +48,7 @@ def compute(system: System, initial_state, strobe: pd.DataFrame) -> pd.DataFrame
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: error against cycles, logarithmic."""
+    """Draw the table of `compute`: error against cycles, on a logarithmic axis."""
     figure = new_figure(SINGLE_COLUMN, 58.0)
     axes = figure.add_subplot()
     measured, expected = select(table, "error", "measured"), select(table, "error", "expected")

@@ -1,4 +1,4 @@
-"""Companion: which regime starts end in over both forcing amplitudes, with the theory's borders drawn over it."""
+"""Companion: map of the regimes in which starts end over both forcing amplitudes, with borders by the theory."""
 
 from functools import cache
 from textwrap import fill
@@ -66,34 +66,34 @@ SPEC = {
 
 BORDERS = ("fixed points", STABLE_POINTS := "stable points")
 HALVINGS = 4
-"""Halvings between two cells with different counts: the border is found to 1/32 of their distance."""
+"""Number of bisections between two cells with different counts; the border is found to 1/32 of the cells' distance."""
 TOGETHER = "coexisting"
 NAMED_FROM = 20
-"""A patch of so many cells or more bears the name of its regime; the key has the regimes without one."""
+"""Smallest size, in cells, of a patch that bears the name of its regime; the legend lists regimes without a name."""
 FLAT = 0.5
-"""Width of a cell over its height as a name, which is flat, sees it."""
+"""Width of a cell divided by its height in the search for the place of a name: names are wider than high."""
 _BORDER = {"color": BLACK, "linewidth": 1.4}
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5.0, "markeredgewidth": 1.2}
 _STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 6.0, "markeredgewidth": 0.7}
 TICKS = 4
-"""At most so many intervals between ticks: left to itself, the number would depend on the last digit of the limits."""
+"""Largest number of intervals between ticks; the default number would depend on the last digit of the limits."""
 
 
 def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
-    """Return the map from the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
+    """Return the map for the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
 
     Parameters
     ----------
     system
-        Of the sweep.
+        System of the sweep.
     systems : dict
-        Case -> system; those that differ from it in the forcing amplitudes alone are marked.
+        Case -> system; cases that differ from `system` in the forcing amplitudes only are marked.
     starts : int
-        Of each point, the first of them rest.
+        Number of starts at each point; the first one is from rest.
 
-    Returns "csv", a row per cell: columns label (regime from rest), f10_hat, f20_hat, the regime that most starts other
-    than rest end in, and how many regimes they do, the share of each regime, fixed_points, stable_points; "cases":
-    case, f10_hat, f20_hat; "borders" of the theory's counts: series, piece, f10_hat, f20_hat.
+    Returns "csv", a row per cell: label (regime from rest), f10_hat, f20_hat, regime (of most other starts), coexisting
+    (number of regimes of the other starts), a share per regime, fixed_points, stable_points; "cases": case, f10_hat,
+    f20_hat; "borders", where the theory's number of points changes: series, piece, f10_hat, f20_hat.
     """
     cells = table.rename(columns={FROM_REST: "label"})
     cells["regime"], cells[TOGETHER] = _dominant(cells, starts)
@@ -108,7 +108,7 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
 
 def _dominant(cells, starts):
-    """Return, for each cell, the regime of most starts other than rest, and the number of their regimes."""
+    """For each cell, return the regime of most starts other than rest, and how many regimes they settle in."""
     counts = cells[[*REGIMES]].to_numpy(float) * starts
     if starts > 1:
         counts -= cells["label"].to_numpy()[:, None] == np.array(REGIMES)
@@ -119,9 +119,9 @@ def _dominant(cells, starts):
 
 
 def _border(system, cells, series):
-    """Yield the ends of the pieces of the lines on which the number of solutions of the theory changes.
+    """Yield the ends of line pieces on which the theory's number of points (all or stable, by `series`) changes.
 
-    Each end is the number of its piece, f10_hat and f20_hat, found by bisection.
+    Each end consists of the number of the piece, f10_hat and f20_hat. The ends are found by bisection.
     """
     which, square = list(BORDERS).index(series), _square(cells, series.replace(" ", "_"))
 
@@ -144,7 +144,7 @@ def _border(system, cells, series):
 
 
 def _squares(cells, square):
-    """Yield the centres of each four neighbouring cells, in order round the square, with their counts; skip gaps."""
+    """For each square of four cells without gaps, yield their centres and counts, in order round the square."""
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
         around = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
@@ -153,9 +153,9 @@ def _squares(cells, square):
 
 
 def _pieces(corners, crossing):
-    """Return the border within a square.
+    """Return the pieces of the border within a square.
 
-    It runs from side to side, or from each side to the middle where three or four parts meet.
+    If the border crosses two sides, one piece connects them. If it crosses more, a piece leads from each to the middle.
     """
     sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
     ends = [crossing(first, second) for first, second in sides]
@@ -167,7 +167,7 @@ def _pieces(corners, crossing):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: a colour for each regime, a stroke where several coexist; the theory's border."""
+    """Draw the tables of `compute`: a colour per regime, a stroke where several coexist, and the theory's border."""
     cells, cases, borders = (tables[name] for name in ("csv", "cases", "borders"))
     regimes = cells.pivot(index="f20_hat", columns="f10_hat", values="regime")
     figure = new_figure(SINGLE_COLUMN, 103.0)
@@ -197,9 +197,9 @@ def draw(tables: dict) -> Figure:
 
 
 def _name(axes, regimes, name, lined):
-    """Write the name of a regime on its largest patch, where this is widest; return True if it is large enough.
+    """Write the name of a regime where its largest patch is widest; return False if that patch is too small.
 
-    lined: the cells with strokes or the theory's border, which names avoid.
+    lined: True for cells with a stroke or the theory's border, which names avoid.
     """
     patches, _ = ndimage.label(regimes.eq(name))
     sizes = np.bincount(patches.ravel())[1:]
@@ -215,11 +215,11 @@ def _name(axes, regimes, name, lined):
 
 
 def _ends(centres):
-    """Return the outer edges of a row of cells, free of the rounding that decides whether a tick at the end is seen."""
+    """Return the outer edges of a row of cells, rounded so that rounding errors cannot hide a tick at an edge."""
     half = 0.5 * (centres[1] - centres[0])
     return np.round([centres[0] - half, centres[-1] + half], 12)
 
 
 def _square(cells, column):
-    """Return the values on the grid, f20_hat along the first axis."""
+    """Return the values of a column on the grid, with f20_hat along the first axis."""
     return cells.pivot(index="f20_hat", columns="f10_hat", values=column).to_numpy(dtype=float)

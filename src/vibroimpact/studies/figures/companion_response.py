@@ -1,6 +1,6 @@
-"""Companion: how far the boxes move with balls, over the frequency of the forcing and over its amplitude.
+"""Companion: response of the boxes with balls against the frequency and against the amplitude of the forcing.
 
-All is per force: |X_i| / f of the box that moves more, f the larger force.
+Responses are divided by the force: |X_i| / f of the box that moves more, where f is the larger of both forces.
 """
 
 from functools import lru_cache
@@ -106,34 +106,34 @@ LINES = {
     "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
     "best absorbers": {"color": BLACK, "linestyle": "-", "linewidth": 0.9},
 }
-"""The linear systems that are drawn."""
+"""Line styles of the linear systems in the figure."""
 _DOTS = {"linestyle": "none", "marker": "o", "color": BLACK, "markersize": 2.8, "markeredgewidth": 0.7}
 DOTS = {"balls, largest, repeating": _DOTS, "balls, largest, modulated": {**_DOTS, "markerfacecolor": "white"}}
 BAND = "balls, 90 % of the cycles"
 LEAST, MOST = 0.8, 1.3
-"""Lower end of the axis of displacement per force, and margin above the highest line."""
+"""Lower end of the vertical axis, and ratio of its upper end to the highest line."""
 LINE_POINTS = 451
 
 
 def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) -> dict:
-    """Return results of the sweeps with balls, per force, beside theory, exact orbits, and linear systems.
+    """Return responses per unit force: with balls in two sweeps, of 1:1 responses, and of linear systems.
 
     Parameters
     ----------
     system
-        Whose other parameters the sweeps keep.
+        System of the sweeps, for the parameters that do not vary.
     frequency : DataFrame
         Table of a sweep over sigma_e_hat, then both forces.
     force : DataFrame
-        Over both forces, which are equal. Of regimes, amplitudes, envelopes and energy.
+        Table of a sweep over two equal forces. Both tables have regimes, amplitudes, envelopes and energy.
     band : dict
-        Arguments of `sweeps.grid.axis`, along sigma_e_hat, over which the best absorbers are tuned.
+        Arguments of `sweeps.grid.axis`, along sigma_e_hat, for the band in which the best absorbers are tuned.
 
-    Returns "csv", the balls: columns panel ("frequency" or "force"), label (the regime of most starts), f10_hat,
-    f20_hat, sigma_e_hat, ratio (X / f), low and high (its envelope), impact_share. "linear", the linear systems: panel,
-    series, the place, ratio. "one_to_one", symmetric responses: panel, series, the place, ratio, impact_share, stable.
-    "shares": what impacts take of the work over the frequency, columns source, f10_hat, f20_hat, points, least, middle,
-    greatest.
+    Returns "csv", responses with balls: columns panel ("frequency" or "force"), label (the regime of most starts),
+    f10_hat, f20_hat, sigma_e_hat, ratio (X / f), low and high (envelope of the ratio), impact_share. "linear", linear
+    systems: panel, series, f10_hat, f20_hat, sigma_e_hat, ratio. "one_to_one", symmetric 1:1 responses: the same and
+    impact_share, stable. "shares", statistics of impact_share over the frequencies: source, f10_hat, f20_hat, points,
+    least, middle, greatest.
     """
     sweeps = {"frequency": frequency, "force": force.assign(sigma_e_hat=system.sigma_e_hat)}
     balls = pd.concat([per_force(system, table)[OF_BALLS].assign(panel=name) for name, table in sweeps.items()])
@@ -165,7 +165,7 @@ def _linear(system, panel, pair, detunings, band):
 
 
 def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
-    """Return the table of a sweep of amplitudes, envelopes and regimes with ratio, low and high, over f, and label."""
+    """Return the table of a sweep with added columns ratio, low and high (divided by f) and label (main regime)."""
     force = system.epsilon * table[FORCES].max(axis=1)
     boxes = table[["high_X1", "high_X2"]].to_numpy().argmax(axis=1)
     low, high = (table[[f"{name}_X1", f"{name}_X2"]].to_numpy()[range(len(table)), boxes] for name in ("low", "high"))
@@ -176,27 +176,27 @@ def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def linear_systems(system, pair, band: dict) -> dict:
-    """Return the linear systems for comparison, by name, at forces in this proportion, the larger of them 1."""
+    """Return the linear systems for comparison, by name, with forces in the ratio of `pair`, the larger one being 1."""
     f10, f20 = (float(value / max(pair)) for value in pair)
     return _compared(system.with_(f10_hat=f10, f20_hat=f20), frequencies(system, band))
 
 
-_compared = lru_cache(compared)  # tuned once for all forces in a proportion
+_compared = lru_cache(compared)  # tune the absorbers once for all forces in the same ratio
 
 
 def frequencies(system, band: dict) -> tuple[float, float]:
-    """Return the ends of a band of detunings, as frequencies."""
+    """Return the ends of a band of detunings as forcing frequencies Omega."""
     values = axis(**band).values
     return tuple(1.0 + system.epsilon * float(np.ravel(end)[0]) for end in (values[0], values[-1]))
 
 
 def ratios(system, linear, detunings):
-    """Return the larger |X_i| / f of a linear system whose larger force is 1."""
+    """Return the larger |X_i| / f of both boxes in a linear system whose larger force is 1, at each detuning."""
     return linear.amplitudes(1.0 + system.epsilon * np.asarray(detunings)).max(axis=-1) / system.epsilon
 
 
 def _one_to_one(system, panel, series, table):
-    """Return all 1:1 responses where the sweep has been."""
+    """Return a row for each 1:1 response at each point of a sweep."""
     rows = []
     for place in table[PLACE].to_dict("records"):
         force = system.epsilon * max(place[name] for name in FORCES)
@@ -207,7 +207,7 @@ def _one_to_one(system, panel, series, table):
 
 
 def _shares(balls, one_to_one):
-    """Return the shares of the impacts over the frequency: least, median and greatest by source and forces."""
+    """For each source and pair of forces, return the least, median and greatest impact share over the frequencies."""
     known = pd.concat([balls.assign(series="balls"), one_to_one]).query("panel == 'frequency' and impact_share.notna()")
     shares = known.groupby(["series", *FORCES], sort=False)["impact_share"]
     found = shares.agg(points="size", least="min", middle="median", greatest="max").reset_index()
@@ -253,7 +253,7 @@ def _draw_panel(axes, balls, linear, x):
 
 
 def logarithmic(axes, side: str, *ends: float) -> None:
-    """Set a logarithmic axis whose ends, if given, do not depend on the simulated values."""
+    """Make an axis logarithmic with labels at 1, 2 and 5 times powers of ten; `ends`, if given, are its limits."""
     axes.set(**{f"{side}scale": "log"})
     axis = getattr(axes, f"{side}axis")
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))

@@ -1,4 +1,4 @@
-"""Companion on stability: what four criteria say of every fixed point of each case."""
+"""Companion on stability: verdicts by four criteria on every fixed point of each case."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -26,10 +26,10 @@ CRITERIA = {
     "slow": "slow flow",
     "exact": "exact\norbit",
 }
-"""The columns of the published table, and what the figure calls them."""
+"""Columns of the table of fixed points, and their names in the figure."""
 FACES = {STABLE: BLACK, UNSTABLE: "white"}
 ROW, HEAD = 6.0, 22.0
-"""Heights in mm."""
+"""Height of a row and of the head of the figure, in mm."""
 
 
 def compute(points: pd.DataFrame) -> pd.DataFrame:
@@ -37,7 +37,7 @@ def compute(points: pd.DataFrame) -> pd.DataFrame:
 
     Columns: panel (the case), label, C1, C2, one per criterion.
 
-    points: columns case, label, C1, C2 and one per criterion, as in `fixed_points.csv`.
+    points: table with columns case, label, C1, C2 and one per criterion, as in `fixed_points.csv`.
     """
     table = points.rename(columns={"case": "panel"})[["panel", "label", "C1", "C2", *CRITERIA]]
     return table
@@ -45,7 +45,7 @@ def compute(points: pd.DataFrame) -> pd.DataFrame:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: a row of dots per fixed point, filled where a criterion says stable."""
+    """Draw the table of `compute`: a row of dots per fixed point, filled where the verdict is stable."""
     figure = new_figure(SINGLE_COLUMN, HEAD + ROW * max(len(table), 1))
     axes = figure.add_subplot()
     for x, criterion in enumerate(CRITERIA):

@@ -1,4 +1,4 @@
-"""Fixed points along the manifold as the forcing of the second module changes."""
+"""Fixed points along the manifold as the force on the second module changes."""
 
 import numpy as np
 import pandas as pd
@@ -42,7 +42,7 @@ SPEC = {
 }  # fmt: skip
 
 LINES = [(BLACK, "-"), (BLACK, (0, (4.5, 1.5))), (GREY, "-"), (GREY, (0, (4.5, 1.5)))]
-"""Colour and line of each track."""
+"""Colour and line style of each track."""
 MARKS = {
     "theory: stable": {"markerfacecolor": BLACK, "markersize": 3.6},
     "theory: unstable": {"markerfacecolor": "white", "markersize": 3.6},
@@ -50,9 +50,9 @@ MARKS = {
 }
 PAIRS = {"asymmetric orbits, stable": COLOURS[ASYMMETRIC], "asymmetric orbits, unstable": "#a9d8d2"}
 EVERY = 6
-"""Markers stand at every so many values: filled where both time scales are stable, in a ring if the exact orbit is."""
+"""Every EVERY-th value has a marker, filled if both time scales are stable, in a ring if the exact orbit is stable."""
 PAIR = 0
-"""Track of the asymmetric orbits, which belong to no fixed point."""
+"""Track number of the asymmetric orbits, which belong to no fixed point."""
 VERDICTS = (*CRITERIA, EXACT)
 
 
@@ -68,13 +68,13 @@ def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]
     values : int
         Number of values in the interval, both ends included.
     C_max : float
-        The manifold is shown for 0 <= C <= C_max, and further where a fixed point lies beyond.
+        The manifold is shown for 0 <= C <= C_max, or further if a fixed point lies beyond.
 
-    Returns "csv": columns value, track (from 1 on; nearest neighbours in the plane (C1, C2) share a track), C1, B1,
-    C2, B2, label (as in the chapter: `theory.fixed_points.labels`), and VERDICTS: those of the theory's criteria, of
-    both time scales together, and of the multipliers of the exact orbit, "no orbit" where there is none; "orbits": a
-    row per multiplier of each exact orbit, columns value, track (that of its fixed point; PAIR of the stable asymmetric
-    orbits and what becomes of them), C1, C2, exact, real, imag; "manifold": columns series, C, B as in figure 10.4.
+    Returns three tables. "csv": columns value, track (number from 1; nearest neighbours in the plane (C1, C2) share a
+    track), C1, B1, C2, B2, label (as in the chapter, see `theory.fixed_points.labels`), and VERDICTS, by each criterion
+    of the theory and by the exact orbit ("no orbit" without one). "orbits", a row per multiplier of each exact orbit:
+    columns value, track (as its fixed point; PAIR for the branches of stable asymmetric orbits), C1, C2, exact, real,
+    imag. "manifold": columns series, C, B as in figure 10.4.
     """
     rows, last, tracks = [], np.empty((0, 2)), 0
     names, multipliers = [], []
@@ -105,7 +105,7 @@ def _values(range, values):
 
 
 def page_data(tables: dict[str, pd.DataFrame], range, values: int, C_max: float) -> dict:
-    """Return the data of the slider: both branches of the manifold, fixed points and exact orbits at each value."""
+    """Return the data for the slider: branches of the manifold, and fixed points and exact orbits at each value."""
     manifold = {
         series: rows[["C", "B"]].round(4).to_numpy().tolist() for series, rows in tables["manifold"].groupby("series")
     }
@@ -128,7 +128,7 @@ def _multipliers(value, track, orbit):
 
 
 def _continued(names, last, now, tracks):
-    """Return the track of each point: that of the nearest point before, or a new one; and how many tracks there are."""
+    """Return each point's track, continued from the nearest previous point or new, and the number of tracks so far."""
     gaps = np.linalg.norm(np.nan_to_num(last[:, None] - now[None]), axis=2)
     found = {new: names[old] for old, new in zip(*linear_sum_assignment(gaps), strict=True)}
     fresh = [new for new in range(len(now)) if new not in found]
@@ -138,7 +138,7 @@ def _continued(names, last, now, tracks):
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw C_1 and C_2 of each track over the second force, and the exact asymmetric orbits."""
+    """Draw C_1 and C_2 of each track against the second force, and the exact asymmetric orbits."""
     figure = new_figure(DOUBLE_COLUMN, 84.0)
     points, orbits = tables["csv"], tables["orbits"]
     pair = orbits[orbits["track"] == PAIR].drop_duplicates(["value", "C1", "C2"])
@@ -161,7 +161,7 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
 
 
 def _letters(points):
-    """Return the letter of each track: that of its point at the value where most points are, or else its first one."""
+    """Return a letter per track: the label of its point nearest to the value of the force with most fixed points."""
     counts = points["value"].value_counts().sort_index()
     most = counts.index[counts == counts.max()]
     here = points.assign(apart=(points["value"] - most[len(most) // 2]).abs() if len(most) else 0.0)

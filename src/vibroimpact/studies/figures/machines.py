@@ -1,4 +1,4 @@
-"""Machines in kilograms, newtons and metres: how far they swing over the frequency, and how a box and its ball move."""
+"""Machines in SI units: largest displacement against frequency, and the motion of a box and its ball."""
 
 from itertools import cycle
 
@@ -83,27 +83,27 @@ FINE, PER_CYCLE = 301, 30
 
 
 def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int, shown: dict) -> dict:
-    """Return the largest displacements of the boxes, and a motion in time.
+    """Return the largest displacements of the boxes against frequency, and a motion in time.
 
-    The boxes start from rest, with balls of several clearances or with linear absorbers.
+    Runs with balls start from rest, for several clearances; linear systems are computed in closed form.
 
     Parameters
     ----------
     plant : dict
-        Arguments of PhysicalSystem but for L, omega1 and omega2, in SI units.
+        Arguments of PhysicalSystem except L, omega1 and omega2, in SI units.
     clearances
-        L [m].
+        Clearances L [m].
     frequencies : dict
-        Range [Hz] and number of values.
+        `range` [Hz] and `values`, the number of frequencies.
     cycles, settle : int
-        Forcing periods that are simulated, and of these left out.
+        Forcing periods of a run, and the number of these that are left out at its start.
     shown : dict
-        Clearance L [m], frequency [Hz] and cycles of the motion.
+        `L` [m], `frequency` [Hz] and `cycles` of the motion.
 
     Returns "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz],
-    swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (the ball meets one); "summary": at
-    each clearance L [m] the worst frequency [Hz], there swing [mm], power [W], the share of it that impacts take, and
-    the force F10 [N] that it suits as the best suits that of the plant: a clearance counts over the force alone.
+    swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (the ball meets a wall); "summary",
+    a row per clearance: L [m], the worst frequency [Hz], power [W] and share of it that impacts take, swing [mm], and
+    the force F10 [N] for which L is as good as the best L for the plant's force: only the ratio L / F10 matters.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]
@@ -130,7 +130,7 @@ def _machines(plant, L, hertz):
 def _linear(machine, band):
     """Yield the curves of the linear systems over the band [Hz].
 
-    Dimensionless results depend on L by their unit only.
+    The curves in mm do not depend on L, which is only the unit of length of the dimensionless system.
     """
     unit, fine = machine.omega10 / (2 * np.pi), np.linspace(*band, FINE)
     linear = compared(machine.dimensionless(), tuple(band / unit))
@@ -140,14 +140,14 @@ def _linear(machine, band):
 
 
 def _at_worst(machine, energy, cycles):
-    """Return the frequency [Hz], the power of the forces [W] and the share of it that impacts take."""
+    """Return the frequency of a machine [Hz], the mean power of its forces [W], and the share that impacts take."""
     joule, hertz = machine.k1 * machine.L**2, machine.omega1 / (2 * np.pi)
     work, impacts = energy["work"].sum(), energy["impacts"].sum()
     return {"frequency": hertz, "power": joule * work * hertz / cycles, "share": impacts / work}
 
 
 def _motion(machine, cycles):
-    """Return the columns of the motion of box 1 and its ball from rest."""
+    """Simulate box 1 and its ball from rest, and return the columns of their motion."""
     system = machine.dimensionless()
     tau = np.arange(cycles * PER_CYCLE) / PER_CYCLE * system.period
     run = simulate(system, np.zeros(8), cycles, sample_times=tau)
@@ -160,7 +160,7 @@ def _motion(machine, cycles):
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw the tables of `compute`: swings over the frequency, a motion over the time."""
+    """Draw the tables of `compute`: largest displacements against frequency, and a motion in time."""
     swings, shown = dict(iter(tables["csv"].groupby("series", sort=False))), tables["motion"]
     figure = new_figure(DOUBLE_COLUMN, 66.0)
     response, motion = figure.subplots(1, 2)
@@ -188,7 +188,7 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
 
 
 def _name_linear(axes, without, best):
-    """Name the linear systems: the first on its falling flank, the second below the middle of its line."""
+    """Name the linear systems: `without` on its falling flank, `best` below the middle of its line."""
     high = without[without["swing"] >= 0.75 * without["swing"].max()]
     beside = {"textcoords": "offset points"}
     axes.annotate("without balls", high[["frequency", "swing"]].iloc[-1], (5, 0), color=GREY, **beside)
@@ -197,7 +197,7 @@ def _name_linear(axes, without, best):
 
 
 def _name_peaks(axes, with_balls):
-    """Write each clearance beside the peak of its curve, on its free side; peaks in one place share a name."""
+    """Write each clearance next to the peak of its curve, on the free side; coinciding peaks share a label."""
     peaks = {}
     for name, line in with_balls.items():
         at = line.loc[line["swing"].idxmax()]
@@ -211,5 +211,5 @@ def _name_peaks(axes, with_balls):
 
 
 def _clearance(name):
-    """Return the name of a series, "L = 5 mm", as it is printed."""
+    """Return the name of a series, such as "L = 5 mm", with the formula in math mode."""
     return f"${name.removesuffix(' mm')}$ mm"

@@ -1,4 +1,4 @@
-"""A predicted motion nudged by a millionth: how fast it is left, and the motion that it ends in."""
+"""Perturb a predicted motion by a millionth: growth of the distance, and the motion in which it ends."""
 
 import io
 
@@ -30,7 +30,7 @@ SPEC = {
 }  # fmt: skip
 
 PUSH, CYCLES, PER_CYCLE = 1e-6, 40, 40
-"""Displacement of ball 2, length of the run in forcing periods, samples in each."""
+"""Initial displacement of ball 2 in units of L, length of the run in forcing periods, samples per period."""
 BALL = "Y2"
 COLUMNS = {
     "motion": ["t", *animation.COORDINATES],
@@ -42,11 +42,11 @@ COLUMNS = {
 
 
 def compute(system) -> dict:
-    """Follow the most unstable of the exact orbits that belong to fixed points called stable by (10.26), nudged.
+    """Perturb the most unstable of the exact orbits of fixed points that (10.26) calls stable, and follow the motion.
 
-    Returns "motion", "impacts" (see `animation.compute`); "distance": columns t, distance (Euclidean, of the state from
-    that of the orbit, once a period); "flights": columns t (end of a flight of ball 2), length (forcing periods);
-    "orbit": label, multiplier (largest modulus). There are no rows where no such orbit is unstable.
+    Returns "motion", "impacts" (see `animation.compute`); "distance": columns t, distance (Euclidean, between state and
+    orbit, once a period); "flights": columns t (end of a flight of ball 2), length (forcing periods); "orbit": label,
+    multiplier (largest modulus). If no such orbit is unstable, the tables have no rows.
     """
     label, orbit = _called_stable(system)
     if orbit is None:
@@ -67,7 +67,7 @@ def compute(system) -> dict:
 
 
 def page_data(tables: dict[str, pd.DataFrame]) -> dict:
-    """Return the frames of the motion, its flights and its distance from the prediction for the first page."""
+    """Return the data for the first page: frames of the motion, flights, and distance from the prediction."""
     rounded = {name: tables[name].astype(float).round(4) for name in ("motion", "impacts", "flights")}
     return {
         "cycles": int(tables["distance"]["t"].max()) if len(tables["distance"]) else 0,
@@ -81,7 +81,7 @@ def page_data(tables: dict[str, pd.DataFrame]) -> dict:
 
 
 def animate(tables: dict[str, pd.DataFrame], path) -> None:
-    """Write the picture as it is drawn over time, one frame for two periods, to a GIF file."""
+    """Write a GIF file in which the curves of the figure grow with time, by two periods per frame."""
     frames = []
     for cycle in range(1, CYCLES + 1, 2):
         past = {name: tables[name][tables[name]["t"] <= cycle] for name in ("distance", "flights")}
@@ -93,7 +93,7 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
 
 
 def _called_stable(system):
-    """Label and orbit of the most unstable motion that (10.26) calls stable; None where there is none."""
+    """Return label and orbit of the most unstable motion that (10.26) calls stable, or (None, None)."""
     points = fixed_points(system)
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))
     found = [
@@ -107,7 +107,7 @@ def _called_stable(system):
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw the tables of `compute`: distance on a logarithmic axis with the line of the multiplier; flights."""
+    """Draw the tables of `compute`: distance on a logarithmic axis with the growth by the multiplier, and flights."""
     figure = new_figure(DOUBLE_COLUMN, 62.0)
     left, right = figure.subplots(1, 2)
     distance, flights = tables["distance"], tables["flights"]

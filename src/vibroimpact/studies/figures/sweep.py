@@ -1,4 +1,4 @@
-"""Picture of a sweep: curves over one parameter, maps over two."""
+"""Draw the results of a sweep: curves over one parameter, maps over two."""
 
 from itertools import cycle
 
@@ -39,23 +39,23 @@ PANELS = {
     "fixed points": {"fixed_points": "all", "stable_points": "stable"},
     "1:1 orbits": {"orbits": "all", "stable_orbits": "stable"},
 }
-"""Panels of curves: what each shows, columns by their names in the legend. In a map each column is a panel."""
+"""Panel -> column of the table -> name in the legend. In maps each column has its own panel."""
 MARKERS, SHADES = "osD^vPX<>d", ("black", "0.45", "0.7")
-"""Of curves, by their order; those of regimes have their colours."""
+"""Markers and grey levels of the curves, in order; curves of regimes have the colours of the regimes."""
 HEIGHT = 48.0
 """Height of a panel, in mm."""
 
 
 def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
-    """Return the drawn columns of a sweep's table.
+    """Return the columns of a sweep's table that are drawn, one below the other.
 
     Parameters
     ----------
     axes : list of dict
-        `along`, names of the parameters that move together, and maybe `scale`, of each axis.
+        For each axis, `along` (names of the parameters that vary together) and optionally `scale`.
 
-    Returns columns panel, series, the first parameter of each axis, value, along and scale (of the axes, "; " between);
-    regimes in which no start ends are left out.
+    Returns columns panel, series, the first parameter of each axis, value, along and scale (of all axes, joined by
+    "; "). Regimes in which no start ends are left out.
     """
     moved = [axis["along"][0] for axis in axes]
     curves = [
@@ -113,7 +113,7 @@ def _map(place, names, part, axes):
 
 
 def edges(values, axis):
-    """Return the borders of cells around ascending values, half-way between them on the scale of their axis."""
+    """Return cell borders around ascending values, half-way between neighbours on the scale of the axis."""
     there, back = (np.log, np.exp) if axis.get("scale") == LOGARITHMIC else (np.asarray, np.asarray)
     at = there(np.asarray(values, dtype=float))
     middles = 0.5 * (at[1:] + at[:-1])

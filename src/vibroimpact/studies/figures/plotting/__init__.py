@@ -1,1 +1,1 @@
-"""Parts that several figures of the studies share."""
+"""Drawing functions that several figures of the studies share."""

@@ -1,4 +1,4 @@
-"""One colour and mark for each regime, the same in all figures; neighbours in a map differ in grey print, too."""
+"""Colours and marks of the regimes in all figures; neighbours in a map also differ in grey print."""
 
 import numpy as np
 import pandas as pd
@@ -32,15 +32,15 @@ COLOURS = {
     **dict.fromkeys((QUASI_PERIODIC, IDLE, NO_IMPACTS, UNSETTLED), "#848484"),
 }
 MARKS = {SYMMETRIC: "s", HOPPING: "^", QUASI_PERIODIC: "x", IDLE: "x", NO_IMPACTS: "x", UNSETTLED: "x"}
-"""In cells of the regimes that are rare in a map, beside their colour."""
+"""Marks in the cells of regimes that are rare in a map, in addition to the colour."""
 _MARK = {"linestyle": "none", "color": "white", "markersize": 2.4, "markeredgewidth": 0.6}
 _BOX = {"edgecolor": BLACK, "linewidth": 0.4}
 
 
 def paint(axes, square: pd.DataFrame) -> list[str]:
-    """Paint cells in the colours of their regimes, and return the regimes that occur; cells without one are hatched.
+    """Paint cells in the colours of their regimes, hatch cells without a regime, and return the regimes that occur.
 
-    square: names of regimes, its index along y and its columns along x.
+    square: names of regimes, with the index along y and the columns along x.
     """
     occurring = [name for name in COLOURS if square.eq(name).to_numpy().any()]
     codes = np.select([square.eq(name).to_numpy() for name in occurring], range(len(occurring)), np.nan)
@@ -56,7 +56,7 @@ def paint(axes, square: pd.DataFrame) -> list[str]:
 
 
 def key(names) -> dict[str, tuple]:
-    """Return handles of a key by label; regimes of one colour share an entry."""
+    """Return legend handles by label; regimes with the same colour and mark share an entry."""
     alike = {}
     for name in names:
         alike.setdefault((COLOURS[name], MARKS.get(name, "")), []).append(name)
