@@ -1,4 +1,4 @@
-"""Judge the claims of the chapter, each by a check that computes."""
+"""Judge each claim of the chapter by a computed check."""
 
 from vibroimpact.system.extras import need
 

@@ -1,4 +1,4 @@
-"""Checks of sections 10.2 and 10.3: the equations as printed, put to the test at random states and on simulations."""
+"""Checks of sections 10.2 and 10.3: the printed equations, tested at random states and on simulations."""
 
 from itertools import product
 
@@ -24,7 +24,7 @@ CHECKS = (
 ROUNDING = 1e-12
 KAPPAS = (0.05, 0.3, 0.65, 0.95)
 _TERMS = {"one term": "distance", "two terms": "two terms"}
-"""Panel of the table of orders with the remaining distance, by the number of terms of (10.7)."""
+"""Number of terms of (10.7) -> panel in the table of orders with the remaining distance."""
 
 
 def small_balls(evidence):
@@ -34,7 +34,7 @@ def small_balls(evidence):
 
 
 def weak_coupling(evidence):
-    """Compare the coupling spring and damper with those to ground, of which the stiffer of two counts."""
+    """Compare the coupling spring and damper with the softer spring and the weaker damper to ground."""
     system = evidence.system
     spring = system.alpha12 / min(1.0, system.stiffness2)
     damper = system.gamma12 / min(system.gamma1, system.gamma2)
@@ -44,7 +44,7 @@ def weak_coupling(evidence):
 def own_frequency(evidence):
     """Check the frequency of the first force in (10.1) against (10.5).
 
-    (10.1) has the natural frequency omega_10 there, so that Omega_1 would be 1.
+    (10.1) prints the natural frequency omega_10 instead, so that the dimensionless frequency Omega_1 would be 1.
     """
     system = evidence.system
     corrected = abs(system.Omega - (1 + system.epsilon * system.sigma_e_hat)) < ROUNDING
@@ -52,7 +52,7 @@ def own_frequency(evidence):
 
 
 def bound_of_the_balls(evidence):
-    """Check -L <= y_i <= L, and the same bound on relative displacements, on all simulated motions."""
+    """Check -L <= y_i <= L in all simulated motions, and the same bound on the relative displacements x_i - y_i."""
     samples = [simulation.samples for simulation in evidence.simulations.values()]
     absolute = max(table[["Y1", "Y2"]].abs().to_numpy().max() for table in samples)
     relative = max((table[f"X{i}"] - table[f"Y{i}"]).abs().max() for table in samples for i in (1, 2))
@@ -60,9 +60,9 @@ def bound_of_the_balls(evidence):
 
 
 def common_impact_instants(evidence):
-    """Check one sequence tau_j for both modules in (10.2) against one sequence for each.
+    """Check whether both modules in (10.2) share one sequence tau_j of impact times, or have one sequence each.
 
-    The measure is the distance of each ball from its wall.
+    The measure is the distance of each ball from the nearer wall at the impacts.
     """
     own, other = [], []
     for simulation in evidence.simulations.values():
@@ -80,9 +80,9 @@ def common_impact_instants(evidence):
 def equations_in_U_and_W(evidence):
     """Check (10.3) line by line at random states between impacts, then at impacts.
 
-    The accelerations are those of (10.2).
+    The accelerations come from (10.2).
 
-    Line W1 has the force on box 2 as printed, that on box 1 as corrected.
+    As printed, line W1 has the force on box 2. As corrected, it has the force on box 1.
     """
     system = evidence.system.with_(f10_hat=1.0, f20_hat=0.89)
     rng = np.random.default_rng(1)
@@ -97,7 +97,7 @@ def equations_in_U_and_W(evidence):
     left = damping * speed + stiffness * place + system.gamma12 * (speed - speed[::-1])
     left += system.alpha12 * (place - place[::-1])
     printed = {"U1": f[0], "W1": f[1], "U2": f[1], "W2": f[1]}  # the amplitude of the force in each line as printed
-    # U'' and W'' are both X'' between impacts, where the ball flies freely.
+    # Between impacts the ball flies freely, so that U'' = W'' = X''.
     both = dict(zip("12", ddX + left, strict=True))
     residual = {line: both[line[1]] - amplitude * phase[0] for line, amplitude in printed.items()}
     parts = {f"line {line}": abs(value) < ROUNDING for line, value in residual.items()}
@@ -111,7 +111,7 @@ def equations_in_U_and_W(evidence):
 
 
 def _errors_of_jumps(system):
-    """Return the largest errors of the jumps at random impacts: 0 of U', and -(1 + kappa) W' of W'."""
+    """Return the largest errors of the jumps at random impacts: U' jumps by 0, W' by -(1 + kappa) W'."""
     box, ball = np.random.default_rng(2).uniform(-1, 1, (2, 100))
     X, Y = after_impact(system.epsilon, system.kappa, box, ball)
     U = np.abs(X + system.epsilon * Y - box - system.epsilon * ball).max()
@@ -120,7 +120,7 @@ def _errors_of_jumps(system):
 
 
 def leading_order_solution(evidence):
-    """Check (10.9)-(10.11) in (10.8), with B and phase by (10.16), (10.17), and (10.19) by quadrature."""
+    """Check that (10.9)-(10.11) with (10.16) and (10.17) solve (10.8), and check (10.19) by quadrature."""
     t, found = np.linspace(0.1, np.pi - 0.1, 50), []
     for kappa, C in product(KAPPAS, (0.3, 0.9, 1.1, 1.6)):
         B, phase, slope = B_of_C(C, rho(kappa)), impact_phase(C, rho(kappa)), 2 * C / np.pi
@@ -132,7 +132,7 @@ def leading_order_solution(evidence):
 
 
 def _vanish(found, **others):
-    """Return the finding that all residuals vanish to rounding, with the largest residual of each name."""
+    """Return the Finding on residuals that must vanish to rounding, with the largest residual of each name."""
     worst = {name: max(np.abs(residuals[name]).max() for residuals in found) for name in found[0]} | others
     parts = {name: value < ROUNDING for name, value in worst.items()}
     return Finding(parts, {f"residual of {name}": value for name, value in worst.items()})
@@ -144,11 +144,11 @@ def manifold_from_impact_conditions(evidence):
     for kappa in KAPPAS:
         r = rho(kappa)
         for C in np.random.default_rng(3).uniform(0.05, 2.5, 50):
-            sine = 1 - C  # B times it, by (10.12)
-            cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # B times it, by (10.14)
+            sine = 1 - C  # times B, by (10.12)
+            cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # times B, by (10.14)
             B = np.hypot(sine, cosine)
             residuals = {"(10.16)": B**2 - (1 - 2 * C + (1 + r**2) * C**2)}
-            # Close to the fold the root of (10.15) halves the digits.
+            # Close to the fold the square root in (10.15) loses half of the digits.
             residuals["(10.15)"] = min(abs(arm - C) for arm in C_of_B(B, r)) * min(1, abs(C - C_min(r)))
             residuals["(10.17)"] = [sine - B * np.sin(impact_phase(C, r)), cosine - r * C]
             found.append(residuals)
@@ -157,7 +157,7 @@ def manifold_from_impact_conditions(evidence):
 
 
 def _error_of_the_harmonics():
-    """Return the largest error of the first coefficients of (10.19), by quadrature, even ones included."""
+    """Return the largest error of the coefficients n = 1, ..., 7 of (10.19), by quadrature."""
     off = 0.0
     for n in range(1, 8):
         found = 2 / np.pi * quad(lambda t, n=n: float(sawtooth(t, 1.0, 0.0)) * np.cos(n * t), 0, np.pi)[0]
@@ -166,9 +166,9 @@ def _error_of_the_harmonics():
 
 
 def orders_of_the_expansion(evidence):
-    """Check the orders of (10.7): the error of one term is O(epsilon), that of two is O(epsilon^2).
+    """Check the orders of (10.7): the error is O(epsilon) with one term, O(epsilon^2) with two.
 
-    The chapter gives the first term, the fixed point; the second is the exact orbit's derivative by epsilon at 0.
+    The chapter gives the first term, the fixed point. The second is the derivative of the exact orbit at epsilon = 0.
     """
     table = evidence.epsilon_orders
     orders = {name: table.loc[table["panel"] == panel, "order"] for name, panel in _TERMS.items()}

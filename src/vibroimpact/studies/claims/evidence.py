@@ -1,4 +1,4 @@
-"""Results of a build for the checks of claims: the cases and the tables that the pipeline wrote."""
+"""Results of a build for the checks of claims: the cases, and tables from the pipeline."""
 
 from dataclasses import dataclass, field
 
@@ -10,7 +10,7 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 
 @dataclass(frozen=True, eq=False)
 class Simulation:
-    """The window of a direct integration: samples and events, a row per instant, and its summary."""
+    """Window of a direct integration: samples and events, with a row per instant, and a summary."""
 
     samples: pd.DataFrame
     events: pd.DataFrame
@@ -18,7 +18,7 @@ class Simulation:
 
     @property
     def impacts(self) -> pd.DataFrame:
-        """The events that are impacts."""
+        """Rows of `events` with an impact."""
         return self.events[self.events["kind"] == "impact"]
 
 
@@ -27,7 +27,7 @@ class Evidence:
     """Results of a build with the parameters of the chapter.
 
     fixed_points, orbits, verdict_grid, modulation, special_points, epsilon_orders: the tables of these names.
-    proofs: case -> what is proved of the lists. simulations: case -> Simulation. systems: case -> system.
+    proofs: case -> results of the completeness proofs. simulations: case -> Simulation. systems: case -> system.
     """
 
     fixed_points: pd.DataFrame
@@ -44,11 +44,11 @@ class Evidence:
 
     @property
     def system(self) -> System:
-        """A system with the parameters that all cases of the chapter share."""
+        """System of the case "equal", for the parameters that all cases of the chapter share."""
         return self.systems["equal"]
 
     def points(self, case: str) -> pd.DataFrame:
-        """Return the fixed points of a case, a row each, by label."""
+        """Return the fixed points of a case, one row each, indexed by label."""
         return self.fixed_points.query("case == @case").set_index("label")
 
     def motions(self, case: str) -> pd.DataFrame:
@@ -57,9 +57,9 @@ class Evidence:
         return orbits[orbits["admissible"].astype(bool)]
 
     def measured(self, case: str, start: str, quantity: str) -> pd.DataFrame:
-        """Return the rows of the table of modulation for one quantity, of spread starts or the one from rest."""
+        """Return the rows of `modulation` for one quantity and the start "spread" or "rest"."""
         return self.modulation.query("case == @case and start == @start and quantity == @quantity")
 
     def shares(self, case: str) -> pd.Series:
-        """Return the share of the spread starts that end in each regime, by its name."""
+        """Return the share of the spread starts that end in each regime, indexed by regime."""
         return self.measured(case, "spread", "share of starts").set_index("regime")["mean"]

@@ -1,4 +1,4 @@
-"""Finding of a check: a verdict that follows from its parts, and the supporting numbers."""
+"""Finding of a check: parts of a claim, the verdict that follows from them, and supporting numbers."""
 
 from dataclasses import dataclass, field
 
@@ -7,16 +7,16 @@ import numpy as np
 HOLDS, IN_PART, REFUTED, MISPRINT = "holds", "holds in part", "refuted", "misprint"
 OPEN = "cannot be decided from the text"
 VERDICTS = (HOLDS, IN_PART, REFUTED, OPEN, MISPRINT)
-"""In the order in which they are presented."""
+"""All verdicts, in the order of presentation."""
 
 
 @dataclass(frozen=True)
 class Finding:
     """The outcome of one check.
 
-    parts: what the claim asserts, piece by piece: true, false, or None where the text leaves open what it asserts.
-    numbers: what was measured, by name.
-    corrected: True if the statement holds with its misprint corrected; None where no correction is at hand.
+    parts: assertion in the claim -> True, False, or None if the text leaves open what is asserted.
+    numbers: name -> measured value.
+    corrected: True if the statement holds with its misprint corrected; None if there is no correction.
     """
 
     parts: dict[str, bool | None]
@@ -32,9 +32,9 @@ class Finding:
 
     @property
     def verdict(self) -> str:
-        """One of VERDICTS: holds if all parts do, refuted if none does, in part between; open if some part is.
+        """One of VERDICTS: HOLDS if all parts hold, REFUTED if none does, else IN_PART; OPEN if any part is None.
 
-        A misprint is a statement that does not hold as printed, and holds corrected.
+        MISPRINT if the statement does not hold as printed, but holds as corrected.
         """
         found = list(self.parts.values())
         if None in found:
@@ -51,6 +51,6 @@ def _plain(value):
 
 
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
-    """Return the finding on a statement as printed, with the verdict on the corrected statement."""
+    """Return the finding on a statement as printed; its numbers include the verdict on the corrected statement."""
     numbers["as corrected"] = HOLDS if corrected else REFUTED
     return Finding({"as printed": holds}, numbers, corrected=bool(corrected))

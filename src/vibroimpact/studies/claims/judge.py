@@ -1,9 +1,9 @@
-"""Judge the claims of the chapter, each by a check that computes; no verdict is written by hand.
+"""Judge each claim of the chapter by a computed check; no verdict is written by hand.
 
-A claim is a mapping with id, place, statement, check (name of a function of the modules below), arguments (optional,
-of that function), refuted_by (what would refute it), central (optional: true if it carries weight) and fact (optional:
-why it does not hold, the same text for claims that fail for the same reason); docs/studies/claims.yaml holds them all.
-A check takes the Evidence and the arguments, and returns a Finding.
+A claim is a mapping with id, place, statement, check (name of a function in `MODULES`), refuted_by (a result that would
+refute the claim) and optionally arguments (of the check), central (true for an important claim) and fact (the reason
+why it does not hold, the same text for claims that fail for the same reason). docs/studies/claims.yaml lists all
+claims. A check takes the Evidence and the arguments, and returns a Finding.
 """
 
 from vibroimpact.studies.claims import equation_checks, manifold_checks, motion_checks, point_checks
@@ -17,7 +17,7 @@ OPTIONAL = ("arguments", "central", "fact")
 
 
 def problems(claims: list[dict]) -> list[str]:
-    """Return problems of a list of claims, a line each.
+    """Return the problems in a list of claims, one line each.
 
     Problems are missing or unknown fields, repeated ids and unknown checks.
     """

@@ -34,13 +34,13 @@ def fold_of_the_manifold(evidence):
         found = minimize_scalar(lambda C, r=r: B_of_C(C, r) ** 2, bracket=(0.0, 0.8, 2.0), tol=1e-10)
         place = max(place, abs(found.x - C_min(r)))
         level = max(level, abs(np.sqrt(found.fun) - B_min(r)))
-    # The position of a minimum is known to the square root of rounding, its level to rounding.
+    # A minimisation finds the position to the square root of rounding, but the minimum itself to rounding.
     numbers = {"largest error of C_min": place, "of B_min": level}
     return Finding({"C_min": place < 1e-6, "B_min": level < 1e-12}, numbers)
 
 
 def no_penetration(evidence):
-    """Check |W_0| <= 1 by sampling a cycle: for C < 0, for the fixed points and for large C."""
+    """Check |W_0| <= 1 by sampling a cycle: for C < 0, for the fixed points and for C from 0 to large values."""
     kappa = evidence.system.kappa
     points = evidence.fixed_points[["C1", "C2"]].to_numpy()
     end = largest_C(kappa)
@@ -62,8 +62,8 @@ def _furthest(C, kappa):
 def printed_condition(evidence):
     """Check (10.26) against the multipliers of the impact map, at the limit and above it.
 
-    It would be a misprint if it held with other exponents, 4 / (4 + pi^p rho^q). Beside: the limits that the chapter's
-    own captions allow, and the exponents that lead there.
+    (10.26) is a misprint if it holds with other exponents p and q in 4 / (4 + pi^p rho^q). The numbers also give the
+    limits that agree with the chapter's captions, and the exponents for such limits.
     """
     kappa = evidence.system.kappa
     limit, squared = printed_limit(rho(kappa)), limit_with_squares(rho(kappa))
@@ -103,9 +103,9 @@ def printed_condition(evidence):
 def _limits_of_the_captions(evidence):
     """Return the open interval of lower limits in C that agree with all captions.
 
-    Every caption on a point holds, and a part of the left arm is stable.
+    For such a limit every caption on a point holds, and a part of the left arm is stable.
 
-    A point is unstable if one C_i is below the limit. Which point bears which letter does not matter to the interval.
+    A point is unstable if one C_i is below the limit. The interval does not depend on which point has which letter.
     """
     smallest = {True: [], False: []}
     for case, captions in CAPTIONS.items():
@@ -120,27 +120,27 @@ def _largest_multiplier(C, kappa):
 
 
 def _stable(C, kappa):
-    """Return True where the impact map at C, kappa is stable, shape (n,); arguments are arrays (n,) or numbers."""
+    """Return True where the impact map is stable, shape (n,); C and kappa are arrays (n,) or numbers."""
     return np.array([_largest_multiplier(*one) < 1 for one in np.broadcast(C, kappa)])
 
 
 def _stable_above(limit, kappa):
-    """Return True where admissible motions above a limit are stable, shape (499,)."""
+    """Return True where motions are stable, at 499 values of C from a limit to the largest admissible C."""
     return _stable(np.linspace(limit, largest_C(kappa), 500)[1:], kappa)
 
 
 def two_branches(evidence):
-    """Check that the curve has one stable and one unstable piece."""
+    """Check that the manifold has one stable and one unstable piece."""
     kappa = evidence.system.kappa
     stable = _stable(np.linspace(0.0, largest_C(kappa), 4001)[1:], kappa)
-    first = np.append(True, stable[1:] != stable[:-1])  # of each piece
+    first = np.append(True, stable[1:] != stable[:-1])  # True at the first point of each piece
     counts = {name: int((first & (stable == says)).sum()) for name, says in (("unstable", False), ("stable", True))}
     parts = {f"one {name} branch": count == 1 for name, count in counts.items()}
     return Finding(parts, {f"{name} pieces": count for name, count in counts.items()})
 
 
 def right_arm_is_stable(evidence):
-    """Check the stability of the right arm, from the fold to the end of admissible motions."""
+    """Check that the right arm is stable from the fold to the largest admissible C."""
     kappa = evidence.system.kappa
     fold, end = lower_limit(kappa), largest_C(kappa)
     C = np.linspace(fold, end, 2002)[1:-1]
@@ -150,7 +150,7 @@ def right_arm_is_stable(evidence):
 
 
 def left_arm_has_a_stable_piece(evidence):
-    """Check the stability of the left arm, and of its piece right of (10.26)."""
+    """Check for stable motions on the left arm, and on its piece between the limit (10.26) and the fold."""
     kappa = evidence.system.kappa
     limit, fold = printed_limit(rho(kappa)), lower_limit(kappa)
     piece = _stable(np.linspace(limit, fold, 502)[1:-1], kappa)
@@ -160,9 +160,9 @@ def left_arm_has_a_stable_piece(evidence):
 
 
 def stability_regions(evidence):
-    """Measure the share of each region of Fig. 10.5, C from 0.5 to 1.1, that is as drawn.
+    """Measure the share of each region of Fig. 10.5, with C from 0.5 to 1.1, whose stability is as drawn.
 
-    The border itself is drawn below the curve C_min(kappa) throughout.
+    Also check that the border in the figure lies below the curve C_min(kappa) for every kappa.
     """
     kappa, C = (values.ravel() for values in np.meshgrid(KAPPAS, np.linspace(0.5, 1.1, 61)))
     border, stable = printed_limit(rho(kappa)), _stable(C, kappa)

@@ -19,35 +19,35 @@ from vibroimpact.studies.regimes.settling import Observation, settle
 
 EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
 SHOWN = 4
-"""Number of initial states of a regime that are observed over the longest window."""
+"""Largest number of strongly modulated motions per case that are observed over windows of several lengths."""
 
 
 def modulation_tables(
     systems: dict, starts: int, seed: int, cycles: int, blocks: int, block: int, windows: list[int], observation: dict
 ) -> dict:
-    """Return the measures of every regime, case by case; the motion from rest is kept separate.
+    """Return the measures of each regime in each case; the motion from rest has separate rows.
 
     Parameters
     ----------
     systems : dict
         Case -> system.
     starts : int
-        Number of spread starts beside the one from rest.
+        Number of spread starts in addition to the one from rest.
     cycles : int
-        Window of the measures.
+        Length of the window for the measures, in forcing cycles.
     blocks, block : int
-        Of Lyapunov exponents of chaotic spread starts, so many blocks of so many cycles; exponents of other starts come
-        from the window.
+        Number of blocks, and cycles per block, for the Lyapunov exponents of chaotic spread starts. The exponents of
+        other starts come from the window.
     windows : list of int
-        Lengths in cycles over which measures of the envelope are compared.
+        Lengths of windows, in cycles, for which measures of the envelope are compared.
     observation : dict
         Arguments of `regimes.settling.Observation`.
 
     Returns "measures": columns case, start ("rest", "spread"), regime, starts, quantity, module (0: both), mean,
-    uncertainty (standard error over starts; binomial for the share of starts; of one start that of its exponent, from
-    blocks, and blank else); "windows": columns case, module, cycles, quantity, mean, uncertainty, of strongly modulated
-    spread starts; "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see
-    `spectra.rows`).
+    uncertainty (standard error over starts; binomial for the share of starts; for a single start, from blocks for the
+    exponent and blank otherwise); "windows", for strongly modulated spread starts: columns case, module, cycles,
+    quantity, mean, uncertainty; "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap
+    (see `spectra.rows`).
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)
@@ -97,7 +97,7 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
 
 
 def _windows(case, system, states, windows):
-    """Return the measures of the envelope over windows of several lengths with a common start."""
+    """Return the measures of the envelope over windows of several lengths that start at the same instant."""
     runs = [sampled(system, state, max(windows)) for state in states]
     rows = []
     for module in (1, 2):

@@ -29,12 +29,12 @@ CHECKS = (
     "restitution_far_from_unity",
 )
 SIMILAR = 0.1
-"""Largest relative difference of similar amplitudes, as visible in a figure of the chapter."""
+"""Relative difference up to which amplitudes count as similar: about as much as the chapter's figures show."""
 LARGE = 0.5 / np.sqrt(2)
-"""Standard deviation over mean of the amplitudes 1 + d cos of a beat with d = 1/2 (largest 3 times smallest)."""
+"""Standard deviation / mean of the amplitude 1 + d cos(...) of a beat with d = 1/2 (largest 3 times the smallest)."""
 PER_CYCLE = 2
 SMALL = 2e-4, 1e-4
-"""Two values of epsilon, so small that the error of the theory is proportional to epsilon."""
+"""Two values of epsilon that are small enough for an error of the theory proportional to epsilon."""
 VERDICT_LABELS = [STABLE, UNSTABLE]
 DISPLACEMENTS = ["X1", "Y1", "X2", "Y2"]
 
@@ -83,11 +83,11 @@ def transients_are_long(evidence, case):
 
 
 def only_possible_behaviour(evidence, case):
-    """Check that no 1:1 response is stable, and find the regimes that motions end in.
+    """Check that no 1:1 response is stable, and find the regimes in which motions end.
 
-    Initial states are spread evenly, and one is at rest.
+    Initial states are spread evenly; one more start is from rest.
 
-    A motion with one ball idle is called that before anything else; how modulated its box is is told beside.
+    A motion with one ball idle counts as "one ball idle" however modulated it is; the numbers give its modulation.
     """
     shares = evidence.shares(case)
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
@@ -106,7 +106,7 @@ def only_possible_behaviour(evidence, case):
 
 
 def no_practical_importance(evidence, case, label):
-    """Check that the orbit of an unstable fixed point is unstable and that no motion stays near it."""
+    """Check that the exact orbit of an unstable fixed point is not stable, so that motions leave its neighbourhood."""
     partner = evidence.points(case).loc[label, "orbit"]
     orbit = evidence.motions(case).set_index("label").loc[partner]
     parts = {"its orbit is not stable": orbit["exact"] != STABLE}
@@ -114,7 +114,7 @@ def no_practical_importance(evidence, case, label):
 
 
 def resonant_intervals(evidence, case):
-    """Check for bursts of resonant flights with shorter gaps, and for irregularity by the Lyapunov exponent."""
+    """Check for bursts of resonance with shorter gaps between them, and for a positive Lyapunov exponent."""
     share, burst = (
         evidence.measured(case, "spread", quantity).set_index("module")["mean"].loc[[1, 2]].to_numpy()
         for quantity in ("resonant share", "burst length")
@@ -131,7 +131,7 @@ def resonant_intervals(evidence, case):
 
 
 def beating(evidence, case):
-    """Check that amplitudes of each box vary more than in a beat whose largest is 3 times its smallest."""
+    """Check that the amplitude of each box varies more than in a beat with a ratio 3 of largest to smallest."""
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
     found = rows["mean"].loc[[1, 2]]
     parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > LARGE for i in (1, 2)}
@@ -139,7 +139,7 @@ def beating(evidence, case):
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
-    """Count stable fixed points from case to case, and find the regime of the last motion."""
+    """Count the stable fixed points of each case in a sequence, and find the modulated share of the last case."""
     points = [evidence.points(case) for case in sequence]
     in_theory = [int((rows["theory"] == STABLE).sum()) for rows in points]
     exactly = [int((rows["exact"] == STABLE).sum()) for rows in points]
@@ -160,9 +160,9 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
 
 
 def unstable_means_modulated(evidence, case):
-    """Check that the exact orbits of the unstable case are unstable and that motions end modulated.
+    """Check that the exact orbits of a case are unstable and that all its spread starts end strongly modulated.
 
-    The chapter does not say it of every case; the shares of all cases without a stable fixed point stand beside.
+    The chapter claims this for one case. The numbers give the modulated share of all cases with unstable orbits only.
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
@@ -177,7 +177,7 @@ def unstable_means_modulated(evidence, case):
 def periodic_solutions(evidence, f10_hat, f20_hat):
     """Check that every fixed point has an admissible exact orbit.
 
-    The fixed points are those of the cases, of a grid, and of given forces.
+    The fixed points are those of the cases and of a grid of forces. The numbers also count both at the given forces.
     """
     both = evidence.fixed_points.merge(
         evidence.orbits, left_on=["case", "orbit"], right_on=["case", "label"], suffixes=("", "_exact")
@@ -204,7 +204,7 @@ def periodic_solutions(evidence, f10_hat, f20_hat):
 
 
 def _at_epsilon(evidence):
-    """Return the grid of verdicts at the epsilon of the cases."""
+    """Return the rows of the grid of verdicts for the epsilon of the cases."""
     grid = evidence.verdict_grid
     return grid[grid["epsilon"] == evidence.system.epsilon]
 
@@ -212,10 +212,10 @@ def _at_epsilon(evidence):
 def assesses_stability(evidence):
     """Measure the share of right verdicts of each criterion over a grid of forces.
 
-    The reference is the multipliers of the exact orbits.
+    The multipliers of the exact orbits are the reference.
 
-    Confusion matrices over epsilon: rows what a criterion says, columns what is true, each stable then unstable. Points
-    without an exact orbit are counted beside, stable then unstable.
+    The numbers give a confusion matrix per criterion and epsilon: rows for the verdict of the criterion, columns for
+    the exact one, in the order stable, unstable. Points without an exact orbit are counted separately in this order.
     """
     grid = evidence.verdict_grid
     parts, shares, numbers = {}, {}, {"without an orbit": int((_at_epsilon(evidence)["exact"] == NO_ORBIT).sum())}
@@ -243,8 +243,8 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
     The balls must also stay between the walls.
 
-    A fixed point is next to an orbit if their distance falls like epsilon; there must be as many of both. Where equal
-    forces have no fixed point nothing is judged, so that each coefficient needs one at some of them.
+    Each fixed point must have an orbit at a distance proportional to epsilon, and both must be equal in number. Forces
+    without a fixed point are skipped, but each coefficient needs a fixed point at one of the forces at least.
     """
     parts, numbers = {}, {}
     for kappa in kappas:
@@ -260,7 +260,7 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
 
 def _points_beside_orbits(system, kappa, force):
-    """Return the fixed points at equal forces, and True if they are the limits of all exact orbits."""
+    """Return the fixed points at two equal forces, and True if they are the limits of all symmetric exact orbits."""
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)
     roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))

@@ -1,4 +1,4 @@
-"""Checks of section 10.4 on fixed points: number, places, stability, paths under forcing, singular points."""
+"""Checks of section 10.4 on fixed points: number, position, stability, change with the forces, singular points."""
 
 from itertools import permutations
 
@@ -29,7 +29,7 @@ CAPTIONS = {
     "unequal": {"a": UNSTABLE, "b": UNSTABLE, "c": STABLE},
     "weak": {"a": UNSTABLE},
 }
-"""Stability of each fixed point by the captions of Figs. 10.6, 10.9 and 10.10."""
+"""Stability of each fixed point according to the captions of Figs. 10.6, 10.9 and 10.10."""
 STEPS = 111
 """Number of values of the second amplitude along which a fixed point is followed between cases."""
 
@@ -45,7 +45,7 @@ def number_of_fixed_points(evidence, case, number):
 def phases_can_be_eliminated(evidence):
     """Check that equations in B_i and C_i alone lead to all fixed points.
 
-    Each solution satisfies (10.23), and none is missing.
+    Each solution must satisfy (10.23), and no solution may be missing.
     """
     worst, complete = 0.0, True
     for case, system in evidence.systems.items():
@@ -57,7 +57,7 @@ def phases_can_be_eliminated(evidence):
 
 
 def label_of_a_point(evidence, case, label, says):
-    """Check a caption's verdict on a point against the theory and against its exact orbit."""
+    """Check a caption's verdict on a point against the theory and against the exact orbit of the point."""
     row = evidence.points(case).loc[label]
     orbits = evidence.orbits.query("case == @case").set_index("label")
     theory = row["theory"]
@@ -73,8 +73,8 @@ def label_of_a_point(evidence, case, label, says):
 def stable_points(evidence, case, number):
     """Count the stable fixed points of a case by each criterion of the theory, and by their exact orbits.
 
-    The fast criterion, derived, is what the chapter means: stability of the impacts with B and phase held. It is held
-    against the captions too.
+    The chapter means the fast criterion as derived: stability of the impacts at constant B and phase. This criterion
+    is also compared with the captions.
     """
     points = evidence.points(case)
     counts = {
@@ -91,21 +91,21 @@ def stable_points(evidence, case, number):
 
 
 def _captions_right(verdicts, case):
-    """Return the number of captions of a case that agree with the verdicts on its points, by label."""
+    """Return the number of captions of a case that agree with `verdicts`, which are indexed by label."""
     return sum(verdicts.get(label) == caption for label, caption in CAPTIONS[case].items())
 
 
 def on_the_left_arm(evidence, case, label, modules):
-    """Compare the projections of a point with the fold of the manifold."""
+    """Check that a fixed point is left of the fold of the manifold, in the plane of each of the given modules."""
     row, fold = evidence.points(case).loc[label], C_min(rho(evidence.systems[case].kappa))
     parts = {f"P{i}": row[f"C{i}"] < fold for i in modules}
     return Finding(parts, {"C": row[list(NAMES)].tolist(), "C_min": fold})
 
 
 def points_move_left(evidence, before, after):
-    """Compare all projections from one case to the other, label by label.
+    """Check that each C_i of each fixed point falls from one case to the other, label by label.
 
-    The best result of any pairing is reported as well.
+    The numbers also give the result for the pairing of points in which most C_i fall.
     """
     first, last = (evidence.points(case)[list(NAMES)] for case in (before, after))
     parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
@@ -115,7 +115,7 @@ def points_move_left(evidence, before, after):
 
 
 def stable_point_moves_down_the_right_arm(evidence, before, after, label):
-    """Compare both projections of the stable point of two captions, by label and by continuation.
+    """Check that the stable point moves down the right arm between two captions, by label and by continuation.
 
     As the second amplitude falls, the stable point of the first caption continues to a point other than the one with
     the same letter in the second caption.
@@ -133,9 +133,9 @@ def stable_point_moves_down_the_right_arm(evidence, before, after, label):
 
 
 def _followed(evidence, before, after, C):
-    """Return the C of the fixed point that continues another one from case to case.
+    """Follow a fixed point from one case to another, and return its C there.
 
-    The second amplitude changes in small steps.
+    The second forcing amplitude changes in small steps.
     """
     start, end = evidence.systems[before], evidence.systems[after]
     for f20 in np.linspace(start.f20_hat, end.f20_hat, STEPS)[1:]:
@@ -145,9 +145,9 @@ def _followed(evidence, before, after, C):
 
 
 def singular_and_bifurcating(evidence, case, f20_range):
-    """Check if P_i on S_i coincides with a bifurcation.
+    """Check if a bifurcation occurs where P_i coincides with S_i.
 
-    The points at which a point is singular and at which two points merge are compared.
+    The forces at which a fixed point is singular are compared with those at which two fixed points merge.
     """
     system = evidence.systems[case]
     meeting = brentq(lambda f: _determinant_on_branch(system, f), *f20_range, xtol=1e-12)
@@ -171,22 +171,22 @@ def singular_and_bifurcating(evidence, case, f20_range):
 
 
 def _determinant_on_branch(system, f20):
-    """Return the determinant of (10.24) at the point labelled like the second of the unequal case."""
+    """Return the determinant of (10.24) at the fixed point with the second largest C_2."""
     there = system.with_(f20_hat=f20)
     points = sorted(fixed_points(there), key=lambda point: point.C[1])
     return determinant(there, points[-2].C)
 
 
 def _nearest_singular(system, point):
-    """Return the distance in C of the nearer projection from its nearest singular point."""
+    """Return the smallest distance in C_i between a fixed point and a singular point, over both modules."""
     gaps = [np.abs(singular_points(system, point, i)[:, 0] - point.C[i - 1]) for i in (1, 2)]
     return np.concatenate(gaps).min(initial=np.inf)
 
 
 def places_of_singular_points(evidence, case, label):
-    """Compare S_1 by two eliminations that both lead from (10.23) to equations in B_i, C_i.
+    """Compare the points S_1 of two different eliminations, each from (10.23) to equations in B_i and C_i.
 
-    (10.24) itself is not printed.
+    The chapter does not print (10.24) itself, so that either elimination may be meant.
     """
     system = evidence.systems[case]
     listed = fixed_points(system)
@@ -201,7 +201,7 @@ def places_of_singular_points(evidence, case, label):
 
 
 def _other_determinant(system, C):
-    """Return |K|^4 - |a_1 a_2|^2 (docs/derivation.md, section 8), times |z_1 z_2|^2, which keeps it finite."""
+    """Return |K|^4 - |a_1 a_2|^2 (docs/derivation.md, section 8), times |z_1 z_2|^2 to keep it finite."""
     balance = Balance.of(system)
     z, q = balance.at(C)
     p = q + balance.K * z

@@ -1,4 +1,4 @@
-"""Verdicts of the theory on every fixed point over a grid of forces, against the exact orbits at several epsilon."""
+"""Tabulate verdicts on fixed points over a grid of forces: by the theory, and by exact orbits at several epsilon."""
 
 import pandas as pd
 
@@ -15,11 +15,11 @@ NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 
 
 def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
-    """Return a row per fixed point and epsilon, for forces at the centres of points x points cells.
+    """Return a row per fixed point and epsilon, for forces at the centres of `points` x `points` cells.
 
     Columns epsilon, f10_hat, f20_hat, C1, C2 (of the fixed point, the same for every epsilon), one per criterion of the
-    theory, admissible (True if its exact orbit stays between the walls) and exact: the verdict on that orbit,
-    "no orbit" where there is none (see `verdict_table.partners`).
+    theory, admissible (True if its exact orbit stays between the walls) and exact (the verdict on that orbit, or
+    "no orbit", see `verdict_table.partners`).
     """
     forces = plane_of_forces(f10_range, f20_range, points)
     plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
@@ -39,12 +39,12 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
 
 
 def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
-    """Return a row per fixed point of a system and epsilon.
+    """Return a row for each epsilon and each fixed point of a system.
 
-    A row has the label, the verdicts as in `compute`, and the largest multiplier.
+    Each row has the label, the verdicts as in `compute`, and the largest multiplier.
 
     Columns epsilon, label, C1, C2 (of the fixed point), one per criterion of the theory, exact, multiplier (largest
-    modulus of the exact orbit; blank where there is none).
+    modulus for the exact orbit; blank without an orbit).
     """
     points, rows = fixed_points(system), []
     for value in epsilon:
@@ -60,15 +60,15 @@ def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
 
 
 def exact_orbits(system, points, roots):
-    """Yield the Orbit of each fixed point, by their C (n, 2), None where there is none.
+    """For each fixed point, yield its exact symmetric Orbit, or None without an orbit.
 
-    roots: of all symmetric orbits, as `symmetric_solutions` lists them.
+    points: C of the fixed points, (n, 2). roots: all symmetric orbits, as returned by `symmetric_solutions`.
     """
     for partner in partners(points, roots[:, 2:]):
         yield None if partner is None else symmetric_orbit(system, roots[partner])
 
 
 def exact_verdicts(system, points, roots):
-    """Yield "admissible" and "exact" of the orbit of each fixed point, as in `compute`."""
+    """For each fixed point, yield "admissible" and "exact" of its orbit, as in `compute`."""
     for orbit in exact_orbits(system, points, roots):
         yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, EXACT: floquet(orbit)}
