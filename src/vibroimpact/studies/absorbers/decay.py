@@ -15,18 +15,18 @@ from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.stored_energy import stored
 
 AT_ONCE = 50
-"""Cycles simulated between two checks."""
+"""Number of cycles in each simulation, after which the energy is checked."""
 NEARLY, FINER, REFINED = 1.2, 48, 8
-"""Search for the shortest decay: range of impulses with at most NEARLY times the shortest time; factor of refinement of
-the impulses in it; number of the shortest times refined to their minimum."""
+"""Search for the shortest decay. The range of impulses with decay times up to NEARLY times the shortest is refined by
+the factor FINER; then the REFINED lowest minima are located."""
 
 
 def decay_time(system: System, impulse: float, module: int = 1, fraction: float = 0.1, cycles: int = 10_000) -> float:
     """Return the time tau after an impulse on a box until a fraction of the energy is left.
 
-    The forces are left out. Before the impulse all is at rest, with the balls in the middle of their boxes. Without
-    forces the energy decreases monotonically, so that it passes the fraction once, in a flight (the root is found on
-    its closed form) or in an impact.
+    The forces are set to zero. Before the impulse all is at rest, with the balls in the middle of their boxes. The
+    energy decreases monotonically, so that it passes the fraction once: in a flight, where the time is a root of a
+    closed form, or at an impact.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
     ValueError
         If an argument is malformed.
     ArithmeticError
-        As for `simulate`.
+        As for `simulate`, if a run fails.
 
     Examples
     --------
@@ -78,8 +78,8 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
 def quickest_decay(system: System, impulses, times, module: int = 1, fraction: float = 0.1) -> tuple[float, float]:
     """Return the impulse with the shortest decay to a fraction of the energy, and its decay time.
 
-    The decay time jumps where an impact appears or vanishes, and has many minima in between. `FINER` sets the
-    resolution of the search; minima over narrower ranges of impulses are missed.
+    As a function of the impulse, the decay time jumps where an impact appears or vanishes, and has many minima between
+    the jumps. `FINER` sets the resolution of the search; minima over narrower ranges of impulses are missed.
 
     Parameters
     ----------
@@ -88,12 +88,12 @@ def quickest_decay(system: System, impulses, times, module: int = 1, fraction: f
     impulses
         Ascending impulses between which to search, shape (n,).
     times
-        Results of `decay_time` for them, shape (n,).
+        Results of `decay_time` for `impulses`, shape (n,).
 
     Raises
     ------
     ArithmeticError
-        As `decay_time`.
+        As for `decay_time`.
     """
 
     def time(logarithm):
@@ -121,13 +121,13 @@ def quickest_decay(system: System, impulses, times, module: int = 1, fraction: f
 
 
 def _energies(system, states):
-    """Return the stored energy of states (..., 8), [boxes, balls]."""
+    """Return the stored energy of states (..., 8), which list the components of the boxes before those of the balls."""
     values = np.moveaxis(states, -1, 0)
     return stored(system.stiffness2, system.alpha12, system.epsilon, values[:4], values[4:])
 
 
 def _time_within(system, flight, target):
-    """Return the time in a flight at which the energy falls to the target; 0 if it starts there."""
+    """Return the time since the start of a flight at which the energy falls to the target."""
     stuck = flight[WALLS : WALLS + 2] != 0
     rate, boxes, balls = rate_matrix(system, stuck)[:4, :4], flight[BEFORE : BEFORE + 4], flight[BEFORE + 4 : AFTER]
 
@@ -136,8 +136,8 @@ def _time_within(system, flight, target):
         speeds = np.where(stuck, later[2:], balls[2:])
         return stored(system.stiffness2, system.alpha12, system.epsilon, later, [0.0, 0.0, *speeds]) - target
 
-    if _energies(system, flight[BEFORE:AFTER]) <= target:  # reached in the impact before
+    if _energies(system, flight[BEFORE:AFTER]) <= target:  # reached at the impact before the flight
         return 0.0
-    if excess(flight[LENGTH]) > 0:  # reached within rounding of the end
+    if excess(flight[LENGTH]) > 0:  # reached at the end, to rounding
         return float(flight[LENGTH])
     return brentq(excess, 0.0, float(flight[LENGTH]))

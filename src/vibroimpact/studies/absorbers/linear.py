@@ -11,9 +11,9 @@ from scipy.optimize import brentq, minimize_scalar
 from vibroimpact.system.arguments import pair, real, whole
 
 POINTS = 400
-"""Frequencies sampled in a band besides the natural ones; each local maximum is refined to its peak."""
+"""Number of frequencies sampled in a band, in addition to natural frequencies; each local maximum is then refined."""
 LONGEST = 40
-"""Exponent of the longest decay: a decay over more than 2**40 units of tau has the time inf."""
+"""Exponent of the longest decay time: beyond 2**LONGEST units of tau, the decay time is inf."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +27,7 @@ class Linear:
     force : ndarray
         Amplitudes F, (n,).
     scale : callable
-        Factor of the force at an array of frequencies.
+        Function that returns the factor of the force at an array of frequencies.
     """
 
     mass: np.ndarray
@@ -39,7 +39,7 @@ class Linear:
     def amplitudes(self, Omega) -> np.ndarray:
         """Return the largest |X_i| of the steady response, shape (..., 2), at frequencies (...).
 
-        The root mean square is this value over sqrt(2).
+        The root mean square is this value divided by sqrt(2).
 
         Raises
         ------
@@ -70,7 +70,7 @@ class Linear:
         return np.linalg.solve(impedance, self.scale(Omega) * self.force[:, None])[..., 0]
 
     def peak(self, band: tuple[float, float]) -> float:
-        """Return the largest |X_i| of both boxes over a band of frequencies; inf if an undamped resonance is in it.
+        """Return the largest |X_i| of both boxes in a band of frequencies; inf if it contains an undamped resonance.
 
         Raises
         ------
@@ -80,9 +80,9 @@ class Linear:
         return self._highest(self.amplitudes, band)
 
     def stroke(self, band: tuple[float, float]) -> float:
-        """Return the largest |X_i - Y_i| of both absorbers over a band of frequencies.
+        """Return the largest |X_i - Y_i| of both absorbers in a band of frequencies.
 
-        This is the room that an absorber needs on each side.
+        This is the room that each absorber needs on each side.
 
         Raises
         ------
@@ -92,7 +92,7 @@ class Linear:
         return self._highest(self.strokes, band)
 
     def _highest(self, measure, band):
-        """Return the largest value of amplitudes or strokes over a band; inf if an undamped resonance is in it."""
+        """Return the largest amplitude or stroke in a band; inf if the band contains an undamped resonance."""
         low, high = checked_band(band)
         resonances = np.abs(self.poles.imag)
         inside = resonances[(resonances > low) & (resonances < high)]
@@ -118,12 +118,12 @@ class Linear:
         return eigvals(self.rate)
 
     def decay_time(self, module: int = 1, fraction: float = 0.1) -> float:
-        """Return the time tau until a fraction of the energy of an impulse is left, or inf.
+        """Return the time tau until a fraction of the energy of an impulse is left; inf if it is above 2**LONGEST.
 
         The impulse acts on one box of a system at rest.
 
-        The energy decreases monotonically, so that it passes the fraction once. The time does not depend on the
-        impulse.
+        The energy decreases monotonically, so that it passes the fraction once. The time does not depend on the size of
+        the impulse.
 
         Raises
         ------
@@ -150,7 +150,7 @@ class Linear:
 
 
 def _height(measure, low, high):
-    """Return the largest value between two frequencies with one local maximum between them."""
+    """Return the largest value of `measure` between two frequencies that enclose one local maximum."""
     best = minimize_scalar(
         lambda Omega: -measure(Omega).max(), bounds=(low, high), method="bounded", options={"xatol": 1e-10}
     )
@@ -158,7 +158,7 @@ def _height(measure, low, high):
 
 
 def checked_band(band) -> tuple[float, float]:
-    """Return two frequencies, 0 < first < second.
+    """Return the two frequencies of a band as floats, 0 < low < high.
 
     Raises
     ------
@@ -172,7 +172,7 @@ def checked_band(band) -> tuple[float, float]:
 
 
 def checked_fraction(fraction) -> float:
-    """Return a number between 0 and 1.
+    """Return a fraction as a float between 0 and 1, both excluded.
 
     Raises
     ------

@@ -1,8 +1,8 @@
-"""The peak with balls over a band of frequencies: the displacement that one cycle in a hundred exceeds.
+"""Compute the peak displacement with balls in a band of frequencies, which is exceeded in one cycle in a hundred.
 
-The largest displacement of a chaotic motion depends on how long one looks. The largest of each cycle has a
-distribution, whose quantiles do not. The lowest of many measured peaks is still too low, since it is chosen where
-chance was kind; so it is measured again, from other starts, once its place is chosen.
+The largest displacement of a chaotic motion grows with the length of the run. The peak is therefore a quantile of the
+largest displacements in single cycles, which does not. The lowest of many measured peaks is still too low, since its
+random error is likely to be negative. So measure it again from other starts.
 """
 
 from collections.abc import Sequence
@@ -17,15 +17,15 @@ from vibroimpact.system import System
 from vibroimpact.system.state import idle_at_rest
 
 PART = 0.99
-"""Part of the cycles whose largest displacement is at most the peak."""
+"""Fraction of the cycles in which the largest displacement is at most the peak."""
 
 
 @dataclass(frozen=True)
 class Peak:
-    """The peak over a band of frequencies, dimensionless.
+    """Peak displacement in a band of frequencies, dimensionless.
 
-    value: see `peak_of`. error: its standard error. largest: the largest |X_i| that was seen; it grows with the number
-    of cycles where the motion is chaotic. at: number of the system, along the band, where the peak is met.
+    value: the peak, see `peak_of`. error: standard error of the value. largest: largest |X_i| in all cycles, which for
+    chaotic motions grows with the number of cycles. at: index of the system with the peak along the band.
     """
 
     value: float
@@ -36,10 +36,10 @@ class Peak:
 
 @dataclass(frozen=True)
 class Cycles:
-    """Runs of m systems from n states, cycle by cycle.
+    """Results of runs of m systems, each from n states, cycle by cycle.
 
-    largest: (m, n, cycles), the larger |X_i| of both boxes in each; nan of runs that could not be finished. final:
-    (m, n, 8). rms: the largest root mean square of both boxes. unfinished: number of such runs.
+    largest: largest |X_i| of both boxes in each cycle, (m, n, cycles); nan for unfinished runs. final: final states,
+    (m, n, 8). rms: largest root mean square of X_1 or X_2 in any run. unfinished: number of unfinished runs.
     """
 
     largest: np.ndarray
@@ -49,19 +49,19 @@ class Cycles:
 
 
 def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Peak:
-    """Return the peak of systems along a band, each from all states (n, 8).
+    """Return the peak in a band of frequencies, for one system per frequency and starts from all states (n, 8).
 
     Parameters
     ----------
     cycles, settle : int
-        Of `ensemble`; a run is observed after `settle` cycles.
+        As for `ensemble`: each run lasts `cycles` and is observed after `settle`.
 
     Raises
     ------
     ArithmeticError
         If a run could not be finished.
     ValueError
-        As `ensemble`.
+        As for `ensemble`.
     """
     runs = by_cycle(systems, states, cycles, settle)
     if runs.unfinished:
@@ -72,14 +72,14 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
 
 
 def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Cycles:
-    """Observe runs of systems, each from all states (n, 8), cycle by cycle; see `peak`.
+    """Run each system from all states (n, 8) and observe single cycles; the arguments are those of `peak`.
 
-    A module that takes no part is put at rest.
+    An uncoupled module without force (not in `System.modules`) starts at rest.
 
     Raises
     ------
     ValueError
-        If no cycle is observed, or as `ensemble`.
+        If no cycle would be observed, or as for `ensemble`.
     """
     if not cycles > settle:
         raise ValueError(f"cycles: {cycles} with {settle} to settle leave none to observe")
@@ -92,19 +92,19 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
 
 
 def peak_of(largest: ArrayLike) -> np.ndarray:
-    """Return the quantile PART of `Cycles.largest` over the cycles of all starts, at each system.
+    """For each system, return the quantile PART of `Cycles.largest` over the cycles of all starts.
 
-    The result is nan without any cycle.
+    The quantile is nan for a system without finished runs.
     """
     largest = np.asarray(largest)
     return np.array([np.quantile(one[~np.isnan(one)], PART) if not np.isnan(one).all() else np.nan for one in largest])
 
 
 def standard_error(largest: ArrayLike) -> float:
-    """Return the standard error of the highest `peak_of` all systems: the jackknife, one start left out at a time.
+    """Return the standard error of the highest peak (`peak_of`), by a jackknife that leaves out one start at a time.
 
-    It takes the starts as drawn independently; it does not take their cycles so, which are not. Where a peak is that
-    of a single start it is large. nan with fewer than 2 starts.
+    The starts are taken as independent; the cycles of one start need not be. The error is large if a single start
+    determines the peak. It is nan for fewer than 2 starts.
     """
     largest = np.asarray(largest)
     count = largest.shape[1]
@@ -115,7 +115,7 @@ def standard_error(largest: ArrayLike) -> float:
 
 
 def finished(runs: np.ndarray) -> np.ndarray:
-    """Return the outcomes of `ensemble`, if all runs finished.
+    """Return the given outcomes of `ensemble` if all runs finished.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Linear systems for comparison: without balls, with fixed balls, with linear absorbers of their mass."""
+"""Linear systems for comparison: without balls, with fixed balls, with linear absorbers as heavy as the balls."""
 
 from dataclasses import dataclass
 
@@ -31,18 +31,18 @@ class Tuning:
 
 
 def without_balls(system, scale=np.ones_like) -> Linear:
-    """Return the boxes without balls, of mass 1, with a `Linear.scale` of the force."""
+    """Return the linear system of the boxes without balls, each of mass 1; `scale` as in `Linear`."""
     return Linear(np.diag(masses(system)), damping_matrix(system), stiffness_matrix(system), system.forcing, scale)
 
 
 def fixed_balls(system, scale=np.ones_like) -> Linear:
-    """Return the boxes with fixed balls, of mass 1 + epsilon, with a `Linear.scale` of the force."""
+    """Return the linear system of the boxes with fixed balls, each of mass 1 + epsilon; `scale` as in `Linear`."""
     stuck = np.diag(masses(system, (True, True)))
     return Linear(stuck, damping_matrix(system), stiffness_matrix(system), system.forcing, scale)
 
 
 def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
-    """Return the boxes with linear absorbers in place of the balls.
+    """Return the linear system of the boxes with linear absorbers in place of the balls.
 
     The coordinates are (X1, X2, Y1, Y2).
 
@@ -53,7 +53,7 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
     tuning : Tuning
         Frequencies and damping ratios of the absorbers.
     scale : callable, optional
-        Factor of the force at an array of frequencies, see `Linear`; 1 by default.
+        Function that returns the factor of the force at an array of frequencies, see `Linear`; 1 by default.
 
     Returns
     -------
@@ -84,7 +84,7 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
 
 
 def _attached(matrix, links):
-    """Return a matrix (2, 2) of the boxes with links (2,) to the absorbers, shape (4, 4)."""
+    """Return the matrix (4, 4) of boxes and absorbers, given the matrix of the boxes (2, 2) and their links (2,)."""
     link = np.diag(links)
     return np.block([[matrix + link, -link], [-link, link]])
 

@@ -11,16 +11,16 @@ from vibroimpact.system.arguments import instance
 STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
 """Starting points of the optimisation, as multiples of the textbook frequencies."""
 FARTHEST = 100.0
-"""Bounds of the optimisation: factor of the textbook tuning, up and down. In a narrow band, or without a resonance in
-it, the optimum has the least damping or stiffness allowed."""
+"""Largest factor between optimised and textbook tuning, up and down. In a band that is narrow or contains no resonance,
+the optimum has the least damping or stiffness that this allows."""
 
 
 def textbook_tuning(system: System) -> Tuning:
     """Return the linear absorbers tuned by Den Hartog's rule, each with the mass of a ball.
 
-    The rule makes both fixed points of the response of a single undamped box equally high, sqrt(1 + 2 / epsilon) of its
-    static deflection, and makes its peaks almost as low. Each box is treated separately: for damped or coupled boxes
-    the rule is approximate.
+    The response of a single undamped box passes through two points for every damping of its absorber. The rule makes
+    both equally high, sqrt(1 + 2 / epsilon) times the static deflection, and the peaks almost as low. It treats each
+    box separately, so that it is approximate for damped or coupled boxes.
 
     Parameters
     ----------
@@ -40,8 +40,8 @@ def textbook_tuning(system: System) -> Tuning:
     Notes
     -----
     The textbook prints the damping as c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the natural
-    frequency Omega_n of the box. `Tuning.damping` refers to that of the absorber, which is Omega_n / (1 + epsilon): so
-    it is sqrt(3 epsilon / (8 (1 + epsilon))).
+    frequency Omega_n of the box. `Tuning.damping` refers to the frequency of the absorber, Omega_n / (1 + epsilon).
+    Therefore it is sqrt(3 epsilon / (8 (1 + epsilon))).
 
     References
     ----------
@@ -60,8 +60,8 @@ def textbook_tuning(system: System) -> Tuning:
 def best_tuning(system: System, band: tuple[float, float], scale=np.ones_like) -> Tuning:
     """Return the linear absorbers with the lowest peak over a band of frequencies, each with the mass of a ball.
 
-    Since the peak (`Linear.peak`) is a maximum with kinks, a bound on all values in the band is minimised instead, by
-    sequential quadratic programming from three starting points. The best of the three local optima is returned.
+    The peak (`Linear.peak`) is a maximum and not smooth. Therefore an upper bound on the response in the whole band is
+    minimised, by sequential quadratic programming from three starting points. The best local optimum is returned.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def best_tuning(system: System, band: tuple[float, float], scale=np.ones_like) -
     band : tuple of float
         First and last forcing frequency Omega, dimensionless.
     scale : callable, optional
-        Factor of the force at an array of frequencies, see `Linear`; 1 by default.
+        Function that returns the factor of the force at an array of frequencies, see `Linear`; 1 by default.
 
     Returns
     -------
@@ -118,12 +118,12 @@ def best_tuning(system: System, band: tuple[float, float], scale=np.ones_like) -
 
 
 def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
-    """Return all linear systems for comparison, by name; the best absorbers are those of a band of frequencies.
+    """Return all linear systems for comparison, by name; the best absorbers are tuned for a band of frequencies.
 
     Raises
     ------
     ValueError, ArithmeticError
-        As `best`.
+        As for `best_tuning`.
     """
     return {
         "without balls": without_balls(system),
@@ -134,7 +134,7 @@ def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
 
 
 def _levels(logarithms, system, frequencies, scale):
-    """Return the logarithms of |X_i| at all frequencies, of both boxes that move."""
+    """Return the logarithms of |X_i| of both boxes at all frequencies, bounded below for a box that does not move."""
     amplitudes = tuned(system, _tuning(logarithms), scale).amplitudes(frequencies)
     return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
 
