@@ -24,7 +24,7 @@ the factor FINER; then the REFINED lowest minima are located."""
 def decay_time(system: System, impulse: float, module: int = 1, fraction: float = 0.1, cycles: int = 10_000) -> float:
     """Return the time tau after an impulse on a box until a fraction of the energy is left.
 
-    The forces are set to zero. Before the impulse all is at rest, with the balls in the middle of their boxes. The
+    The forces are set to zero. The system is at rest before the impulse, the balls in the middle of their boxes. The
     energy decreases monotonically, so that it passes the fraction once: in a flight, where the time is a root of a
     closed form, or at an impact.
 

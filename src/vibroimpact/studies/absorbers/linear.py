@@ -118,7 +118,7 @@ class Linear:
         return eigvals(self.rate)
 
     def decay_time(self, module: int = 1, fraction: float = 0.1) -> float:
-        """Return the time tau until a fraction of the energy of an impulse is left; inf if it is above 2**LONGEST.
+        """Return the time tau until a fraction of the energy of an impulse is left; inf for a time above 2**LONGEST.
 
         The impulse acts on one box of a system at rest.
 

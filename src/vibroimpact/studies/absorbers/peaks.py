@@ -1,8 +1,8 @@
-"""Compute the peak displacement with balls in a band of frequencies, which is exceeded in one cycle in a hundred.
+"""Compute the peak displacement with balls in a band of frequencies, a value that one cycle in a hundred exceeds.
 
 The largest displacement of a chaotic motion grows with the length of the run. The peak is therefore a quantile of the
-largest displacements in single cycles, which does not. The lowest of many measured peaks is still too low, since its
-random error is likely to be negative. So measure it again from other starts.
+largest displacements in single cycles, which does not grow. The lowest of many measured peaks is still too low, since
+its random error is likely to be negative. Therefore it is measured again, from other starts.
 """
 
 from collections.abc import Sequence

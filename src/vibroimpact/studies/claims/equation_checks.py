@@ -44,7 +44,7 @@ def weak_coupling(evidence):
 def own_frequency(evidence):
     """Check the frequency of the first force in (10.1) against (10.5).
 
-    (10.1) prints the natural frequency omega_10 instead, so that the dimensionless frequency Omega_1 would be 1.
+    (10.1) prints the natural frequency omega_10 there, so that the dimensionless frequency Omega_1 would be 1.
     """
     system = evidence.system
     corrected = abs(system.Omega - (1 + system.epsilon * system.sigma_e_hat)) < ROUNDING

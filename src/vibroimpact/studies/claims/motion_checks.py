@@ -29,7 +29,7 @@ CHECKS = (
     "restitution_far_from_unity",
 )
 SIMILAR = 0.1
-"""Relative difference up to which amplitudes count as similar: about as much as the chapter's figures show."""
+"""Largest relative difference of amplitudes that count as similar, about the least that a figure can show."""
 LARGE = 0.5 / np.sqrt(2)
 """Standard deviation / mean of the amplitude 1 + d cos(...) of a beat with d = 1/2 (largest 3 times the smallest)."""
 PER_CYCLE = 2
@@ -87,7 +87,7 @@ def only_possible_behaviour(evidence, case):
 
     Initial states are spread evenly; one more start is from rest.
 
-    A motion with one ball idle counts as "one ball idle" however modulated it is; the numbers give its modulation.
+    A motion with an idle ball counts as "one ball idle", however strong its modulation; the numbers include both.
     """
     shares = evidence.shares(case)
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
@@ -243,8 +243,8 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
     The balls must also stay between the walls.
 
-    Each fixed point must have an orbit at a distance proportional to epsilon, and both must be equal in number. Forces
-    without a fixed point are skipped, but each coefficient needs a fixed point at one of the forces at least.
+    Each fixed point must have an orbit at a distance proportional to epsilon, and there must be no further orbits.
+    Forces without a fixed point are skipped, but each coefficient needs a fixed point at one of the forces at least.
     """
     parts, numbers = {}, {}
     for kappa in kappas:

@@ -147,7 +147,7 @@ def _followed(evidence, before, after, C):
 def singular_and_bifurcating(evidence, case, f20_range):
     """Check if a bifurcation occurs where P_i coincides with S_i.
 
-    The forces at which a fixed point is singular are compared with those at which two fixed points merge.
+    The force at which a fixed point becomes singular is compared with the force at which two fixed points merge.
     """
     system = evidence.systems[case]
     meeting = brentq(lambda f: _determinant_on_branch(system, f), *f20_range, xtol=1e-12)

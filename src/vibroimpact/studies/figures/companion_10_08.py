@@ -1,4 +1,4 @@
-"""Companion to figures 10.7 and 10.8: the motion of module 2 as the theory predicts it and as simulated."""
+"""Companion to figures 10.7 and 10.8: the motion of module 2, predicted by the theory and simulated."""
 
 import numpy as np
 import pandas as pd

@@ -161,7 +161,7 @@ def compute(
     restitution = [_lowest_again(system, mine, **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
     best = min(restitution, key=lambda place: place["value"])
     optima = {BALLS: (own, starts), BEST_KAPPA: (best, starts)}
-    if len(alone):  # this peak is for the start from rest, so that other starts do not apply
+    if len(alone):  # from rest only, so that this peak is not measured again with other starts
         (one_ball,) = _lowest(alone, 1)
         optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}, 1
 
@@ -211,7 +211,7 @@ def _lowest_again(system, table, **again):
 def _again(system, place, band, states, cycles, settle):
     """Return a point of a sweep with its peak measured again.
 
-    Added are value, spread and largest, all divided by the force, and the sigma_e_hat of the peak.
+    Its new entries are value, spread and largest, all divided by the force, and the sigma_e_hat of the peak.
     """
     there = system.with_(**{name: place[name] for name in ("kappa", *FORCES)})
     detunings = np.sort(np.ravel(axis(**band).values))
@@ -258,7 +258,7 @@ def _strokes(system, linear, band):
 
 
 def _held_against(system, response, band):
-    """For each pair of forces and linear system, yield statistics of the response with balls relative to the system."""
+    """For each pair of forces and linear system, yield statistics of the ratio of responses (balls / linear system)."""
     for pair, rows in response.groupby(FORCES, sort=False):
         for name, one in linear_systems(system, pair, band).items():
             times = rows["ratio"] / ratios(system, one, rows["sigma_e_hat"])

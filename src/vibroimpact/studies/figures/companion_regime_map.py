@@ -1,4 +1,4 @@
-"""Companion: map of the regimes in which starts end over both forcing amplitudes, with borders by the theory."""
+"""Companion: map, over both forcing amplitudes, of the regimes in which starts end, with borders by the theory."""
 
 from functools import cache
 from textwrap import fill
@@ -71,7 +71,7 @@ TOGETHER = "coexisting"
 NAMED_FROM = 20
 """Smallest size, in cells, of a patch that bears the name of its regime; the legend lists regimes without a name."""
 FLAT = 0.5
-"""Width of a cell divided by its height in the search for the place of a name: names are wider than high."""
+"""Ratio of width to height assumed for a cell in the search for the place of a name: names are wider than high."""
 _BORDER = {"color": BLACK, "linewidth": 1.4}
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5.0, "markeredgewidth": 1.2}
 _STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 6.0, "markeredgewidth": 0.7}
@@ -93,7 +93,7 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
     Returns "csv", a row per cell: label (regime from rest), f10_hat, f20_hat, regime (of most other starts), coexisting
     (number of regimes of the other starts), a share per regime, fixed_points, stable_points; "cases": case, f10_hat,
-    f20_hat; "borders", where the theory's number of points changes: series, piece, f10_hat, f20_hat.
+    f20_hat; "borders", where the number of fixed points changes: series, piece, f10_hat, f20_hat.
     """
     cells = table.rename(columns={FROM_REST: "label"})
     cells["regime"], cells[TOGETHER] = _dominant(cells, starts)
@@ -119,7 +119,7 @@ def _dominant(cells, starts):
 
 
 def _border(system, cells, series):
-    """Yield the ends of line pieces on which the theory's number of points (all or stable, by `series`) changes.
+    """Yield the ends of line pieces on which the number of fixed points (all or stable, by `series`) changes.
 
     Each end consists of the number of the piece, f10_hat and f20_hat. The ends are found by bisection.
     """

@@ -116,7 +116,7 @@ LINE_POINTS = 451
 
 
 def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) -> dict:
-    """Return responses per unit force: with balls in two sweeps, of 1:1 responses, and of linear systems.
+    """Return displacements per unit force: with balls in two sweeps, in 1:1 responses, and of linear systems.
 
     Parameters
     ----------

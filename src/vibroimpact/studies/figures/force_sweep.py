@@ -62,7 +62,7 @@ def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]
     Parameters
     ----------
     system : System
-        All parameters but f20_hat.
+        System; its f20_hat is replaced by each of the values.
     range : tuple of float
         Ends of the interval of f20_hat.
     values : int

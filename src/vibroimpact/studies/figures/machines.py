@@ -102,7 +102,7 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
 
     Returns "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz],
     swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (the ball meets a wall); "summary",
-    a row per clearance: L [m], the worst frequency [Hz], power [W] and share of it that impacts take, swing [mm], and
+    a row per clearance: L [m], worst frequency [Hz], power [W], share of it lost in impacts, swing [mm] there, and
     the force F10 [N] for which L is as good as the best L for the plant's force: only the ratio L / F10 matters.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
@@ -140,7 +140,7 @@ def _linear(machine, band):
 
 
 def _at_worst(machine, energy, cycles):
-    """Return the frequency of a machine [Hz], the mean power of its forces [W], and the share that impacts take."""
+    """Return the frequency of a machine [Hz], the mean power of its forces [W], and the share of it lost in impacts."""
     joule, hertz = machine.k1 * machine.L**2, machine.omega1 / (2 * np.pi)
     work, impacts = energy["work"].sum(), energy["impacts"].sum()
     return {"frequency": hertz, "power": joule * work * hertz / cycles, "share": impacts / work}
