@@ -1,1 +1,1 @@
-"""Reference solutions, and error and cost of each method relative to them."""
+"""Compute reference solutions, and measure the error and the cost of each method."""

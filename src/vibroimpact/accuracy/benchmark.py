@@ -1,4 +1,4 @@
-"""Compare the time per impact of every method on the same motion, as ratios, with its error."""
+"""Compare all methods on the same motion: time per impact, its ratio to this engine, and errors."""
 
 from fractions import Fraction
 
@@ -12,14 +12,14 @@ SHOWN = "method", "setting", "us_per_impact", "error_state", "error_time", "miss
 
 
 def measure(problem: Problem, methods, seconds: float) -> list[dict]:
-    """Return one row per method and setting for one motion on one core.
+    """Measure every setting of each method on one motion, and return one row per setting.
 
-    Columns include the time per impact [us], its ratio to this engine, and errors.
+    Columns: those of SHOWN, and ratio, the time per impact relative to the fastest setting of this engine.
 
     Parameters
     ----------
     seconds : float
-        Time over which each setting is repeated, as in `work_precision.measure`.
+        Time [s] for which each setting is repeated, as in `work_precision.measure`.
     """
     impacts = len(reference_run(problem.system, problem.state, problem.cycles, DIGITS, exact_floats=False).events)
     rows = [row for row in work_precision(problem, methods, seconds) if row["outcome"] != "unavailable"]
@@ -29,10 +29,10 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
 
 
 def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
-    """Return the error caused by rounding the state to float64 once per forcing cycle, all else being exact.
+    """Return the error of an otherwise exact run whose state is rounded to float64 once per forcing cycle.
 
-    It is the largest difference of a coordinate, at any whole cycle, between the motion and the motion with rounded
-    states. No method with float64 states can avoid it; it includes the conditioning of the motion.
+    The error is the largest difference of a coordinate from the exact motion, over the ends of all cycles. No method
+    with float64 states can avoid this error. It is large where the motion is sensitive to its initial state.
     """
     exact = rounded = [Fraction(repr(float(value))) for value in problem.state]
     largest = Fraction(0)
@@ -44,5 +44,5 @@ def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
 
 
 def _after_one_cycle(system, state, digits):
-    """Return the state (8,) one forcing period later, as rational numbers accurate to `digits`."""
+    """Return the state (8,) one forcing period later, as rational numbers accurate to `digits` decimal digits."""
     return [Fraction(text) for text in reference_run(system, state, 1, digits, exact_floats=False).final_text]

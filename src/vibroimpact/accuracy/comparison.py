@@ -1,4 +1,4 @@
-"""Compare methods by cost and stress tests, and choose the best for each problem and error."""
+"""Compare methods by cost and stress tests, and choose the cheapest ones for each problem and error."""
 
 from vibroimpact.accuracy.stress_tests import ENDLESS, ERROR, RIGHT, SILENTLY_WRONG
 from vibroimpact.system.extras import need
@@ -12,16 +12,16 @@ OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDL
 
 
 def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
-    """Return methods in the order of the chart, with their relative cost and the results of their stress tests.
+    """Return one row per method, in the order of the chart: relative cost, and counts of stress test results.
 
-    Columns method, family, problems (test problems solved with an error of at most 1e-6 and without missed or spurious
-    impacts), times (run time of its fastest such runs relative to those of the first method, for the worst problem;
-    blank unless it solves all), right, wrong (silently), stopped (by an error, or not finished), tests.
+    Columns method, family, problems (number of problems solved with an error of at most 1e-6 and without missed or
+    spurious impacts), times (largest ratio, over the problems, of the run time to the run time of the first method;
+    blank unless all problems are solved), right, wrong (silently), stopped (by an error, or not finished), tests.
 
     Parameters
     ----------
     work_precision, stress_tests : DataFrame
-        The tables of these names.
+        Rows of `work_precision.measure` for all problems, and rows of `stress_tests.judge` for all tests.
     """
     good = _good(work_precision, GOAL)
     cost = good.pivot_table("seconds_per_cycle", "method", "problem", aggfunc="min")
@@ -37,10 +37,10 @@ def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> p
 
 
 def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
-    """Return the two cheapest stress-tested methods for each problem and error; `compared` is the `methods_table`.
+    """Return the two cheapest methods for each problem and each error of GOALS, among methods with stress tests.
 
-    Columns problem, error (largest allowed, without missed or spurious impacts), choice (1, 2), method, setting,
-    seconds_per_cycle, wrong (stress tests with a silently wrong result), tests.
+    `compared` is the `methods_table`. Columns problem, error (largest allowed error of the final state), choice (1, 2),
+    method, setting, seconds_per_cycle, wrong (number of stress tests with a silently wrong result), tests.
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]
@@ -55,12 +55,12 @@ def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFram
 
 
 def _cheapest(runs, goal):
-    """Return the runs, as tuples, of the two methods that reach `goal` at the lowest cost."""
+    """Return the cheapest run of each of the two cheapest methods that reach the error `goal`, as named tuples."""
     by_cost = _good(runs, goal).sort_values("seconds_per_cycle", kind="stable")
     return by_cost.drop_duplicates("method").head(2).itertuples()
 
 
 def _good(work_precision, goal):
-    """Return the runs with an error of at most `goal` and the impacts of the reference."""
+    """Return the finished runs with an error of at most `goal` and without missed or spurious impacts."""
     exact = work_precision[["missed", "spurious"]].eq(0).all(axis=1) & (work_precision["outcome"] == "finished")
     return work_precision[exact & (work_precision["error_state"] <= goal)]

@@ -7,19 +7,19 @@ import numpy as np
 from vibroimpact.system.state import IMPACT
 
 FAINT = 1e-3
-"""Rebound speed |W'| up to which an impact belongs to the tail of a chatter, which every method truncates. Such impacts
+"""Largest rebound speed |W'| of impacts in the tail of a chatter. Every method truncates this tail, so that its impacts
 are neither required nor counted as spurious."""
 WINDOW = 0.05
-"""Largest distance in time, in forcing periods, of impacts that count as the same one."""
+"""Largest time difference, in forcing periods, between an impact of a run and the matching impact of the reference."""
 
 
 @dataclass(frozen=True)
 class Errors:
-    """Errors of a run.
+    """Errors of a run against a reference.
 
-    final: largest difference of a coordinate of the final state (inf without one). times: largest difference of the
-    times [tau] of matching impacts (0 without any). missed, spurious: numbers of unmatched impacts of the reference and
-    of the run.
+    final: largest difference of a coordinate of the final state (inf if the run has no final state). times: largest
+    time difference [tau] between matching impacts (0 if no impacts match). missed, spurious: numbers of impacts without
+    a match, in the reference and in the run.
     """
 
     final: float
@@ -28,7 +28,7 @@ class Errors:
     spurious: int
 
     def columns(self) -> dict[str, float]:
-        """Return the errors by the names of table columns."""
+        """Return a dictionary from the names of table columns to the errors."""
         names = "error_state", "error_time", "missed", "spurious"
         return dict(zip(names, (self.final, self.times, self.missed, self.spurious), strict=True))
 
@@ -36,16 +36,16 @@ class Errors:
 def run_errors(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
     """Return the errors of a MethodRun against a reference run of the same motion.
 
-    The reference has `events` and `final` as a run of `vibroimpact.simulate`.
+    The reference needs the attributes `events` and `final`, as in a run of `vibroimpact.simulate`.
 
     Parameters
     ----------
     period : float
         Forcing period, in units of tau.
     faint : float, default FAINT
-        Rebound speed at and below which an impact need not be found.
+        Impacts with at most this rebound speed need not be found.
     events : bool, default True
-        False if the reference has the same final state but not all events before it.
+        False to compare only the final states, because the reference does not have all events.
     """
     if run.final is None:
         return Errors(np.inf, np.inf, 0, 0)
@@ -66,22 +66,22 @@ def run_errors(run, reference, period: float, faint: float = FAINT, events: bool
 
 
 def rebound_speeds(events) -> np.ndarray:
-    """Return |W'| just after each of the events of a run, shape (n,), in its own module."""
+    """Return the speed |W'| just after each event of a run, in the module of that event, shape (n,)."""
     box = 4 + 2 * (events["module"].astype(int) - 1)
     rows = np.arange(len(events))
     return np.abs(events["state"][rows, box] - events["state"][rows, box + 1])
 
 
 def _near(times, others, window) -> np.ndarray:
-    """Return True for each time with another time within the window."""
+    """Return True for each of `times` that differs by at most `window` from one of `others`."""
     apart = np.abs(np.subtract.outer(np.asarray(times, dtype=float), others))
     return apart.min(axis=1, initial=np.inf) <= window
 
 
 def _align(expected, found, window):
-    """Pair two ascending sequences in order.
+    """Pair the times of two ascending sequences, in order, where they differ by at most `window`.
 
-    Returns (largest distance in a pair, number of expected and list of found without a pair).
+    Return (largest difference in a pair, number of expected times without a pair, found times without a pair).
     """
     apart, lost, extra = 0.0, 0, []
     i = j = 0

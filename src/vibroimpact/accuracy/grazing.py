@@ -1,4 +1,4 @@
-"""Compute initial states whose ball comes within a given distance of a wall, in high precision."""
+"""Compute initial states from which a ball passes a wall at a given small distance, in high precision."""
 
 from fractions import Fraction
 
@@ -17,13 +17,13 @@ def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float
     """Return an initial state (8,) from which ball 1 clears the wall +1 by `clearance` at its first approach.
 
     Before the first impact the boxes do not depend on the ball, so that W_1 = X_1 - Y_1 is stationary where X_1' equals
-    the velocity of the ball; the initial position of the ball sets the value there. A negative clearance is the depth
-    that the ball would reach beyond the wall. Rounding to float64 changes it by up to 1e-16.
+    the velocity of the ball. The initial position of the ball is set so that W_1 = 1 - clearance there. With a negative
+    clearance the ball hits the wall. Rounding the state to float64 changes the clearance by up to 1e-16.
 
     Parameters
     ----------
     boxes
-        Initial X_1, X_2, X_1', X_2', as decimals; ball 2 starts in the middle of its box with the same velocity.
+        Initial X_1, X_2, X_1', X_2', as decimals. Ball 2 starts in the middle of its box, with the velocity of the box.
     ball_velocity
         Initial velocity of ball 1.
     guess

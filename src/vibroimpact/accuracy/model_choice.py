@@ -1,4 +1,4 @@
-"""Models with which a figure of the chapter can be computed, and the motion of a fixed point by each of them."""
+"""List the models that can compute a figure of the chapter, and compute the motion of a fixed point with each model."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -28,28 +28,28 @@ MODELS = {
     "float64": "simulation in double precision",
     "reference": "simulation in the reference arithmetic, confirmed with twice the digits",
 }
-"""Description of every model by its name in the config, by ascending cost.
+"""Description of each model, keyed by its name in the config, in order of ascending cost.
 
-The slow flow solves (10.23); the exact orbit also solves the symmetric conditions; the second term solves these at
-three values of epsilon; a reference run repeats a float64 run twice, with more digits.
+The slow flow solves (10.23). The exact orbit also solves the symmetric conditions, and the second term solves these
+conditions at three values of epsilon. A reference run repeats a float64 run at least twice, with more digits.
 """
 CHOICES = {
     "fixed_points": ("slow_flow", "exact_orbit"),
     "theoretical_response": ("slow_flow", "exact_orbit", "second_term"),
     "simulation": ARITHMETICS,
 }
-"""Models of a figure by its notebook, by ascending cost."""
+"""Models for a figure, keyed by the name of its notebook, in order of ascending cost."""
 SAMPLES = 400
-"""Samples of a period for the first harmonic of U, whose higher harmonics fall like 1/n^3."""
+"""Samples per period from which the first harmonic of U is computed; the n-th harmonic of U falls like 1/n^3."""
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Symmetric motion of a fixed point by one model.
+    """Symmetric motion that one model gives for a fixed point.
 
-    point: its label, C, B and psi. impacts: time tau >= 0 at which each ball meets the wall W = +1, (2,); it meets the
-    wall -1 half a period later; NaN for a module that takes no part. response: function that returns U, X, W, Y at
-    times tau (n,).
+    point: label, C, B and psi of the motion. impacts: time tau >= 0 at which each ball meets the wall W = +1, (2,),
+    half a period before the wall -1; NaN for an inactive module (one not in `System.modules`). response: function that
+    returns U, X, W, Y at times tau (n,).
     """
 
     point: LabelledPoint
@@ -58,21 +58,21 @@ class Motion:
 
 
 def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
-    """Return the motion of each fixed point of a system by a model.
+    """Return the motion that a model gives for each fixed point of a system.
 
-    By the exact orbits, only points next to an orbit have a motion.
+    With exact_orbit, fixed points without an exact orbit next to them are left out.
 
     Parameters
     ----------
     points : list of LabelledPoint
-        All fixed points of the system, since an orbit belongs to the nearest one.
+        All fixed points of the system. All are needed because each orbit is assigned to the nearest one.
     model : str
         slow_flow, exact_orbit or second_term.
 
     Raises
     ------
     ValueError
-        If the model is unknown, or if no orbit continues a fixed point to small epsilon.
+        If the model is unknown, or if second_term finds no orbit next to a fixed point at small epsilon.
     """
     if model == "slow_flow":
         return [
@@ -89,12 +89,12 @@ def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
 
 
 def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
-    """Return the motion of one fixed point, by its label in a table of all of them; see `motions`.
+    """Return the motion of the fixed point with a given label, see `motions`; the table has all fixed points.
 
     Raises
     ------
     ValueError
-        As for `motions`, or if the table has no such point, or if there is no exact orbit next to it.
+        As for `motions`, or if the table has no such point, or if no exact orbit lies next to the point.
     """
     labelled_point(points, label)
     found = {one.point.label: one for one in motions(system, labelled_points(points), model)}
@@ -104,15 +104,15 @@ def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
 
 
 def _exact(system, point, root) -> Motion:
-    """Return the motion of a root of the exact symmetric conditions."""
+    """Return the motion of the exact orbit that is given as a root of the symmetric conditions."""
     impacts, C = np.where(np.isfinite(point.C), root.reshape(2, 2), np.nan)
     return _motion(system, point, C, impacts, lambda tau: _exact_U(system, root, tau))
 
 
 def _second_term(system, point) -> Motion:
-    """Return the motion with the term of next order in epsilon.
+    """Return the leading-order motion corrected by the second term of (10.7).
 
-    The correction changes C, the phase of the impacts, and U at each phase of the forcing.
+    The second term changes C, the impact times and U.
     """
     C, shift = second_term.first_order(system, point)
     impacts = np.remainder(impact_times(system, point) + system.epsilon * shift / system.Omega, system.period)
@@ -130,9 +130,9 @@ def _second_term(system, point) -> Motion:
 
 
 def _motion(system, point, C, impacts, U) -> Motion:
-    """Return the motion of a saw-tooth and of U, a function of tau.
+    """Return the motion composed of U, a function of tau, and of the saw-tooth with amplitudes C.
 
-    B and psi are those of the first harmonic of U.
+    B and psi are computed from the first harmonic of U.
     """
 
     def response(tau):
@@ -151,5 +151,5 @@ def _exact_U(system, root, tau):
 
 
 def _sawtooth(system, C, impacts, tau):
-    """Return Z_i, shape (n, 2), which is 0 for a module that takes no part."""
+    """Return the saw-tooth Z_i = W_i - U_i at times tau (n,), shape (n, 2); it is 0 for an inactive module."""
     return np.nan_to_num(sawtooth(system.Omega * (tau[:, None] - impacts), C, 0.0))

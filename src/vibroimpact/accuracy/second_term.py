@@ -1,6 +1,6 @@
-"""Second term of (10.7): derivative by epsilon, at 0, of the solution of the exact conditions of an orbit.
+"""Compute the second term of (10.7) from the derivative of exact orbits with respect to epsilon, at epsilon = 0.
 
-Since an asymptotic series is unique, this is the term that the method of multiple scales gives.
+An asymptotic series is unique, so that the method of multiple scales gives the same term.
 """
 
 import numpy as np
@@ -11,22 +11,22 @@ from vibroimpact.system import System
 from vibroimpact.theory.response import impact_times
 
 STEP = 2e-4
-"""Smallest epsilon of the finite differences; the result with two terms is then accurate to 1e-8."""
+"""Smallest epsilon of the finite differences; with this value, the sum of the first two terms is accurate to 1e-8."""
 
 
 class NoOrbit(ValueError):
-    """Raised if there is no symmetric orbit to compare a fixed point with."""
+    """Raised if no symmetric orbit is found next to a fixed point."""
 
 
 def first_order(system, point) -> np.ndarray:
-    """Return the second term of (10.7) at a fixed point, per epsilon: of C and of the impact phases [rad], (2, 2).
+    """Return the derivatives by epsilon of C (row 0) and of the impact phases [rad] (row 1) at a fixed point, (2, 2).
 
-    A module that takes no part has NaN.
+    Multiplied by epsilon, they are the second terms of (10.7). An inactive module (`System.modules`) has NaN.
 
     Raises
     ------
     NoOrbit
-        If Newton's method reaches no orbit.
+        If Newton's method finds no orbit.
     """
 
     def slope(epsilon):
@@ -37,21 +37,21 @@ def first_order(system, point) -> np.ndarray:
 
 
 def at_zero(slope):
-    """Return the limit of slope(epsilon), analytic, at epsilon = 0, by Richardson's extrapolation from three values.
+    """Return the limit of the analytic function slope(epsilon) at epsilon = 0, by Richardson extrapolation.
 
-    Its error is of order STEP^3.
+    Three values of the function are used, so that the error is of order STEP^3.
     """
     low, middle, high = (slope(n * STEP) for n in (1, 2, 4))
     return (8 * low - 6 * middle + high) / 3
 
 
 def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
-    """Return the system at another epsilon, and the root (4,) of its symmetric conditions next to a fixed point.
+    """Return the system with another epsilon, and the root (4,) of its symmetric conditions next to a fixed point.
 
     Raises
     ------
     NoOrbit
-        If Newton's method reaches none from the fixed point.
+        If Newton's method finds no root from the fixed point.
     """
     here = system.with_(epsilon=epsilon)
     start = np.nan_to_num(np.concatenate([impact_times(here, point), point.C]))
@@ -62,9 +62,9 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 
 
 def offsets(system, point, roots) -> np.ndarray:
-    """Return exact roots (..., 4) minus the fixed point: C and impact phases [rad], (..., 2, 2).
+    """Return the differences in C and in impact phase [rad] of exact roots (..., 4) from a fixed point, (..., 2, 2).
 
-    A module that takes no part has NaN.
+    Entries of an inactive module are NaN.
     """
     phases = np.angle(np.exp(1j * system.Omega * (roots[..., :2] - impact_times(system, point))))
     return np.stack([roots[..., 2:] - point.C, phases], axis=-2)

@@ -1,6 +1,6 @@
-"""Stress tests: problems that are hard for a known reason, and the verdict on every method.
+"""Define stress tests, problems that are hard for a known reason, and judge every method on them.
 
-Add a stress test in the function `stress_tests`.
+To add a stress test, extend the function `stress_tests`.
 """
 
 from dataclasses import dataclass
@@ -13,10 +13,10 @@ from vibroimpact.system import System
 from vibroimpact.system.chapter import CASES, PARAMETERS
 
 VISIBLE = 1e-2
-"""Error of the final state that is visible in a figure: half a percent of the gap."""
+"""Error of the final state that is visible in a figure: half a percent of the distance between the walls."""
 
 SETTLED_CHANGE = 1e-6
-"""A motion has settled if one more cycle changes it by less than this."""
+"""Largest change of a coordinate over one cycle of a settled motion."""
 
 RIGHT, UNDECIDABLE, ERROR, ENDLESS, SILENTLY_WRONG, UNAVAILABLE = (
     "right",
@@ -33,10 +33,10 @@ CHAPTER = PARAMETERS | CASES["equal"]
 
 @dataclass(frozen=True)
 class StressTest:
-    """A test problem: group (the difficulty), name, system, initial state (8,) at tau = 0, forcing cycles.
+    """A test problem: group (kind of difficulty), name, system, initial state (8,) at tau = 0, forcing cycles.
 
-    faint: impacts with a slower rebound need not be found (0: every impact counts). reference_cycles: number of cycles
-    that the reference computes, if the motion is known to have settled by then. quick: in the reduced set.
+    faint: impacts with at most this rebound speed need not be found (0: every impact counts). reference_cycles: smaller
+    number of cycles for the reference, if the motion settles by then. quick: True if the test is in the reduced set.
     """
 
     group: str
@@ -52,8 +52,8 @@ class StressTest:
 REST = (0.0,) * 8
 SETTLED = (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869)
 MODULATED = (0.0647, 0.5421, -0.1898, 0.0, -0.2101, -0.6997, 0.0459, 0.0)
-PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 just before a soft impact, its box pushing
-RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 at rest on its wall, its box pushing
+PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 just before a soft impact; its box pushes it
+RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 at rest on its wall; its box pushes it
 TOGETHER = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)  # both modules move in the same way
 MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # module 2 mirrors module 1
 FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # on the manifold at C = C_min, (10.25)
@@ -89,7 +89,7 @@ def stress_tests() -> list[StressTest]:
 
 
 def judge(test: StressTest, methods) -> list[dict]:
-    """Return one row per method: the verdict on its careful setting for this problem, with the errors."""
+    """Return one row per method: verdict and errors of its careful setting on a stress test."""
     reference = reference_of(test)
     return [_row(test, method, reference) for method in methods]
 
@@ -100,7 +100,7 @@ def reference_of(test: StressTest):
     Raises
     ------
     ArithmeticError
-        If the motion has not settled after reference_cycles, as the test states.
+        If the test has reference_cycles but the motion has not settled by then.
     """
     if test.reference_cycles is None:
         return proven_run(test.system, test.state, test.cycles, exact_floats=False).run
@@ -140,9 +140,9 @@ def _row(test, method, reference):
 
 
 def grazing(system: System, side: int, digits: int) -> StressTest:
-    """Return the test in which ball 1 clears its wall (side 1) or hits it (side -1) by 1e-digits.
+    """Return the test in which ball 1 clears a wall (side 1) or hits it (side -1) by 10^-digits.
 
-    Every impact counts.
+    Every impact counts, also the slowest.
     """
     start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
     name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"
@@ -150,8 +150,8 @@ def grazing(system: System, side: int, digits: int) -> StressTest:
 
 
 def _crossing(system, periods):
-    """Return a state from which ball 1 meets its wall after `periods` periods, to rounding.
+    """Return a state from which ball 1 meets a wall after `periods` forcing periods, up to rounding.
 
-    The box is at rest; ball 2 stays in the middle.
+    Both boxes are at rest, and ball 2 rests in the middle of its box.
     """
     return (0.0, 0.0, 0.0, 0.0, 0.0, -1.0 / (periods * system.period), 0.0, 0.0)

@@ -1,7 +1,7 @@
-"""Measure the speed of many runs in typical scenes of the project.
+"""Measure the time per impact of ensembles, single runs and heyoka's batches in typical scenes of the project.
 
-Ensembles, single runs and heyoka's batches are timed in turn. The share of runs with the events of single runs, and the
-error, are reported as well.
+All methods are timed in turn. For ensembles, the error and the share of runs with as many impacts as the corresponding
+single run are measured as well.
 """
 
 from functools import partial
@@ -21,7 +21,7 @@ from vibroimpact.system.state import BALLS, BOXES, IMPACT
 LONG = 4000
 """Cycles of the single long run, whose time per impact is the unit of all times."""
 SAMPLE, SHORT = 8, 10
-"""Number of runs of a scene that other methods repeat, and their cycles; errors are those after these cycles."""
+"""Number and cycles of the runs on which single runs are timed; errors of ensembles are measured after SHORT cycles."""
 CHECKED = 64
 """Number of runs of a scene whose events and final states are compared with single runs."""
 TOLERANCES = 1e-6, 1e-12
@@ -29,14 +29,14 @@ TOLERANCES = 1e-6, 1e-12
 
 
 class Scene(NamedTuple):
-    """Systems and initial states, as for `ensemble`, and cycles."""
+    """Arguments of `ensemble`: systems, initial states and number of cycles."""
 
     systems: System | np.ndarray
     states: np.ndarray
     cycles: int
 
     def runs(self, count):
-        """Return the systems and initial states of `count` runs, spread over the scene."""
+        """Return the systems and initial states of `count` runs that are evenly spread over the scene."""
         systems = np.asarray(self.systems, dtype=object)
         shape = np.broadcast_shapes(systems.shape, self.states.shape[:-1])
         places = np.unique(np.linspace(0, np.prod(shape) - 1, count).astype(int))
@@ -46,7 +46,7 @@ class Scene(NamedTuple):
 
 
 def scenes(equal: System, weak: System, settled) -> dict[str, Scene]:
-    """Return scenes by description.
+    """Return the scenes, keyed by their descriptions.
 
     settled: state (8,) of a motion of `equal` without sticking.
     """
@@ -82,16 +82,16 @@ def _around(state, count, distance):
 
 
 def throughput(equal: System, weak: System, settled, seconds: float) -> list[dict]:
-    """Return one row per scene: ns per impact of each method, and ratios to a single long run.
+    """Return one row per scene: time per impact [ns] of each method, ratios to a single long run, and errors.
 
-    All methods are timed in turn on one core; a single long run is timed within the same minutes.
+    In each scene, all methods and the single long run are timed in turn on one core.
 
     Parameters
     ----------
     settled
         State (8,) of a motion of `equal` without sticking.
     seconds : float
-        Time over which each method is repeated.
+        Time [s] for which each method is repeated.
     """
     with at_most(1):
         return [
@@ -101,9 +101,9 @@ def throughput(equal: System, weak: System, settled, seconds: float) -> list[dic
 
 
 def ranges(rows: list[dict]) -> list[str]:
-    """Return lines with the ranges, over the scenes, of the ratios to a single long run.
+    """Return lines of text with the ranges, over all scenes, of the ratios to a single long run.
 
-    The input is the rows of `throughput`.
+    `rows` is the result of `throughput`.
     """
     found = {name: [row[f"{name} / long run"] for row in rows] for name in ("final", "observed")}
     return [
@@ -117,7 +117,7 @@ def _long_run(system, state):
 
 
 def _timed(scene, long_run, seconds):
-    """Return ns per impact of every method."""
+    """Return the time per impact [ns] of every method in a scene, and the ratios of ensembles to the long run."""
     impacts, systems, states = _impacts(scene), *scene.runs(SAMPLE)
     short = Scene(systems, states, SHORT)
     few = _impacts(short)
@@ -152,7 +152,7 @@ def _each(method, systems, states):
 
 
 def _compared(scene):
-    """Return the share of runs with the impacts of single runs, and the median error of the final states."""
+    """Compare an ensemble with single runs: share of equal numbers of impacts, and median error of the final state."""
     systems, states = scene.runs(CHECKED)
     outcomes = ensemble(systems, states, SHORT)
     singles = [simulate(system, state, SHORT) for system, state in zip(systems, states, strict=True)]

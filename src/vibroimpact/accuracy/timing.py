@@ -1,4 +1,4 @@
-"""Time functions by repetition; the minimum excludes disturbances of a shared machine."""
+"""Time functions by repeated calls; the fastest call is the one least disturbed by other work on the machine."""
 
 import platform
 import time
@@ -10,8 +10,9 @@ PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
 def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
     """Call several functions repeatedly, in turn, so that a disturbance of the machine affects all of them.
 
-    Each is called as often as fits in `seconds`, at least once and at most `most` times. One-time work (compilation,
-    tables) must be done by an earlier call. Returns, for each function, its result and the seconds of its fastest call.
+    Each function is called as often as fits in `seconds`, at least once and at most `most` times. Call it once before,
+    so that one-time work (compilation, tables) is not timed. Return, for each function, its result and the time [s] of
+    its fastest call.
     """
     given, best = [None] * len(works), [float("inf")] * len(works)
     total, calls, left = [0.0] * len(works), [0] * len(works), list(range(len(works)))
@@ -26,7 +27,7 @@ def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
 
 
 def versions() -> dict[str, str]:
-    """Return the versions that a measurement depends on: Python, architecture of the processor, and packages."""
+    """Return the versions of Python and packages, and the processor architecture, on which a measurement depends."""
     found = {"python": platform.python_version(), "machine": platform.machine()}
     for package in PACKAGES:
         try:

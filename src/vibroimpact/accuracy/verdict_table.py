@@ -16,18 +16,18 @@ import pandas as pd  # noqa: E402 (after the dependency check)
 CRITERIA = (*criteria.CRITERIA, EXACT)
 NUMBERS = [name for name in COLUMNS if name not in (EXACT, "proved")]
 PROOF = "box_radius", "orbit_error", "moduli_error", "motion_proved", "floquet_proved"
-"""Columns of `OrbitProof.row`, which tables without rows have as well."""
+"""Columns of `OrbitProof.row`; a table without rows has them as well."""
 NO_ORBIT = "no orbit"
 REACH = 1.0
 """Largest distance in C between a fixed point and its orbit. Over the grid of forces at epsilon = 0.1 the distances are
-at most 0.29, or above 2.5 where the orbits next to two fixed points have merged."""
+at most 0.29, except that they exceed 2.5 where the orbits next to two fixed points have merged."""
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
-    """Return a row per exact orbit, in order: its numbers, the verdict of each criterion, and its proof if any.
+    """Return one row per exact orbit, in order: its quantities, the verdict of each criterion, and its proof if any.
 
-    Columns case, label ("S1", ... symmetric, "A1", ... asymmetric), those of `Orbit.row` without `proved`, one column
-    per criterion, and those of `OrbitProof.row`.
+    Columns: case, label ("S1", ... if symmetric, "A1", ... if asymmetric), the columns of `Orbit.row` except `proved`,
+    one column per criterion, and the columns of `OrbitProof.row`.
     """
     counts, rows = {True: 0, False: 0}, []
     for orbit in orbits:
@@ -40,9 +40,9 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 
 
 def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.DataFrame:
-    """Return a row per fixed point, by label, with the verdicts of the criteria.
+    """Return one row per fixed point, sorted by label, with the verdict of each criterion.
 
-    The multipliers are those of its exact orbit.
+    The verdict `exact` on a fixed point is that on the exact orbit next to it.
 
     Parameters
     ----------
@@ -51,8 +51,8 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
     orbits : DataFrame
         `orbit_rows` of the same case.
 
-    Columns case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
-    orbit that goes with it, see `partners`; "" if there is none), one per criterion.
+    Columns: case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
+    orbit next to the point, see `partners`; "" if there is none), and one column per criterion.
     """
     points = sorted(points, key=lambda point: point.label)
     symmetric = orbits[orbits["symmetric"].astype(bool)]  # an empty table has no types
@@ -71,10 +71,10 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
 
 
 def partners(points, orbits) -> list[int | None]:
-    """Return, for the C of each fixed point (n, 2), the index of the nearest of the orbits (m, 2), or None.
+    """Match fixed points with orbits by their C, (n, 2) and (m, 2); return the orbit's index for each point, or None.
 
-    C of a module that takes no part is NaN and ignored. The result is None if another fixed point is nearer to that
-    orbit, or if no orbit lies within REACH.
+    C of an inactive module (`System.modules`) is NaN and is ignored. A point is matched with its nearest orbit, unless
+    another point is nearer to that orbit or the distance is above REACH.
     """
     points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
     if not len(orbits):

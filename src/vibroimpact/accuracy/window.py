@@ -1,4 +1,4 @@
-"""Simulate the window of a motion after a transient, in float64 or in the reference arithmetic."""
+"""Simulate a motion and return the window after its transient, in float64 or in the reference arithmetic."""
 
 from dataclasses import dataclass
 
@@ -22,9 +22,9 @@ SPAN = ("transient_cycles", "window_cycles", "samples_per_cycle")
 class Window:
     """Window of a simulation.
 
-    samples: columns tau and the state, evenly spaced, both ends included. events: tau, module, wall, kind and the state
-    just after. strobe: as samples, at the start of every forcing cycle of the whole run. trust: validation metadata of
-    the run.
+    samples: columns tau and the state, at evenly spaced times, both ends included. events: columns tau, module, wall,
+    kind and the state just after the event. strobe: columns as in samples, at the start of every forcing cycle of the
+    whole run and at its end. trust: validation metadata of the run.
     """
 
     samples: pd.DataFrame
@@ -41,8 +41,8 @@ def window(system: System, settings: dict) -> Window:
     system : System
         Dimensionless parameters.
     settings : dict
-        initial_state (8,); transient_cycles, which are omitted; window_cycles; samples_per_cycle; model, "float64" or
-        "reference". The reference uses `digits` decimal digits, by default DIGITS, doubled until two runs agree.
+        Keys initial_state (8,); transient_cycles, before the window; window_cycles; samples_per_cycle; model, "float64"
+        or "reference". The reference uses `digits` decimal digits, by default DIGITS, doubled until two runs agree.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def _integrate(system, settings, cycles, times):
         run = simulate(system, settings["initial_state"], cycles, sample_times=times)
         certificate = {name: value for name, value in vars(run.certificate).items() if np.isfinite(value)}
         return run, {"method": "float64", "certificate": certificate}
-    from vibroimpact.accuracy.reference.run import proven_run  # needs an extra that float64 does not need
+    from vibroimpact.accuracy.reference.run import proven_run  # needs a package that float64 does not
 
     proof = proven_run(
         system,

@@ -1,4 +1,4 @@
-"""Work-precision data: error and cost of each method over its settings."""
+"""Measure work-precision data: error and cost of each method at each of its settings."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -12,12 +12,12 @@ from vibroimpact.integrators.protocol import Method, MethodRun
 from vibroimpact.system import System
 
 RESOLVED = 0.03, 1e-11
-"""Range of errors in which an order is fitted: larger ones belong to another motion, smaller ones contain rounding."""
+"""Largest and smallest error used to fit an order. Larger errors belong to another motion, smaller ones to rounding."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """Motion to compute: initial state (8,) at tau = 0, and number of forcing cycles."""
+    """Motion to compute: name, system, initial state (8,) at tau = 0, and number of forcing cycles."""
 
     name: str
     system: System
@@ -31,7 +31,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
     Parameters
     ----------
     seconds : float
-        Time over which each setting is repeated, all in turn, after a first call that compiles.
+        Time [s] for which each setting is repeated, in turn with the others, after a first call that compiles.
     short : bool, default False
         Use only every second setting of each method.
     """
@@ -59,7 +59,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 
 
 def _measured(problem, run, time, reference):
-    """Return the errors, time and steps of a run."""
+    """Return the columns of a run: errors, time, steps, evaluations, outcome, and the reason for a failure or doubt."""
     return {
         **run_errors(run, reference, problem.system.period).columns(),
         "seconds_per_cycle": time / problem.cycles,
@@ -71,7 +71,7 @@ def _measured(problem, run, time, reference):
 
 
 def _order(method, settings, timed, rows):
-    """Return the order of convergence of a method from its runs with the right impacts."""
+    """Return the order of convergence of a method, fitted to its runs without missed or spurious impacts."""
     points = [
         (method.scale(setting, run), row["error_state"])
         for (one, setting), (run, _), row in zip(settings, timed, rows, strict=True)
@@ -90,9 +90,9 @@ def _row(problem, method, setting, **measured):
 
 
 def fitted_order(points) -> float | None:
-    """Return the slope of log error over log scale, or None for fewer than three resolved points.
+    """Fit log(error) against log(scale) by least squares; return the slope, or None for fewer than three points.
 
-    The points (scale, error) are fitted by least squares.
+    Only the points (scale, error) whose error is in the range RESOLVED are used.
     """
     largest, smallest = RESOLVED
     resolved = [(scale, error) for scale, error in points if smallest <= error <= largest]

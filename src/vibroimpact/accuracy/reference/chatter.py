@@ -1,4 +1,4 @@
-"""Complete chatter: extrapolate the limit of infinitely many impacts from the first ones."""
+"""Extrapolate the end of a chatter, the limit of infinitely many impacts, from its first impacts."""
 
 import math
 from fractions import Fraction
@@ -7,19 +7,19 @@ from vibroimpact.accuracy.reference.taylor_models import to_ball
 
 
 class Chatter:
-    """Consecutive impacts of the same balls on the same walls, and the state in which they accumulate.
+    """Consecutive impacts of the same balls on the same walls, and the limit of the states after them.
 
-    The map from one impact to the next is analytic in the rebound speed. At speed zero it contracts the speed by
-    kappa and is neutral in the other coordinates. In Koenigs' linearising coordinate it is a multiplication by
-    kappa, so that every coordinate of the state after the n-th impact is limit + c1 kappa^n + c2 kappa^(2n) + ...
-    (the first term is the geometric series of the flight times). Richardson extrapolation removes the powers one
-    by one; its error falls like kappa^(n^2 / 2).
+    The map from one impact to the next is analytic in the rebound speed. At speed zero this map contracts the speed
+    by kappa and is neutral in the other coordinates. In Koenigs' linearising coordinate the map is a multiplication
+    by kappa, so that every coordinate of the state after the n-th impact is limit + c1 kappa^n + c2 kappa^(2n) + ...
+    (the term c1 kappa^n is due to the geometric series of the flight times). Richardson extrapolation removes the
+    powers one by one; its error after n impacts falls like kappa^(n^2 / 2).
     """
 
     def __init__(self, contacts, kappa: Fraction):
         self.contacts = contacts
-        # For kappa near 1 only every stride-th impact is used: the ratio stays at or below 1/2 and the
-        # extrapolation amplifies rounding by less than 10.
+        # For kappa above 1/2 only every stride-th impact is used. The ratio is then at most 1/2, and the extrapolation
+        # amplifies rounding by less than a factor of 10.
         self._stride = max(1, math.ceil(math.log(2) / -math.log(kappa)))
         self._ratio = to_ball(kappa) ** self._stride
         self._impacts = 0
@@ -28,14 +28,14 @@ class Chatter:
 
     @property
     def limit(self):
-        """Extrapolated state of the accumulation point, as the list of coordinates that add() gets."""
+        """Extrapolated state at the end of the chatter, with the coordinates that are passed to add()."""
         return self._row[-1]
 
     def add(self, coordinates) -> bool:
         """Add the state after the next impact; return True if this has improved the limit.
 
-        `change` is then the largest difference between the new and the previous limit. In practice it bounds the error
-        of the previous limit, and generously that of the new one.
+        `change` is then the largest difference of a coordinate between the new and the previous limit. In practice it
+        bounds the error of the previous limit and the much smaller error of the new limit.
         """
         self._impacts += 1
         if (self._impacts - 1) % self._stride:

@@ -4,19 +4,19 @@ from flint import arb, ctx
 
 
 class Undecidable(ArithmeticError):
-    """Raised if a sign that decides the next event is within the error of the working precision."""
+    """Raised if the working precision does not determine a sign that decides the next event."""
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
-    """Return a ball that contains the first root of the series in (0, end] and no other, or None if there is none.
+    """Return an interval (arb) with the first root of the series in (0, end] and no other root, or None without roots.
 
-    series: arb_poly, positive at 0. Every interval before the ball is excluded: there the mean-value
-    enclosure of the series is positive. hint (< end): where to split first, for a root much nearer than end.
+    series: arb_poly, positive at 0. Its mean-value enclosures prove that no root comes before the interval. hint
+    (< end): point at which (0, end] is first split, for a root much nearer than end.
 
     Raises
     ------
     Undecidable
-        If an approach is so close to tangential that the precision cannot distinguish it from a contact.
+        If the precision cannot distinguish a nearly tangential approach from a contact.
     """
     if not series(arb(0)) > 0:
         raise Undecidable("the distance at the start is not positive to working precision")
@@ -45,7 +45,7 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
 
 
 def refine(series, ball: arb) -> arb:
-    """Return the single, falling root inside the ball to working precision.
+    """Return the root inside the interval `ball` to working precision; the series falls there and has one root.
 
     The interval Newton method is used, with bisection as the fallback.
     """

@@ -18,7 +18,7 @@ from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, Trajectory
 from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
 
-ROUNDED = Fraction(1, 10**12)  # largest distance of a ball beyond a wall by rounding
+ROUNDED = Fraction(1, 10**12)  # largest distance beyond a wall that counts as rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,10 +26,10 @@ class ReferenceRun:
     """Trajectory in arbitrary precision, dimensionless, with states in the usual order.
 
     digits: decimals to which a single flight is computed. events: structured array (tau, module, wall, kind 0 impact /
-    1 stick / 2 release, state after), rounded to float64. event_taus (n,), event_states (n, 8), final_exact (8,): the
-    same as arbitrary-precision numbers (flint.arb). samples (n, 8), final (8,): float64. local_error (arb): largest
-    radius of the enclosures of a single flight. completion_error (arb): largest last correction of the limit of a
-    completed chatter. flights, chatters: their numbers.
+    1 stick / 2 release, state after), rounded to float64. event_taus (n,), event_states (n, 8), final_exact (8,): these
+    times and states in arbitrary precision (flint.arb). samples (n, 8), final (8,): float64. local_error (arb): largest
+    radius of an enclosure in a single flight. completion_error (arb): largest change by the last step of a chatter's
+    extrapolation. flights, chatters: number of flights, and number of chatters that were extrapolated to their end.
     """
 
     digits: int
@@ -52,10 +52,10 @@ class ReferenceRun:
 
 @dataclass(frozen=True, eq=False)
 class ProvenRun:
-    """Run confirmed by another one.
+    """Run confirmed by another run with half the digits.
 
-    run: the finer run; coarse: the other one. agreement: largest absolute difference between them over all times and
-    states of events, samples and the final state, which in practice bounds the error of the coarse run.
+    run: run with more digits. coarse: run with fewer digits. agreement: largest absolute difference between both runs
+    in event times, event states, samples and final state; in practice it bounds the error of `coarse`.
     """
 
     run: ReferenceRun
@@ -66,10 +66,10 @@ class ProvenRun:
 def reference_run(
     system_parameters, state, cycles, digits, tau0=0, sample_times=None, exact_floats=None
 ) -> ReferenceRun:
-    """Simulate (10.1) for a number of forcing periods from tau0, every flight to the given decimals.
+    """Simulate (10.1) over a number of forcing periods from tau0, with the given decimal digits in each flight.
 
-    A ball that rests on a wall at the start sticks if the wall pushes it (w X'' > 0, or the first derivative that does
-    not vanish within the digits); else it leaves at once.
+    A ball that rests on a wall w at the start sticks if the wall pushes it: w X'' > 0, or, if w X'' vanishes within the
+    digits, its first derivative that does not vanish is positive. Otherwise the ball leaves the wall at once.
 
     Parameters
     ----------
@@ -83,11 +83,11 @@ def reference_run(
         Decimals of a single flight, at least 20.
     sample_times : sequence, optional
         Ascending times in the window; floats among them have their binary value. A sample at an event is the state
-        after it.
+        after the event.
     exact_floats : bool, optional
-        True: floats, and the float Omega, have their binary values, and a ball within rounding of a wall is put on it,
-        as in `simulate`. False: floats are read as their shortest decimals. The default is True for a System, else
-        False.
+        True: floats, and Omega rounded to a float, have their binary values, and a ball within rounding of a wall is
+        put on the wall, as in `simulate`. False: floats are read as their shortest decimals. The default is True for a
+        System, else False.
 
     Raises
     ------
@@ -126,20 +126,20 @@ def proven_run(
     max_digits=5000,
     exact_floats=None,
 ) -> ProvenRun:
-    """Return a `reference_run` with the digits doubled until two precisions agree to the absolute accuracy.
+    """Repeat `reference_run` with doubled digits until two successive runs agree to the absolute accuracy.
 
     Parameters
     ----------
     system_parameters, state, cycles, tau0, sample_times, exact_floats
         As in `reference_run`.
     digits : int, optional
-        Initial number of digits; the default allows for a loss of 0.33 digits per forcing period, measured in the
-        modulated case, plus 40.
+        Initial number of digits. The default is 40 plus 0.33 per forcing period, the loss of digits measured in the
+        modulated case.
 
     Raises
     ------
     ArithmeticError
-        If there is no agreement up to max_digits.
+        If no two successive runs with up to max_digits agree.
     """
     digits = digits or int(40 + 0.33 * float(to_fraction("cycles", cycles)))
     coarse, agreement = None, np.inf
@@ -157,9 +157,10 @@ def proven_run(
 
 
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
-    """Return the event times of the fine run (n,) and the differences of two runs of the same motion there (n,).
+    """Return the event times of the fine run (n,), and the difference between two runs at each event (n,).
 
-    The difference is the largest in time and state; it is inf from the first event that differs.
+    The difference is the largest one in time and coordinates. It is inf from the first event whose module, wall or kind
+    differs.
     """
     error = np.full(len(fine.events), np.inf)
     for i, (one, other) in enumerate(zip(coarse.events, fine.events, strict=False)):
@@ -208,7 +209,7 @@ def _distance(one, other):
 
 
 def _put_on_walls(start):
-    """Move balls that are on a wall to rounding, or beyond it by rounding, onto the wall."""
+    """Move each ball onto its wall if it is on the wall up to rounding, or beyond the wall by rounding."""
     for i in (0, 2):
         gap = start[i] - start[i + 1]
         if float(start[i]) - float(start[i + 1]) in (1.0, -1.0) or 1 < abs(gap) <= 1 + ROUNDED:

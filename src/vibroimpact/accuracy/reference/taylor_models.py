@@ -1,4 +1,4 @@
-"""Taylor models of the motion of the boxes between events, in ball arithmetic from rational parameters."""
+"""Compute Taylor models of the boxes' motion between events, from rational parameters in ball arithmetic."""
 
 import math
 from dataclasses import dataclass, fields
@@ -9,15 +9,15 @@ from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
 from vibroimpact.system import System
 
-# Longest step times the norm of the rate matrix: longer steps need more Taylor terms and lose digits to
-# cancellation (e^REACH), shorter ones need more steps between events.
+# Longest step times the norm of the rate matrix. Longer steps need more Taylor terms and lose digits to
+# cancellation (e^REACH); shorter steps are more numerous.
 REACH = 4
 
 
 def to_fraction(name: str, value, exact_floats: bool = False) -> Fraction:
     """Return the rational number that a value represents.
 
-    A float stands for its binary value, or for its shortest decimal (0.1 is then 1/10).
+    A float stands for its binary value if `exact_floats` is True, else for its shortest decimal (1/10 for 0.1).
 
     Raises
     ------
@@ -33,7 +33,7 @@ def to_fraction(name: str, value, exact_floats: bool = False) -> Fraction:
 
 
 def to_ball(value: Fraction) -> arb:
-    """Return an enclosure of a rational number at the current precision."""
+    """Return an interval (arb) that encloses a rational number, at the current precision."""
     return arb(fmpq(value.numerator, value.denominator))
 
 
@@ -50,9 +50,9 @@ class ExactSystem:
 
     @classmethod
     def of(cls, parameters, exact_floats: bool = False) -> "ExactSystem":
-        """Return the coefficients of a System, or of a mapping of its ten parameters to numbers or decimal strings.
+        """Return the coefficients for a System, or for a mapping from its ten parameters to numbers or decimal strings.
 
-        Floats are read as in `to_fraction`; with exact floats Omega is a float too, as in the engine.
+        Floats are read as in `to_fraction`. With exact floats, Omega is rounded to a float, as in the engine.
 
         Raises
         ------
@@ -89,7 +89,7 @@ class Flow:
 
     The motion is linear: with s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)] and s' = A s, the k-th coefficient
     is given by the first two rows of A^k s / k!. No eigenvalues are used, so that repeated, defective, undamped and
-    resonant spectra need no special case. The last coefficient is a ball that contains the neglected tail.
+    resonant spectra need no special case. The last coefficient is an interval that encloses the neglected tail.
     """
 
     def __init__(self, system: ExactSystem, stuck, bits: int):
@@ -108,24 +108,24 @@ class Flow:
             self._table = arb_mat(
                 2 * self.terms, 6, [entry for start in (0, 6) for row in table for entry in row[start : start + 6]]
             )
-            # |A^k s| <= norm^k |s| bounds every neglected coefficient; their sum, and that of its first four
-            # derivatives, is at most twice its first term while norm * t <= (terms - 4) / 2.
+            # |A^k s| <= norm^k |s| bounds every neglected coefficient. While norm * t <= (terms - 4) / 2, the sum of
+            # the neglected terms is at most twice its first term; the same is true of its first four derivatives.
             self._tail = 2 * to_ball(self.norm) ** self.terms / arb.fac_ui(self.terms)
 
     @property
     def longest_step(self) -> Fraction:
-        """Time over which the series is accurate to its bits."""
+        """Longest time for which the series is accurate to `bits`."""
         return Fraction(REACH) / self.norm
 
     def size(self, vector) -> arb:
-        """Return an upper bound of the weighted norm of s; times norm, it bounds |X1''| and |X2''|."""
+        """Return an upper bound of the weighted norm of s; multiplied by `norm`, it bounds |X1''| and |X2''|."""
         largest = arb(0)
         for weight, entry in zip(self._weights, vector, strict=True):
             largest = largest.max(abs(weight * entry))
         return largest.upper()
 
     def series(self, vector) -> tuple[arb_poly, arb_poly]:
-        """Return X1 and X2 as power series, from the six entries of s."""
+        """Return X1 and X2 as power series in time, for the initial vector s (6,)."""
         with ctx.workprec(self.bits):
             entries = (self._table * arb_mat(6, 1, vector)).entries()
             tail = arb(0, (self._tail * self.size(vector)).upper())
@@ -150,7 +150,7 @@ def rate_matrix(system: ExactSystem, stuck) -> list:
 
 
 def _weighted_norm(rate):
-    """Return weights >= 1 of the six entries of s, and the row-sum norm of the rate matrix in these weights.
+    """Return weights >= 1 for the six entries of s, and the row-sum norm of the rate matrix with these weights.
 
     Weighting displacements by about the highest natural frequency keeps the norm near that frequency.
     """

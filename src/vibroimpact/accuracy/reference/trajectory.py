@@ -11,7 +11,7 @@ from vibroimpact.accuracy.reference.roots import Undecidable, first_root, refine
 from vibroimpact.accuracy.reference.taylor_models import ExactSystem, Flow, to_ball, to_fraction
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
-# Impacts of a completed chatter with a slower rebound |W'| are not listed.
+# Impacts of a completed chatter are not listed if their rebound speed |W'| is at most this.
 LISTED_SPEED = Fraction(1, 10**12)
 GUARD_BITS = 64  # beyond the requested digits
 SEARCH_BITS = 96  # sufficient to exclude and bracket most events; otherwise the full precision is used
@@ -19,10 +19,10 @@ SEARCH_BITS = 96  # sufficient to exclude and bracket most events; otherwise the
 
 @dataclass
 class _Ball:
-    """Ball of one module relative to its box: gap W, rate W', and the wall it touches, if any.
+    """Motion of one ball relative to its box: gap W, rate W', and the wall that the ball touches, or 0.
 
-    order: number of vanishing leading Taylor coefficients, of 1 - wall W for a ball that leaves the wall (1 after an
-    impact, 2 or more after a release), or of the contact force for a stuck ball (None: the force is zero forever).
+    order: number of leading Taylor coefficients that vanish. They are coefficients of the contact force of a stuck ball
+    (None: the force is always zero), or of 1 - wall W for a ball that leaves its wall (1 after an impact, else more).
     """
 
     gap: arb
@@ -34,7 +34,7 @@ class _Ball:
     def walls_ahead(self):
         """Return the walls at which the next event of this module may occur.
 
-        These are both walls in flight, and the ball's own wall while a force holds it there.
+        A ball in flight may meet both walls. A stuck ball may leave its wall, unless its contact force is always zero.
         """
         if not self.stuck:
             return (1, -1)
@@ -54,8 +54,8 @@ class _Candidate:
 class Trajectory:
     """Simulation in progress; every method runs at the working precision set by the caller.
 
-    record: [(tau, module 0 or 1, wall, kind, state after)]; samples: states in the requested order. Numbers are exact
-    midpoints (flint.arb); see reference_run for the other attributes.
+    record: list of events (tau, module 0 or 1, wall, kind, state after), each number the midpoint of an enclosure
+    (flint.arb). samples: states at the requested times. The other attributes are described in ReferenceRun.
     """
 
     system: ExactSystem
@@ -88,7 +88,7 @@ class Trajectory:
 
     def _sample_queue(self):
         times = [] if self.sample_times is None else list(self.sample_times)
-        # A float in a grid of times is the result of a computation, so that it has its binary value.
+        # A float in a grid of times is the result of a computation, so that its binary value is used.
         rational = [Fraction(float(t)) if isinstance(t, float) else to_fraction("sample_times", t) for t in times]
         if any(later < earlier for earlier, later in pairwise(rational)):
             raise ValueError("sample_times: must be ascending")
@@ -100,7 +100,7 @@ class Trajectory:
     # -- the loop ----------------------------------------------------------------------------------------
 
     def run(self):
-        """Compute record, samples and the final state."""
+        """Compute `record`, `samples` and the final state."""
         self._meet_walls_at_start()
         while self.tau < self.end:
             self._fly()
@@ -150,7 +150,7 @@ class Trajectory:
         self.record.append((self.tau, module, self.balls[module].wall, kind, tuple(self.state())))
 
     def _point(self, value):
-        """Return the midpoint of an enclosure, where the next flight starts; record the radius in local_error."""
+        """Return the midpoint of an enclosure, from which the next flight starts; update local_error by the radius."""
         if not value.rad() < self.tolerance:
             raise Undecidable(f"a flight's enclosure has radius {value.rad()}, too wide for the requested digits")
         self.local_error = self.local_error.max(value.rad())
@@ -170,12 +170,12 @@ class Trajectory:
         self.tau = self._point(self.tau + step)
 
     def _free(self, i, t):
-        """Return Y and Y' of a ball in free flight, after a time t."""
+        """Return Y and Y' of ball i after a time t of free flight."""
         speed = self.box[2 + i] - self.balls[i].rate
         return self.box[i] - self.balls[i].gap + speed * t, speed
 
     def _sample(self, series, step):
-        """Record the samples strictly before the end of the flight."""
+        """Append the states at the sample times before the end of the flight."""
         stop = self.tau + step - self.tolerance
         if not (self.pending and self.pending[-1] < stop):
             return
@@ -193,7 +193,7 @@ class Trajectory:
     # -- the next event ----------------------------------------------------------------------------------
 
     def _next_events(self, series, search_series, longest):
-        """Return the earliest event within the longest step, and all events that coincide with it within the digits."""
+        """Return the earliest event within the longest step, and all events at the same time within the digits."""
         try:
             with ctx.workprec(SEARCH_BITS):
                 found = self._bracket(search_series, longest)
@@ -205,9 +205,9 @@ class Trajectory:
         return [_Candidate(module, wall, root.mid()) for (module, wall), root in _earliest(found, self.tolerance)]
 
     def _bracket(self, series, longest):
-        """Return [(module, wall), ball] for each distance with a root before the others.
+        """Return a list of ((module, wall), interval) for the distances whose first root may be the earliest.
 
-        The ball contains the first root.
+        The interval (arb) contains the first root of the distance, and no other.
         """
         keys = [(module, wall) for module in range(2) for wall in self.balls[module].walls_ahead()]
         distances = [(key, self._distance(key, series)) for key in keys]
@@ -222,11 +222,10 @@ class Trajectory:
         return found
 
     def _distance(self, key, series):
-        """Return a power series that is positive until the event.
+        """Return the power series of the distance to a wall, or of the contact force of a stuck ball.
 
-        It is the distance to a wall, or the force that holds a stuck ball.
-
-        For a wall just left, or a force just set, the vanishing leading coefficients are divided out.
+        The series is positive until the event. If `order` leading coefficients vanish (see `_Ball`), the series is
+        divided by that power of the time.
         """
         module, wall = key
         ball = self.balls[module]
@@ -255,9 +254,9 @@ class Trajectory:
                 self._settle(i, started=True)
 
     def _impact(self, module):
-        """Apply Newton's restitution law, see system.restitution, which conserves X' + epsilon Y'.
+        """Apply Newton's restitution law (see system.restitution), which conserves X' + epsilon Y'.
 
-        A ball slower than the working precision resolves sticks.
+        The ball sticks if its rebound is too slow for the working precision.
         """
         ball = self.balls[module]
         if not ball.wall * ball.rate > -self.tolerance:
@@ -274,10 +273,10 @@ class Trajectory:
         self._note(module, STICK)
 
     def _settle(self, *modules, started=False):
-        """Release every stuck ball whose contact force w X'' no longer pushes it.
+        """Release every stuck ball, of the given modules or both, that its contact force w X'' no longer pushes.
 
-        The first coefficient of the force that does not vanish within the digits decides. This covers a force that has
-        just fallen through zero, a jump due to an impact of the other module, and the start.
+        The sign of the first Taylor coefficient of the force that does not vanish within the digits decides. This works
+        after the force falls through zero, after it jumps due to an impact of the other module, and at the start.
         """
         for module in modules or range(2):
             ball = self.balls[module]
@@ -289,14 +288,14 @@ class Trajectory:
             if ball.order is None or force[ball.order] > 0:
                 continue
             ball.stuck = False
-            ball.order += 2  # in free flight the gap grows like t^2 times the force
+            ball.order += 2  # in free flight the distance grows like t^2 times the force
             if not started:
                 self._note(module, RELEASE)
 
     # -- chatter -----------------------------------------------------------------------------------------
 
     def _follow_chatter(self, contacts):
-        """Add the impacts of this instant to the chatter they continue; complete it once its limit is known."""
+        """Add the impacts of this instant to the chatter, or start a new one; complete it once its limit is known."""
         if self.chatter is None or self.chatter.contacts != contacts:
             self.chatter = Chatter(contacts, self.system.kappa) if contacts else None
         if not contacts or any(self.balls[module].stuck for module, _ in contacts):
@@ -308,7 +307,7 @@ class Trajectory:
             self._complete(contacts, others)
 
     def _is_complete(self, contacts):
-        """Return True if the limit is known to the digits and no other event occurs before the impacts accumulate."""
+        """Return True if the limit of the chatter is known to the digits, and no sample or other event precedes it."""
         if not self.chatter.change < self.tolerance:
             return False
         if any(abs(self.balls[module].rate) > to_ball(LISTED_SPEED) for module, _ in contacts):
@@ -320,7 +319,7 @@ class Trajectory:
         return bool(time > 0 and self.tau + time < next_stop + self.tolerance and self._is_undisturbed(contacts, time))
 
     def _is_undisturbed(self, contacts, time):
-        """Return True if contact forces keep their sign and other balls stay off the walls, with a wide margin."""
+        """Return True if, for this time, contact forces stay positive and other balls stay far from the walls."""
         flow, vector = self._flow(SEARCH_BITS), self._vector()
         acceleration = flow.size(vector) * to_ball(flow.norm)
         series = flow.series(vector)
@@ -356,21 +355,21 @@ class Trajectory:
 
 
 def _relative(ball, motion):
-    """Return W = X - Y of a ball in free flight as a power series; from second order on it is that of X."""
+    """Return W = X - Y of a ball in free flight as a power series, whose terms from t^2 on are those of X."""
     relative = arb_poly(motion)
     relative[0], relative[1] = ball.gap, ball.rate
     return relative
 
 
 def _force(ball, motion):
-    """Return w X'', the acceleration by wall w of a ball that rests on it, as a power series."""
+    """Return the contact force w X'' of wall w on a ball that rests on it, per mass, as a power series."""
     return ball.wall * motion.derivative().derivative()
 
 
 def _parabola_hint(distance, longest):
-    """Return twice the root of the first two terms of the distance, if it is far nearer than the longest step.
+    """Return twice the root of the linear part of the distance, or None unless it is far below the longest step.
 
-    This hint separates the short flights of a chatter from the long step in one split.
+    A search that is first split at this time finds the short flights of a chatter in one split.
     """
     height, slope = distance[0], distance[1]
     if not (height > 0 and slope < 0):
@@ -380,7 +379,7 @@ def _parabola_hint(distance, longest):
 
 
 def _earliest(found, tolerance):
-    """Return the pairs (key, ball) whose ball may be the earliest, or is within the tolerance of it."""
+    """Return the pairs (key, root interval) whose root may be the earliest, or within the tolerance of the earliest."""
     if not found:
         return []
     first = min(ball.upper() for _, ball in found)
