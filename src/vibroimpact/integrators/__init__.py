@@ -1,4 +1,4 @@
-"""Other integrators of the same system behind a common protocol, for comparison with the engine."""
+"""Integrators of the same system with a common protocol, for comparison with the engine."""
 
 from vibroimpact.integrators.event_driven import CertifiedEngine, Engine
 from vibroimpact.integrators.heyoka_taylor import HeyokaTaylor
@@ -23,4 +23,4 @@ METHODS = [
 ]
 """All methods, in the order of tables and legends."""
 TIMED = [METHODS[0], CertifiedEngine(), *METHODS[1:]]
-"""METHODS with the certified engine, in the order of tables."""
+"""METHODS and, after the first of them, the certified engine, in the order of tables."""

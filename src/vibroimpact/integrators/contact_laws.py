@@ -1,15 +1,15 @@
-"""Laws of compliant contact: the force on a ball that is beyond a wall by p, or anywhere in its box.
+"""Laws of compliant contact: the force on a ball at a depth p beyond a wall, or, for a spring over the box, at p = |W|.
 
-All have the form K p^n + D p^m p'. In the phase plane of p and V = p', with the mass mu = epsilon / (1 + epsilon)
+All laws have the form K p^n + D p^m p'. In the phase plane of p and V = p', with the mass mu = epsilon / (1 + epsilon)
 of the relative motion, V dV/dp = -(K p^n + D p^m V) / mu.
 
 If m = (n - 1) / 2, the substitution u = p^((n + 1) / 2) gives V dV/du = -2 (K u + D V) / ((n + 1) mu), a linear
 oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu), which multiplies every speed by exp(-pi zeta / sqrt(1
 - zeta^2)) (Antypov and Elliott 2011, for n = 3/2). So the restitution coefficient is the same at every speed.
 
-If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu; between equal p at speeds V and -kappa V the
-left side integrates to (1 + kappa) d = log((1 + d) / (1 - kappa d)), d = D V / K: D must be proportional to 1 / V. One
-D gives kappa at one speed only, so that D is set at each impact (as by Lankarani and Nikravesh, 1990).
+If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. The integral from speed V to speed -kappa V at
+the same p vanishes if (1 + kappa) d = log((1 + d) / (1 - kappa d)), d = D V / K. So D must be proportional to 1 / V.
+One D gives kappa at one speed only; therefore D is set at each impact (as by Lankarani and Nikravesh, 1990).
 """
 
 import math
@@ -25,7 +25,7 @@ NEARLY_ELASTIC = 1e-5
 class Law:
     """Contact force K p^n + D p^m p'.
 
-    stiffness: n; damping: m; walls: False if p = |W|, a spring over the whole box.
+    stiffness: n. damping: m. walls: True if p is the depth beyond a wall, False for a spring over the box, p = |W|.
     """
 
     stiffness: float
@@ -39,9 +39,9 @@ HUNT_CROSSLEY = Law(1.5, 1.5)
 
 
 def power_law(order: int) -> Law:
-    """Return the law W^(2n - 1) and |W|^(n - 1) W' (Pilipchuk 2010).
+    """Return the law with stiffness term W^(2n - 1) and damping term |W|^(n - 1) W' (Pilipchuk 2010), n = `order`.
 
-    It tends to walls at W = +1 and -1 as n grows.
+    As n grows, the law tends to walls at W = +1 and -1.
     """
     return Law(2.0 * order - 1.0, order - 1.0, walls=False)
 
@@ -49,17 +49,17 @@ def power_law(order: int) -> Law:
 def stiffness_of(law: Law, mass: float, duration: float) -> float:
     """Return the stiffness K for which an undamped contact at speed 1 lasts `duration`."""
     share = 1.0 / (law.stiffness + 1.0)
-    path = math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)  # of 1 / sqrt(1 - x^(n + 1))
+    path = math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)  # integral of 1 / sqrt(1 - x^(n + 1))
     return mass / (2.0 * share) * (2.0 * path / duration) ** (law.stiffness + 1.0)
 
 
 def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float, speed: float) -> float:
-    """Return the stiffness K of a spring over the box for which a ball turns at W = 1.
+    """Return the stiffness K of a spring over the whole box for which a ball turns back at W = 1.
 
     The ball has the given speed in the middle of the box.
     """
     zeta = damping_ratio(kappa)
-    deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # u, with 1 / omega for the speed 1
+    deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # omega u for speed 1
     return 0.5 * (law.stiffness + 1.0) * mass * (deepest * speed) ** 2
 
 
@@ -71,7 +71,7 @@ def damping_of(law: Law, mass: float, kappa: float, stiffness: float) -> float:
 
 
 def fading(law: Law) -> float:
-    """Return the power of 1 / V in D for which kappa is the same at every speed V."""
+    """Return the power of 1 / V to which D must be proportional for the same kappa at every speed V."""
     return (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
 
 

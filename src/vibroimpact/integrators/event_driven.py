@@ -24,7 +24,7 @@ class Engine(Method):
 
 
 class CertifiedEngine(Engine):
-    """The engine with the certificate of the run, which the other methods do not have."""
+    """The engine, with the time for the certificate of the run; the other methods have no certificate."""
 
     name = "this engine, certified"
 
@@ -35,13 +35,13 @@ class CertifiedEngine(Engine):
 
 
 def _impacts(run):
-    """Return the impacts of a run, without its sticks and releases."""
+    """Return the impacts of a run, rows [tau, module, wall, speed], without its sticks and releases."""
     rows = run.rows[run.rows[:, KIND] == IMPACT]
     return np.stack([run.tau0 + rows[:, TIME], rows[:, MODULE], rows[:, WALL], np.abs(rows[:, APPROACH])], axis=1)
 
 
 def _doubt(run):
-    """Return the doubt expressed by the certificate of a run, as text, or None."""
+    """Return a text on what the certificate of a run leaves undecided, or None."""
     certificate = run.certificate
     if certificate.horizon < run.tau0 + run.cycles * run.system.period:
         return f"known up to tau = {certificate.horizon:.6g}"

@@ -1,6 +1,6 @@
-"""heyoka in batches: eight runs in parallel vector lanes, for timing against `ensemble`.
+"""Integrate eight runs at a time in the vector lanes of heyoka's batch mode, for timing against `ensemble`.
 
-The lanes share their equations and contact state, so that no ball may come to rest on a wall.
+All lanes share one contact state, so that no ball may come to rest on a wall.
 """
 
 import numpy as np
@@ -13,9 +13,9 @@ LANES = 8
 
 
 class HeyokaBatch:
-    """heyoka's batch integrator at a tolerance, with one system per lane.
+    """heyoka's batch integrator with a given tolerance and one system per lane.
 
-    The integrator is compiled on construction.
+    The integrator is compiled when the object is created.
     """
 
     def __init__(self, tolerance: float):

@@ -1,9 +1,9 @@
-"""heyoka's adaptive Taylor integrator: terminal events at the walls, the impact law in their callbacks.
+"""Integrate with heyoka's adaptive Taylor method; the callbacks of events at the walls apply the impact law.
 
-This is the fastest form found: the forcing phase as two states (no transcendental function in the recursion), one
-directed event per wall, no compact mode, one integrator for each contact state of the balls, and all parameters at run
-time, so that it is compiled once. After an event heyoka ignores the same event during a cooldown, in which a short hop
-could end undetected. So rebounds slower than SLOWEST are not followed.
+This is the fastest form found. Two states for the forcing phase avoid transcendental functions in the recursion. There
+is one directed event per wall, and no compact mode. Each contact state of the balls has its own integrator, which is
+compiled once, since all parameters are set at run time. After an event heyoka ignores the same event during a cooldown,
+in which a short flight could end undetected. So rebounds slower than SLOWEST are not followed.
 """
 
 from functools import lru_cache
@@ -53,11 +53,11 @@ class HeyokaTaylor(Method):
 
 
 def right_hand_side(numbers, stuck=(False, False)):
-    """Return the state variables, the accelerations of the boxes, and the system of equations.
+    """Return the state variables, the accelerations of the boxes, and the equations as pairs (variable, derivative).
 
-    The system includes the sine and cosine of the forcing phase.
+    The equations include those of the sine and cosine of the forcing phase.
 
-    numbers: those of `coefficients`, as floats or parameters of heyoka.
+    numbers: the entries of `coefficients`, as floats or parameters of heyoka.
     """
     s, (sine, cosine) = heyoka.make_vars(*STATE), heyoka.make_vars("sine", "cosine")
     q = dict(zip(NAMES, numbers, strict=True))
@@ -76,7 +76,7 @@ def right_hand_side(numbers, stuck=(False, False)):
 class _Flight:
     """End of a flight.
 
-    module: the one whose event ended it, or None at the end; failure: outcome, or None.
+    module: module whose event ended the flight, or None. failure: outcome of heyoka if it failed, or None.
     """
 
     def __init__(self, tau, state, steps, module, failure):
@@ -89,7 +89,7 @@ def _integrator(tolerance, stuck):
 
 
 class _Integrator:
-    """heyoka's integrator of (10.2) in one contact state, with the impact law in its events."""
+    """heyoka's integrator of (10.2) in one contact state, with event callbacks that apply the impact law."""
 
     def __init__(self, tolerance, stuck):
         self.stuck = stuck
@@ -115,7 +115,7 @@ class _Integrator:
 
     def _events(self, i, gap, acceleration):
         rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
-        if self.stuck[i]:  # for both walls: the force changes sign
+        if self.stuck[i]:  # at either wall the force changes its sign
             return [heyoka.t_event(acceleration, callback=self._stop(i))]
         return [
             heyoka.t_event(gap - 1.0, callback=self._impact(i, 1), direction=rising),
@@ -130,9 +130,9 @@ class _Integrator:
         return callback
 
     def _impact(self, i, wall):
-        """Apply the impact law in place.
+        """Return the callback that applies the impact law to the state in place.
 
-        An impact so slow that the ball may come to rest is left to the contact logic.
+        The callback stops the flight instead, for `Contacts`, if a ball sticks or is so slow that it may stick.
         """
         s_box, s_ball = 4 + BOXES[i], 4 + BALLS[i]
 

@@ -1,20 +1,20 @@
 """Ivanov's transformation, extended to two walls: coordinates in which impacts are continuous.
 
-The box is unfolded (Zhuravlev 1976): W = T(s), the triangular wave of slope +1 or -1 with walls at odd s, so that the
-ball passes through the walls. The unit of its speed changes there (Ivanov 1994), W' = T'(s) R v with
+The box is unfolded (Zhuravlev 1976): W = T(s), where T is a triangular wave of slope +1 or -1 with walls at odd s. In
+s the ball passes through the walls, and the unit of its speed changes there (Ivanov 1994): W' = T'(s) R v with
 
     R = 1 + k sgn(v) p,   k = (1 - kappa) / (1 + kappa),   p = s - 2n in [-1, 1] in box n,   T = (-1)^n p,
 
-so that R falls from 1 + k to 1 - k at a wall: the ratio is kappa, and v is continuous. With the acceleration a of W in
-flight
+so that R falls from 1 + k to 1 - k at a wall. The ratio of both values is kappa, so that v is continuous. With the
+acceleration a of W in flight,
 
     s' = R v,   v' = (-1)^n a / R - k v |v|.
 
-An impact also changes the velocity of the box, but not that of the centre of mass (X + epsilon Y) / (1 + epsilon) of
-box and ball, whose acceleration is a / (1 + epsilon). It is the other coordinate of a module. All eight coordinates are
-continuous; the right-hand side jumps at walls and where v changes its sign. A step of length h across a jump that is
-not located has an error of the order of h for any integrator (here the classical Runge-Kutta method), so that the
-method is of first order. It has no state of rest on a wall: a ball that sticks continues to impact.
+An impact also changes the velocity of the box, but not the velocity of the centre of mass (X + epsilon Y) / (1 +
+epsilon) of box and ball. The centre of mass, with acceleration a / (1 + epsilon), is the other coordinate of a module.
+All eight coordinates are continuous; the right-hand side jumps at walls and where v changes its sign. A step of length
+h across a jump has an error of the order of h for any integrator (here the classical Runge-Kutta method), unless the
+jump is located. Without location the method is of first order. A ball cannot rest on a wall: it continues to impact.
 """
 
 import math
@@ -27,8 +27,8 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 
 SHORTEST, PATIENCE = 1e-6, 100
-"""A run is stopped, as endless chatter, after PATIENCE jumps in sequence with times below SHORTEST in between."""
-HALVINGS = 50  # bisections of a step to locate a jump
+"""A run is stopped, as an endless chatter, after PATIENCE successive steps to a jump that are shorter than SHORTEST."""
+HALVINGS = 50  # bisections of a step that locate a jump
 
 
 class Ivanov(Method):
@@ -37,7 +37,7 @@ class Ivanov(Method):
     Parameters
     ----------
     located : bool
-        True if a step ends where the right-hand side jumps.
+        True if steps end where the right-hand side jumps.
     """
 
     family, knob, limit = "transformed coordinates", "steps per cycle", 30_000_000
@@ -60,9 +60,9 @@ class Ivanov(Method):
 
 
 def unfolded(state, epsilon: float, k: float) -> np.ndarray:
-    """Return the unfolded coordinates of a state (8,), in box n = 0.
+    """Return the unfolded coordinates of a state (8,), with both balls in box n = 0.
 
-    They are [s, v, centre of mass, its velocity] of both modules, shape (8,).
+    The coordinates, shape (8,), are s, v, centre of mass and its velocity, for module 1 and then for module 2.
     """
     x, y = state[BOXES], state[BALLS]
     W, W_rate = x[:2] - y[:2], x[2:] - y[2:]
@@ -71,7 +71,7 @@ def unfolded(state, epsilon: float, k: float) -> np.ndarray:
 
 
 def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
-    """Return the state (8,) of unfolded coordinates (8,), given the box n of each ball."""
+    """Return the state (8,) for unfolded coordinates (8,), given the box n of each ball."""
     s, v, centre, rate = z.reshape(2, 4).T
     p, sign = s - 2.0 * boxes, 1.0 - 2.0 * (boxes % 2)
     W, W_rate = sign * p, sign * (1.0 + k * np.sign(v) * p) * v
@@ -83,9 +83,9 @@ def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
 
 @disk_cached(error_model="numpy")
 def _rates(tau, z, q, k, boxes, ways, d):
-    """Write the derivative of the unfolded coordinates into d, for given boxes and signs of v.
+    """Write the derivative of the unfolded coordinates into d, for given boxes and signs of v (`ways`).
 
-    The formula stays smooth outside the region in which the boxes and signs are the given ones.
+    The formula is smooth, also at coordinates z with another box or sign than the given ones.
     """
     share, s = q[9] / (1.0 + q[9]), np.empty(8)
     for i in range(2):
@@ -101,9 +101,9 @@ def _rates(tau, z, q, k, boxes, ways, d):
 
 @disk_cached()
 def _step(tau, z, h, q, k, boxes, ways, looking):
-    """Return the coordinates one step later.
+    """Return the coordinates after a step of length h.
 
-    If `looking` is set, each stage uses the right-hand side of its own position.
+    If `looking` is True, each stage uses the boxes and signs at its own position instead of the given ones.
     """
     rates, ahead, at = np.empty(8), z.copy(), z.copy()
     for stage in range(4):
@@ -118,7 +118,7 @@ def _step(tau, z, h, q, k, boxes, ways, looking):
 
 @disk_cached()
 def _look(z, boxes, ways):
-    """Write the sign of each v and the box that each ball is in.
+    """Write the box of each ball into `boxes`, and the sign of each v into `ways`.
 
     A ball on a wall belongs to the box that it enters.
     """
@@ -130,15 +130,15 @@ def _look(z, boxes, ways):
 
 @disk_cached()
 def _impact(tau, i, box, direction, speed, k):
-    """Return the row (tau, module, wall, speed) of an impact, for a ball that leaves a box of the unfolded line."""
+    """Return the row (tau, module, wall, speed) of the impact at which a ball leaves a box of the unfolded line."""
     return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * direction, (1.0 + k) * abs(speed)
 
 
 @disk_cached()
 def _march_across_jumps(q, k, z, tau0, h, count):
-    """Return coordinates, boxes, impacts and number of steps at the end, without locating jumps.
+    """Take `count` steps across jumps, without locating them.
 
-    The last result, the time of an endless chatter, is always nan.
+    Return coordinates and boxes at the end, impacts, number of steps, and nan (see `_march_to_jumps`).
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, ways = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
@@ -147,7 +147,7 @@ def _march_across_jumps(q, k, z, tau0, h, count):
         _look(ahead, boxes, ways)
         for i in range(2):
             if boxes[i] != before[i]:
-                wall = before[i] + boxes[i]  # in s
+                wall = before[i] + boxes[i]  # value of s at the wall
                 part = (wall - z[4 * i]) / (ahead[4 * i] - z[4 * i])
                 direction = 1.0 if boxes[i] > before[i] else -1.0
                 rows.append(_impact(tau0 + (n + part) * h, i, before[i], direction, ahead[4 * i + 1], k))
@@ -157,9 +157,9 @@ def _march_across_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _march_to_jumps(q, k, z, tau0, h, count):
-    """Return coordinates, boxes, impacts and number of steps at the end, with steps that end at jumps.
+    """Take `count` steps, each of which is divided at the jumps within it.
 
-    The last result is the time of an endless chatter, or nan.
+    Return coordinates and boxes at the end, impacts, number of steps, and the time of an endless chatter, or nan.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     boxes, ways, idle, steps = np.zeros(2, np.int64), np.ones(2), 0, 0
@@ -188,7 +188,7 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, ways):
-    """Bisect a step that ends beyond a jump; return the shortest such fraction found, and the coordinates there."""
+    """Bisect a step that ends beyond a jump; return the shortest fraction that still does, and its last coordinates."""
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, ways, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)
@@ -202,9 +202,9 @@ def _first_jump(tau, z, part, h, q, k, boxes, ways):
 
 @disk_cached()
 def _beyond(z, boxes, ways):
-    """Return True if the right-hand side should have jumped, or if the coordinates are not finite.
+    """Return True if the coordinates are beyond a jump of the right-hand side, or are not finite.
 
-    The latter happens in a step so long that R vanishes.
+    Coordinates that are not finite result from a step so long that R vanishes.
     """
     within = True
     for i in range(2):
@@ -215,12 +215,12 @@ def _beyond(z, boxes, ways):
 
 @disk_cached()
 def _ahead_of(z, i, boxes, ways):
-    """Return the distance of the next wall, and |v|; negative once the right-hand side should have jumped."""
+    """Return the distance to the next wall, and |v|; beyond a jump one of them is negative."""
     return 1.0 - ways[i] * (z[4 * i] - 2.0 * boxes[i]), ways[i] * z[4 * i + 1]
 
 
 def variants() -> list[Ivanov]:
-    """Return the methods without and with location of the jumps."""
+    """Return two methods: one without and one with location of the jumps."""
     return [
         Ivanov("Ivanov", False, (100, 300, 1_000, 3_000, 10_000, 30_000), careful=30_000, order=1),
         Ivanov("Ivanov, events", True, (10, 30, 100, 300, 1_000, 3_000), careful=3_000, order=4),

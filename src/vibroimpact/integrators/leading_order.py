@@ -1,4 +1,4 @@
-"""Leading-order solution of the chapter, (10.9)-(10.12), as a method without transient and integration."""
+"""Use the chapter's leading-order solution, (10.9)-(10.12), as a method, without integration and transient."""
 
 from functools import partial
 
@@ -30,7 +30,7 @@ class LeadingOrder(Method):
 
 
 def steady_state(system, point, tau) -> np.ndarray:
-    """Return the leading-order state (8,) at a time, with velocities derived from the displacements."""
+    """Return the leading-order state (8,) at a time; its velocities are the derivatives of its displacements."""
     response = leading_order(system, point, [tau])
     phase = system.Omega * tau - point.psi
     U_rate = system.Omega * point.B * np.cos(phase)

@@ -1,7 +1,7 @@
-"""Exact flow between impacts as a sum of modes of the boxes; impacts by a scan and Newton's method, compiled.
+"""Compute flights exactly as sums of modes of the boxes; find impacts by sampling the gaps and Newton's method.
 
-This is the strongest simple method: as exact in flight as the engine, but without a proof that no event occurs between
-two samples.
+This is the best simple method. In flight it is as exact as the engine, but it has no proof that no event occurs between
+two samples. The code is compiled.
 """
 
 import math
@@ -26,11 +26,11 @@ from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 WORST = 1e8
 """Condition number of the eigenvectors at which the modes have lost half of their digits."""
 TRIES, NEAR = 60, 3e-8
-"""Largest number of Newton steps for an event, and the length of the last step, whose square is below rounding."""
+"""Largest number of Newton steps for an event, and the length [tau] of a last step, whose square is below rounding."""
 
 
 class Modal(Method):
-    """Modal scan; the setting is the number of samples of the gaps per cycle."""
+    """Sampling of the modal solution; the setting is the number of samples of the gaps per cycle."""
 
     name, family, knob = "modal scan", "exact flow", "looks per cycle"
     settings = (8, 16, 32, 64, 128, 256)
@@ -50,11 +50,11 @@ class Modal(Method):
 
 @lru_cache(maxsize=64)
 def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
-    """Return the tables of the four contact states, and the largest condition number of their eigenvectors.
+    """Return tables of the modes in the four contact states, and the largest condition number of the eigenvectors.
 
-    Tables: numbers of modes, (4,), of which the last is the forcing; their rates, (4, 2, 5), real and imaginary parts;
-    mode shapes in [X1, X2, X1', X2'], of which the motion is the real part, doubled for a conjugate pair, (4, 2, 4, 5);
-    amplitudes of the other modes per free part of the boxes, (4, 2, 4, 4).
+    Tables: number of modes, (4,), where the last mode is the forced response; rates of the modes, (4, 2, 5); mode
+    shapes in [X1, X2, X1', X2'], doubled for a conjugate pair, (4, 2, 4, 5); matrix from the free motion of the boxes
+    to the amplitudes of the free modes, (4, 2, 4, 4). Axes of length 2 hold real and imaginary parts.
     """
     counts, worst = np.zeros(4, np.intp), 0.0
     rates, shapes, inverses = (np.zeros((4, *shape), complex) for shape in ((5,), (4, 5), (4, 4)))
@@ -75,7 +75,7 @@ def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
 
 @inlined()
 def _turn(rates, count, t, turns):
-    """Write the factors of the amplitudes over a time t, real and imaginary parts (2, 5)."""
+    """Write the factors by which the amplitudes change over a time t into `turns`, real and imaginary parts (2, 5)."""
     for k in range(count):
         size, angle = math.exp(rates[0, k] * t) if rates[0, k] != 0.0 else 1.0, rates[1, k] * t
         turns[0, k], turns[1, k] = size * math.cos(angle), size * math.sin(angle)
@@ -83,7 +83,7 @@ def _turn(rates, count, t, turns):
 
 @inlined()
 def _advance(turns, count, amplitudes, later):
-    """Write the amplitudes (2, 5) after the time of the factors."""
+    """Write the product of the amplitudes (2, 5) and the factors of `_turn` into `later`."""
     for k in range(count):
         re, im, c, s = amplitudes[0, k], amplitudes[1, k], turns[0, k], turns[1, k]
         later[0, k], later[1, k] = re * c - im * s, re * s + im * c
@@ -91,7 +91,7 @@ def _advance(turns, count, amplitudes, later):
 
 @inlined()
 def _amplitudes(s, tau, omega, count, inverse, shape, amplitudes):
-    """Write the amplitudes of the modes and of the forcing in the state s (8,) at tau."""
+    """Write the amplitudes of the free modes and of the forced response for the state s (8,) at time tau."""
     n = count - 1
     c, d = math.cos(omega * tau), math.sin(omega * tau)
     amplitudes[0, n], amplitudes[1, n] = c, d
@@ -106,7 +106,7 @@ def _amplitudes(s, tau, omega, count, inverse, shape, amplitudes):
 
 @inlined()
 def _state(s, walls, count, shape, amplitudes, t, there):
-    """Write the state (8,) a time t after the start s of a flight, with the amplitudes of that time."""
+    """Write the state (8,) at a time t after the start s of a flight into `there`, from the amplitudes at that time."""
     for j in range(4):
         total = 0.0
         for k in range(count):
@@ -120,9 +120,9 @@ def _state(s, walls, count, shape, amplitudes, t, there):
 
 @inlined()
 def _guess(before, there, i, low, high):
-    """Return a zero of the cubic that interpolates the gap of module i and its slope in two states.
+    """Return the zero of the cubic that has the gap of module i, and the slope of the gap, in two states.
 
-    Newton's method starts at the secant.
+    Newton's method starts at the zero of the tangent in the later state.
     """
     x = 2 * i
     wall = 1.0 if there[x] - there[x + 1] > 0.0 else -1.0
@@ -140,9 +140,9 @@ def _guess(before, there, i, low, high):
 
 @disk_cached(error_model="numpy", fastmath={"contract"})
 def _march(q, tables, s, tau, end, step, limit):
-    """Run in at most `limit` samples; return the final state, rows of impacts, number of samples and time.
+    """Integrate to `end` with at most `limit` samples; return the last state, rows of impacts, sample count and time.
 
-    Rows hold [time, module, wall, speed].
+    A row is [time, module, wall, speed].
     """
     counts, all_rates, all_shapes, inverses = tables
     walls, ahead, amplitudes = np.zeros(2), np.empty((4, 2, 5)), np.empty((2, 5))
@@ -166,10 +166,10 @@ def _march(q, tables, s, tau, end, step, limit):
 
 @inlined_source()
 def _fly(q, flight, tau, length, stride, most, memory):
-    """Sample a flight until an event, its end or `most` samples; return (module due or -1, time, number of samples).
+    """Sample a flight until an event, its end or `most` samples; return (module of the event or -1, time, samples).
 
-    stride: time between samples, and the factors of the amplitudes over it. The state at that time is written to
-    memory[2].
+    stride: time between samples, and the factors of the amplitudes over it. The state at the returned time is written
+    to memory[2].
     """
     (s, walls, count, shape, rates, amplitudes), (step, ahead), (modes, states, reached) = flight, stride, memory
     (now, trial, turns), (before, there, event) = modes, states
@@ -204,9 +204,8 @@ def _fly(q, flight, tau, length, stride, most, memory):
 def _event(q, flight, tau, i, times, states, memory, event):
     """Return the time between two samples at which the guard of module i falls through zero.
 
-    The state at that time is written to `event`.
-
-    Newton's method starts at the zero of a cubic through both samples; bisection is the fallback.
+    The state at that time is written to `event`. Newton's method starts at the zero of a cubic through both samples;
+    bisection is the fallback.
     """
     (s, walls, count, shape, rates, amplitudes), (turns, trial) = flight, memory
     (low, high), (before, there) = times, states

@@ -1,4 +1,4 @@
-"""Moreau-Jean time-stepping without events (Jean 1999; Acary and Brogliato 2008)."""
+"""Integrate by Moreau-Jean time-stepping, which locates no events (Jean 1999; Acary and Brogliato 2008)."""
 
 import math
 
@@ -10,7 +10,7 @@ from vibroimpact.integrators.right_hand_side import coefficients
 
 
 class MoreauJean(Method):
-    """Implicit midpoint rule with the restitution law for the velocities of a step.
+    """Implicit midpoint rule, with the restitution law between the velocities before and after a step.
 
     The setting is the number of steps per cycle.
     """
@@ -31,9 +31,9 @@ class MoreauJean(Method):
 
 @disk_cached()
 def _march(q, s, tau0, h, steps):
-    """Return the state after a number of steps, and a row per contact.
+    """Take a given number of steps of length h; return the last state, and one row per contact.
 
-    Rows hold [time, module, wall, speed] of the first step of each contact.
+    A row is [time, module, wall, speed] in the first step of the contact.
     """
     k11, k12, k22, c11, c12, c22, f1, f2, omega, epsilon, kappa = q
     g = 0.5 * h
@@ -75,9 +75,9 @@ def _closed(gap, speed, g):
 
 @disk_cached()
 def _impulses(q1, q2, d11, d12, d22):
-    """Return the impulses P >= 0 with q - D P <= 0 and P (q - D P) = 0.
+    """Solve P >= 0, D P - q >= 0, P (D P - q) = 0 for the impulses P on the two balls.
 
-    D is positive definite; q = -inf where there is no contact.
+    D is positive definite, and q is -inf for a ball without contact.
     """
     if q1 <= 0.0 and q2 <= 0.0:
         return 0.0, 0.0

@@ -1,7 +1,7 @@
-"""Compliant contact: walls of springs and dampers (contact_laws), integrated as ordinary forces.
+"""Integrate with compliant walls, made of springs and dampers (contact_laws), whose forces depend on the state alone.
 
-The method of Dormand and Prince (1980) is explicit, since a contact is an oscillation that must be resolved. It is
-compiled, since a general solver would spend most of its time outside the evaluation of the force.
+The method of Dormand and Prince (1980) is used. It is explicit, since a contact is an oscillation that must be
+resolved. It is compiled, since a general solver would spend most of its time outside the evaluation of the force.
 """
 
 import math
@@ -26,18 +26,18 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
 SLOWEST = 1e-3
-"""Lowest speed of contact for which the damping is set, since a damping proportional to 1 / V has no limit at rest."""
+"""Lowest speed V for which the damping of a contact is set; a damping proportional to 1 / V has no limit at V = 0."""
 NOTICED = 0.01
-"""Speed of a ball that just reaches the depth of a counted impact, if the wall is a spring over the whole box."""
+"""Lowest speed, in the middle of the box, of a ball whose impact is counted, if the wall is a spring over the box."""
 SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
-HALVINGS = 40  # bisections of a step to end it at the beginning of a contact
+HALVINGS = 40  # bisections that make a step end where a contact begins
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
 
 class Penalty(Method):
-    """Compliant walls with one contact law.
+    """Integration with compliant walls that have one given contact law.
 
-    The accuracy setting is the duration T [forcing periods] of an undamped contact at speed 1.
+    The setting is the duration of an undamped contact at speed 1 [forcing periods].
     """
 
     family, knob, order = "compliant contact", "contact duration", 1
@@ -67,7 +67,7 @@ class Penalty(Method):
 
 
 class PowerLaw(Penalty):
-    """A spring W^(2n - 1) over the whole box; the setting is n.
+    """Integration with a spring W^(2n - 1) over the whole box instead of walls; the setting is n.
 
     Parameters
     ----------
@@ -94,12 +94,12 @@ class PowerLaw(Penalty):
 
 
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
-    """Return [n, m, K, D at speed 1, power of 1 / V in D, origin of p, |W| at which contact begins]."""
+    """Return [n, m, K, D at speed 1, power of 1 / V in D, |W| at p = 0, |W| at which contact begins]."""
     return np.array([law.stiffness, law.damping, stiffness, damping, fading(law), float(law.walls), contact])
 
 
 def variants() -> list[Penalty]:
-    """Return one method for each law."""
+    """Return one method for each contact law."""
     return [
         Penalty("penalty", SPRING),
         Penalty("Hertz", HERTZ),
@@ -110,9 +110,9 @@ def variants() -> list[Penalty]:
 
 @disk_cached()
 def force(gap, speed, law, damping):
-    """Return the force on the ball from its walls, for W, W' and the D of this contact.
+    """Return the force of the walls on a ball, for its W and W' and the damping D of the present contact.
 
-    The force on the box is the opposite.
+    The force on the box has the opposite sign.
     """
     depth = abs(gap) - law[5]
     if depth <= 0.0:
@@ -125,7 +125,7 @@ def force(gap, speed, law, damping):
 def _rates(tau, s, contact, d):
     """Write the derivative of the state into d.
 
-    `contact` holds the coefficients, the law, and D of both contacts.
+    `contact` is (coefficients of the system, numbers of the law, D of both contacts).
     """
     q, law, dampings = contact
     a = accelerations(math.sin(q[8] * tau), s, q, (0.0, 0.0))
@@ -145,7 +145,7 @@ def _sum(weights, rates, count, c):
 
 @disk_cached()
 def _step(stages, tau, s, h, contact):
-    """Return the state one step later, and the error as a multiple of the allowed one."""
+    """Return the state after a step of length h, and the estimated error divided by the allowed error."""
     A, B, C, E = stages
     rates, ahead, error = np.empty((7, 8)), s.copy(), 0.0
     for k in range(6):
@@ -163,28 +163,28 @@ def _step(stages, tau, s, h, contact):
 
 @disk_cached()
 def _reach(s, i, law):
-    """Return the depth of ball i beyond the beginning of contact; it is negative in flight."""
+    """Return |W| of ball i minus the |W| at which contact begins; it is negative in flight."""
     return abs(s[2 * i] - s[2 * i + 1]) - law[6]
 
 
 @disk_cached()
 def _outwards(s, i):
-    """Return the wall on the side of ball i, and the speed of the ball towards it."""
+    """Return the wall (+1 or -1) that is nearer to ball i, and the speed of the ball towards this wall."""
     wall = 1.0 if s[2 * i] > s[2 * i + 1] else -1.0
     return wall, wall * (s[2 * i + 4] - s[2 * i + 5])
 
 
 @disk_cached()
 def _march(q, law, stages, s, tau, end, limit):
-    """Return the state reached in at most `limit` steps, rows of impacts, the number of steps and the time.
+    """Integrate to `end` in at most `limit` steps; return the last state, rows of impacts, number of steps and time.
 
-    Rows hold [tau, module, wall, speed].
+    A row is [tau, module, wall, speed].
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     touching, dampings = np.zeros(2, np.bool_), np.full(2, law[3])
     contact, h, steps = (q, law, dampings), 0.01 * (end - tau), 0
     while steps < limit:
-        for i in range(2):  # a contact begins at the end of a step
+        for i in range(2):  # a contact always begins at the end of a step
             wall, speed = _outwards(s, i)
             if not touching[i] and _reach(s, i, law) >= 0.0:
                 touching[i], dampings[i] = True, law[3] * max(speed, SLOWEST) ** -law[4]
@@ -206,7 +206,7 @@ def _march(q, law, stages, s, tau, end, limit):
 
 @disk_cached()
 def _until_contact(stages, tau, s, h, ahead, contact, touching):
-    """Return the step, cut just after the first contact that begins in it."""
+    """Shorten a step to end just after the first contact in it begins; return its length and the state at its end."""
     least = 0.0
     for _ in range(HALVINGS):
         if not _begins(ahead, contact[1], touching) or least == h:

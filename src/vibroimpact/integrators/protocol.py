@@ -1,4 +1,4 @@
-"""Protocol of an integrator: a name, settings from coarse to fine, and runs that report their failures."""
+"""Define what each integrator provides: a name, settings from coarse to fine, and runs that report their failures."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
@@ -26,14 +26,14 @@ class Failure:
 
 @dataclass(eq=False)
 class MethodRun:
-    """Result of a method.
+    """Result of a run of one method.
 
-    final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure. noted: the impacts in
-    order of time, (tau, module, wall, speed) each, or a function that returns them. steps: integration steps.
-    evaluations: evaluations of the right-hand side if the method counts them, else 0. failure: None, or the reason for
-    having no result. doubt(): None, or what the method itself reports as undecided.
+    final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure. noted: impacts (tau,
+    module, wall, speed) in order of time, or a function that returns them. steps: number of integration steps.
+    evaluations: number of evaluations of the right-hand side if the method counts them, else 0. failure: reason for
+    having no result, or None. doubt(): text on what the method itself reports as undecided, or None.
 
-    `impacts` and doubt() are evaluated after the run, so that its time does not include them.
+    `impacts` and doubt() are evaluated after the run, so that the measured run time does not include them.
     """
 
     final: np.ndarray | None
@@ -45,7 +45,7 @@ class MethodRun:
 
     @cached_property
     def impacts(self) -> np.ndarray:
-        """The noted impacts as one table, (n,) of type IMPACT."""
+        """Impacts in `noted` as one array, (n,) of type IMPACT."""
         rows = self.noted() if callable(self.noted) else self.noted
         return np.array([tuple(row) for row in rows], IMPACT)
 
@@ -53,10 +53,10 @@ class MethodRun:
 class Method(ABC):
     """An integrator of (10.2). To add one, write a file with a subclass and list it in `integrators.METHODS`.
 
-    name, family: as printed. settings: from coarse to fine, of the kind that `knob` names. careful: the setting that a
-    careful user would choose for difficult motions. order: expected order of convergence in `scale`, or None. limit:
-    number of steps after which a run is stopped, roughly half a minute. compiles_settings: True if each setting has its
-    own code, compiled on its first run.
+    name, family: texts for tables and legends. knob: what a setting is, such as "steps per cycle". settings: values
+    from coarse to fine. careful: the setting that a careful user would choose for difficult motions. order: expected
+    order of convergence in `scale`, or None. limit: number of steps after which a run is stopped, roughly half a
+    minute. compiles_settings: True if each setting has its own code, compiled on its first run.
     """
 
     name: str
@@ -76,11 +76,12 @@ class Method(ABC):
     def run(self, system, state, cycles: int, tau0: float, setting, limit: int | None = None) -> MethodRun:
         """Integrate from a state (8,) at tau0 over `cycles` forcing periods in at most `limit` steps.
 
-        setting: one of `settings`. limit: that of the method by default. A run that cannot continue returns a failure.
+        setting: one of `settings`. limit: by default the limit of the method. A run that cannot continue returns a
+        failure.
         """
 
     def scale(self, setting, run: MethodRun) -> float:
-        """Return the small quantity that controls the error; by default the mean step."""
+        """Return the small quantity that controls the error; by default 1 / number of steps, the mean step."""
         return 1.0 / run.steps
 
 

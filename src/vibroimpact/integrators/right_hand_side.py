@@ -1,4 +1,4 @@
-"""Right-hand side of (10.2) between impacts for general-purpose integrators, compiled, in the public order."""
+"""Compiled right-hand side of (10.2) between impacts, for general-purpose integrators; states in the public order."""
 
 import math
 from functools import partial
@@ -12,9 +12,9 @@ from vibroimpact.system.state import BALLS, BOXES
 NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon", "kappa"
 
 inlined = partial(disk_cached, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
-"""Decorator of functions that run at every step; cached code is inlined only if this is requested."""
+"""Decorator for functions that run at every step; Numba inlines cached code only if this is requested."""
 inlined_source = partial(disk_cached, inline="always")
-"""Decorator of functions that round like their caller: SciPy's integrators receive no contracted products."""
+"""Decorator for functions that round like their caller, so that SciPy's integrators get no contracted products."""
 
 
 def coefficients(system) -> np.ndarray:
@@ -26,9 +26,9 @@ def coefficients(system) -> np.ndarray:
 
 @inlined_source()
 def accelerations(sine, s, q, walls):
-    """Return X1'' and X2'' in the state s (8,) for a sine of the forcing phase.
+    """Return X1'' and X2'' in the state s (8,), given the sine of the forcing phase.
 
-    walls: for each ball, the wall it sticks to, or 0; such a ball moves with its box as one mass 1 + epsilon.
+    walls: for each ball, the wall that it sticks to, or 0. A sticking ball and its box move as one mass 1 + epsilon.
     """
     a1 = q[6] * sine - q[0] * s[0] - q[1] * s[2] - q[3] * s[4] - q[4] * s[6]
     a2 = q[7] * sine - q[1] * s[0] - q[2] * s[2] - q[4] * s[4] - q[5] * s[6]
@@ -37,7 +37,7 @@ def accelerations(sine, s, q, walls):
 
 @inlined_source()
 def derivative(sine, s, q, walls, d):
-    """Write the derivative of the state s (8,) to d (8,)."""
+    """Write the derivative of the state s (8,) into d (8,), given the sine of the forcing phase."""
     a1, a2 = accelerations(sine, s, q, walls)
     for k in range(4):
         d[k] = s[4 + k]
@@ -47,7 +47,7 @@ def derivative(sine, s, q, walls, d):
 
 @disk_cached()
 def rates(tau, s, q, walls):
-    """Return the derivative of the state, shape (8,), at a time."""
+    """Return the derivative of the state s, shape (8,), at time tau."""
     d = np.empty(8)
     derivative(math.sin(q[8] * tau), s, q, walls, d)
     return d

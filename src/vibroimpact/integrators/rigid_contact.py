@@ -1,9 +1,10 @@
-"""Contact logic shared by the event-driven integrators, applied where a general integrator stopped at a wall.
+"""Contact logic shared by the event-driven integrators, applied where an integrator has stopped at an event.
 
-General integrators cannot treat a ball at rest on a wall, which follows chatter. A ball whose rebound is slower than
-`slow` sticks if the box presses it against the wall; the omitted impacts shift the state by less than the third power
-of that speed. The result of the integrator is not checked: if it misses a wall, the ball continues beyond it. The code
-is compiled; q is as in `right_hand_side`. The impact law is that of `vibroimpact.system.restitution`.
+General integrators cannot treat the end of a chatter, a ball at rest on a wall. So a ball whose rebound is slower than
+`slow` sticks if the box presses it against the wall; the omitted impacts change the state by less than slow^3. The
+result of the integrator is not checked: if it misses an impact, the ball continues beyond the wall. The code is
+compiled. The coefficients q are those of `right_hand_side`, and the impact law is that of
+`vibroimpact.system.restitution`.
 """
 
 import math
@@ -14,22 +15,22 @@ from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.right_hand_side import accelerations, coefficients, inlined
 
 SLOWEST = 1e-6
-"""Lowest speed of a rebound that is followed; the omitted change, epsilon times its third power, is below rounding."""
+"""Lowest rebound speed that is followed. Slower rebounds change the state by epsilon SLOWEST^3, less than rounding."""
 ROOM = 64
-"""Initial number of rows for impacts of a run."""
+"""Number of rows for the impacts of a run that are allocated at the start."""
 
 
 @inlined()
 def acceleration(tau, s, q, walls, i):
-    """Return X_i'' in the state s (8,) at a time."""
+    """Return X_i'' of module i in the state s (8,) at time tau."""
     return accelerations(math.sin(q[8] * tau), s, q, walls)[i]
 
 
 @inlined()
 def guard(tau, s, q, walls, i):
-    """Return the function that falls below zero at the next event of module i.
+    """Return the value of the function that falls below zero at the next event of module i.
 
-    It is the gap of a flying ball, or the contact force of a sticking ball.
+    This function is the gap of a flying ball, or the contact force of a sticking ball.
     """
     if walls[i] != 0.0:
         return walls[i] * acceleration(tau, s, q, walls, i)
@@ -69,9 +70,9 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 
 @inlined()
 def first_look(tau, s, q, walls, step):
-    """Return the time of the first sample of the gaps.
+    """Return the time from now at which to evaluate the gaps first, so that no short flight is missed.
 
-    It is a step, or half of the shortest hop that has just begun on a wall.
+    It is `step`, or half the duration expected of a flight that begins at a wall now, if this is shorter.
     """
     for i in range(2):
         x = 2 * i
@@ -85,19 +86,19 @@ def first_look(tau, s, q, walls, step):
 
 @inlined()
 def newton_or_middle(t, value, slope, low, high):
-    """Return the next time at which to evaluate the function, in [low, high].
+    """Return the time after a Newton step from t, or the middle of [low, high] if this time lies outside.
 
-    The function falls below zero within this interval. If `t` is a zero already, it is returned.
+    The function, with the given value and slope at t, falls below zero within the interval. At a zero, t is returned.
     """
     after = t - value / slope if slope != 0.0 else math.inf
     return after if low <= after <= high else 0.5 * (low + high)
 
 
 class Contacts:
-    """Discrete part of a run for integrators without contact logic.
+    """Contact states and impacts of a run, for integrators without contact logic.
 
-    numbers: `right_hand_side.coefficients`. walls: (2,), the wall that each ball sticks to, or 0. impacts: rows (time,
-    module, wall, speed).
+    numbers: result of `right_hand_side.coefficients`. walls: (2,), the wall that each ball sticks to, or 0. impacts:
+    rows (time, module, wall, speed).
     """
 
     def __init__(self, system, slow: float):
@@ -105,11 +106,11 @@ class Contacts:
         self.walls, self.impacts = np.zeros(2), []
 
     def start(self, tau, s):
-        """Let balls that rest on a wall at the start stick if they are pressed against it."""
+        """Resolve the contact of each ball that is on a wall at the start: it impacts, sticks or leaves."""
         self.resolve(tau, s, [-1])
 
     def resolve(self, tau, s, due):
-        """Update the state (8,) in place at an event of the modules `due`: an impact, or a vanishing force."""
+        """Update the state (8,) in place at an event of the modules `due`, an impact or a vanishing contact force."""
         for module in due:
             rows, count = resolve(tau, s, self.numbers, self.walls, module, np.empty((2, 4)), 0, self.slow)
             self.impacts += map(tuple, rows[:count])

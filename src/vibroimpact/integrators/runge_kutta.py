@@ -1,6 +1,6 @@
-"""Classical Runge-Kutta method of fourth order with fixed steps and impacts by Newton's method, compiled.
+"""Integrate with fixed steps of the classical fourth-order Runge-Kutta method; find impacts by Newton's method.
 
-This is careful handwritten code, without the interpreter overhead of SciPy.
+The code is written by hand and compiled, so that it has no interpreter overhead, unlike SciPy.
 """
 
 import math
@@ -13,7 +13,7 @@ from vibroimpact.integrators.right_hand_side import coefficients, derivative, in
 from vibroimpact.integrators.rigid_contact import ROOM, SLOWEST, first_look, guard, newton_or_middle, resolve
 
 TRIES, NEAR = 60, 1e-14
-"""Largest number of Newton steps for an event, and the length of the last step."""
+"""Largest number of Newton steps for an event, and the length [tau] of a step that is the last one."""
 
 
 class RungeKutta4(Method):
@@ -34,7 +34,7 @@ class RungeKutta4(Method):
 
 @inlined()
 def _step(tau, s, q, walls, h, slopes, there):
-    """Write the state after one step of length h; slopes (4, 8) is workspace for the stages."""
+    """Write the state after one step of length h into `there`; `slopes` (4, 8) is workspace for the stages."""
     omega = q[8]
     middle = math.sin(omega * (tau + 0.5 * h))
     derivative(math.sin(omega * tau), s, q, walls, slopes[0])
@@ -49,7 +49,7 @@ def _step(tau, s, q, walls, h, slopes, there):
 
 @inlined()
 def _event(tau, s, q, walls, i, high, slopes, event):
-    """Return the step length, below `high`, at whose end the guard of module i vanishes.
+    """Return the length of the step, below `high`, at the end of which the guard of module i vanishes.
 
     The state at that time is written to `event`.
     """
@@ -68,9 +68,9 @@ def _event(tau, s, q, walls, i, high, slopes, event):
 
 @disk_cached(error_model="numpy", fastmath={"contract"})
 def _march(q, s, tau, end, step, limit):
-    """Return the state reached in at most `limit` steps, rows of impacts, the number of steps and the time.
+    """Integrate to `end` in at most `limit` steps; return the last state, rows of impacts, number of steps and time.
 
-    Rows hold [time, module, wall, speed].
+    A row is [time, module, wall, speed].
     """
     walls, slopes = np.zeros(2), np.empty((4, 8))
     there, event, found = np.empty(8), np.empty(8), np.empty(8)

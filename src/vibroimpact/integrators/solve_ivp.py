@@ -1,4 +1,4 @@
-"""SciPy's solve_ivp: terminal events at the walls and at vanishing contact forces, restarted after each."""
+"""Integrate with SciPy's solve_ivp: an impact or a vanishing contact force is a terminal event, then it restarts."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -10,13 +10,13 @@ from vibroimpact.system.state import BALLS, BOXES
 
 ABSOLUTE = 1e-2  # atol / rtol
 LOST = "its interpolant misses the impact that its step has found"
-PATIENCE = 100  # events without progress of time
+PATIENCE = 100  # largest number of successive events without progress in time
 
 
 class SolveIvp(Method):
-    """An integrator of solve_ivp with compiled right-hand side and Jacobian; the setting is rtol.
+    """One method of solve_ivp, with compiled right-hand side and Jacobian; the setting is rtol.
 
-    The first step after an impact is kept below half of the expected hop, so that chatter is not stepped over.
+    The first step after an impact is at most half of the expected flight, so that no impact of a chatter is missed.
     """
 
     family, knob = "solve_ivp", "rtol"
@@ -66,10 +66,10 @@ class SolveIvp(Method):
 
 
 def _events(i, wall):
-    """Return two functions of which one falls through zero at the next event of module i.
+    """Return two functions, at least one of which falls through zero at the next event of module i.
 
-    These are the gaps to both walls, or, for a sticking ball, its contact force twice, so that the positions are the
-    same.
+    For a flying ball they are the gaps to both walls. For a sticking ball both are the contact force, so that each
+    module has two functions in every contact state.
     """
     x, y = BOXES[i], BALLS[i]
     if wall:
@@ -94,7 +94,7 @@ def _terminal(function):
 
 
 def integrators() -> list[SolveIvp]:
-    """Return the explicit, implicit and switching integrators of solve_ivp."""
+    """Return explicit, implicit and switching methods of solve_ivp."""
     coarse = 1e-3, 1e-4, 1e-5, 1e-6, 1e-7
     fine = 1e-8, 1e-9, 1e-10, 1e-11
     return [
