@@ -35,7 +35,7 @@ X_LEVEL, Y_LEVEL = TOP + 10.0, TOP + 5.0
 
 
 def compute() -> dict:
-    """Return no tables, since a drawing to scale has no numbers."""
+    """Return no tables, since the drawing shows no computed numbers."""
     return {}
 
 

@@ -17,7 +17,7 @@ SPEC = {
 
 WIDTH, HEIGHT = SINGLE_COLUMN, 46.0
 L, RADIUS, OFFSET = 20.0, 5.0, 8.0
-"""Free travel of the ball to either side, its radius, and its displacement y - x from the middle, in mm on paper."""
+"""Free path of the ball to either side, radius of the ball, and its displacement y - x, in mm on paper."""
 ORIGIN, CENTRE, BOTTOM = 5.0, 47.0, 10.0
 BOX_WIDTH, BOX_HEIGHT = 62.0, 19.0
 CAVITY_BOTTOM, AXIS = 13.5, 18.5
@@ -25,7 +25,7 @@ X_LEVEL, Y_LEVEL, L_LEVEL = 41.0, 35.0, 4.0
 
 
 def compute() -> dict:
-    """Return no tables, since a drawing to scale has no numbers."""
+    """Return no tables, since the drawing shows no computed numbers."""
     return {}
 
 

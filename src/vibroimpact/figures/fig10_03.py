@@ -35,12 +35,12 @@ def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
 
     The amplitude C and the phase theta [rad] are constant.
 
-    Returns columns panel, series ("Z" or "impacts"), tau0, Z. The corners are among the points of the line.
+    Returns columns panel, series ("Z" or "impacts"), tau0, Z. The points of the line include its corners.
 
     Raises
     ------
     ValueError
-        If amplitude is not above 0, or the window holds no impact.
+        If amplitude is not above 0, or the window contains no impact.
     """
     if not amplitude > 0:
         raise ValueError(f"amplitude: {amplitude} is not above 0")
@@ -57,13 +57,13 @@ def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the impacts: instant tau_0, level Z, and time since the previous impact."""
+    """Return one row per impact: tau0, Z, and the time since the previous impact (column after)."""
     impacts = select(table, "Z", "impacts")[["tau0", "Z"]]
     return impacts.assign(after=impacts["tau0"].diff()).reset_index(drop=True)
 
 
 def exact(amplitude: float, theta: float, tau0_max: float) -> str:
-    """Return the exact system's verdict in Markdown; arguments as in `compute`."""
+    """Return a sentence on the exact system, in Markdown; the arguments are those of `compute`."""
     return (
         f"{EXACTLY} between its impacts a ball flies freely, so that $Z = W - U = -(1 + \\varepsilon)Y$ is made of "
         "straight lines there, too. Only in symmetric motions are its corners half a period apart."
@@ -72,7 +72,7 @@ def exact(amplitude: float, theta: float, tau0_max: float) -> str:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`, amplitude and impact instants marked."""
+    """Draw the table of `compute`, with the amplitude and the impact times marked."""
     figure = new_figure(SINGLE_COLUMN, 42.0)
     axes = figure.add_subplot()
     line, impacts = (select(table, "Z", series) for series in ("Z", "impacts"))
@@ -91,5 +91,5 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def _instant(j: int) -> str:
-    """Return the symbol of the impact j half periods after the first one shown."""
+    """Return the tick label of the impact that follows the first one by j half periods."""
     return r"$\theta_i$" if j == 0 else rf"$\theta_i+{'' if j == 1 else j}\pi$"

@@ -35,9 +35,9 @@ INSET = (0.335, 0.43, 0.31, 0.38)
 
 
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
-    """Return the manifold B(C), (10.16), for 0 <= C <= C_max, and its fold.
+    """Return the manifold B(C), (10.16), for 0 <= C <= C_max, and the level of its fold.
 
-    The branches are stable or unstable by (10.26); the fold has the level B_min, (10.25).
+    The branches are stable or unstable by (10.26). The fold is at the level B_min, (10.25).
 
     Returns columns panel, series ("SIM stable", "SIM unstable", "B_min"), C, B.
 
@@ -51,14 +51,14 @@ def compute(kappa: float, C_max: float) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the border of stability and the lowest point of the manifold."""
+    """Return C and B at the border of stability and at the lowest point of the manifold."""
     stable = select(table, "SIM", "SIM stable")[["C", "B"]]
     points = stable.loc[[stable["C"].idxmin(), stable["B"].idxmin()]]
     return points.set_axis(["border of stability, (10.26)", "fold (C_min, B_min), (10.25)"])
 
 
 def exact(kappa: float, C_max: float) -> str:
-    """Return the verdict of the exact impact map on the printed border, in Markdown; arguments as in `compute`."""
+    """Return a sentence on the exact impact map at the printed border, in Markdown; arguments as in `compute`."""
     border, low, high = printed_limit(rho(kappa)), lower_limit(kappa), upper_limit(kappa)
     growth = abs(impact_multipliers(border, kappa)).max()
     return (

@@ -40,7 +40,7 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
     Raises
     ------
     ValueError
-        If C_range does not hold the whole border between the regions.
+        If C_range does not contain the whole border between the regions.
     """
     lowest, highest = C_range
     kappa = np.linspace(0.0, 1.0, 201)
@@ -58,7 +58,7 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
-    """Return the border of stability, C_min and the stable piece of the left arm, for evenly spaced kappa."""
+    """Return, for evenly spaced kappa, the border of stability, C_min, and the length in C of the piece between them."""
     fold = select(table, "regions", "C_min")["C"].to_numpy()
     border = select(table, "regions", "stable").iloc[: len(fold)]
     rows = np.linspace(0, len(fold) - 1, values).astype(int)
@@ -67,7 +67,7 @@ def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
 
 
 def exact(C_range: tuple[float, float]) -> str:
-    """Return the verdict of the exact impact map on the regions, in Markdown; arguments as in `compute`."""
+    """Return a sentence on the exact impact map in the regions, in Markdown; arguments as in `compute`."""
     kappa = np.linspace(0.0, 1.0, 201)
     growth = max(abs(impact_multipliers(printed_limit(rho(k)), k)).max() for k in kappa)
     return (

@@ -55,12 +55,12 @@ ZOOM = {"xlim": (0.85, 1.25), "ylim": (0.0, 0.34)}
 """Part of a plane around the fold; if it contains several points, it is drawn enlarged in INSET."""
 INSET = (0.13, 0.5, 0.44, 0.46)
 ROW_HEIGHT, ENDS = 38.0, 11.0
-"""Height in mm of a row of planes, and of the headings and labels in all."""
+"""Height in mm of one row of planes, and of all headings and labels together."""
 MARKERS = {
     "S": {"marker": "s", "color": "0.3", "markersize": 4.6, "markerfacecolor": "0.75", "markeredgewidth": 0.7},
     "P": {"marker": "o", "color": BLACK, "markersize": 4.2, "markeredgecolor": "white", "markeredgewidth": 0.4},
 }
-"""In drawing order: circles are drawn above the larger squares."""
+"""Markers of the points S_i and P_i, in drawing order: circles are drawn above the larger squares."""
 
 
 def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd.DataFrame:
@@ -71,10 +71,10 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
     points : DataFrame
         The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
     model : str, default 'slow_flow'
-        slow_flow or exact_orbit. With exact_orbit, P_i is that of the exact orbit next to the fixed point, and S_i
-        belongs to it; a fixed point without an orbit has no row.
+        slow_flow or exact_orbit. With exact_orbit, P_i and S_i are computed from the exact orbit next to the fixed
+        point; a fixed point without such an orbit is left out.
     C_max
-        End of the manifold shown, 0 <= C_i <= C_max, one number or one per module; increased if a fixed point lies
+        The manifold is shown for 0 <= C_i <= C_max. One number, or one per module; increased if a fixed point lies
         beyond.
 
     Returns columns panel (label and module: "a1", "a2", ...), series ("SIM stable", "SIM unstable", "P_i", "S_i", and
@@ -90,7 +90,7 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
 
 
 def planes(system, points, C_max) -> list[pd.DataFrame]:
-    """Return the curves of both planes of each labelled point; see `compute`."""
+    """Return the curves in both planes for each labelled point; see `compute`."""
     ends = np.fmax.reduce([np.broadcast_to(C_max, 2), *(1.1 * point.C for point in points)])
     if not points:
         return [branch for i in MODULES for branch in branches(str(i), system.kappa, ends[i - 1])]
@@ -114,12 +114,12 @@ def _plane(system, point, module, end):
 
 @styled
 def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({})) -> Figure:
-    """Draw the table of `compute`: a row of planes per fixed point, P_i black circles, S_i grey squares.
+    """Draw the table of `compute`: a row of planes per fixed point, with P_i as black circles and S_i as grey squares.
 
     Parameters
     ----------
     chapter : mapping, optional
-        The chapter's verdicts by label; the headings show those that differ from (10.26).
+        Verdicts of the chapter by label; the headings show the verdicts that differ from (10.26).
     """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + ENDS)
@@ -141,7 +141,7 @@ def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({}))
 
 
 def verdict(table: pd.DataFrame, label: str) -> str:
-    """Return the verdict of (10.26) on a fixed point: stable where its projections lie on the stable branch."""
+    """Return the verdict of (10.26) on a fixed point: "stable" if all its projections lie on the stable branch."""
     panels = [f"{label}{module}" for module in MODULES]
     places = [select(table, panel, f"P_{module}")["C"] for panel, module in zip(panels, MODULES, strict=True)]
     borders = [select(table, panel, "SIM stable")["C"].min() for panel in panels]
@@ -152,7 +152,7 @@ def verdict(table: pd.DataFrame, label: str) -> str:
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
-    """Draw the plane (C_i, B_i) of one panel; return what `name_curves` is to name, by axes."""
+    """Draw the plane (C_i, B_i) of one panel; return the pairs of name and lines for `name_curves`, by axes."""
     module = panel[-1]
     stable = select(table, panel, "SIM stable")
     end, top = stable.iloc[-1], max(stable["B"].iloc[-1], select(table, panel, "SIM unstable")["B"].iloc[0])
@@ -175,7 +175,7 @@ def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
         own = [one for one in lines if pane is not axes or len(panes) == 1 or one[0] not in close]
         names[pane] = [(f"${kind}_{module}$", line) for (kind, _, _), line in own]
     if len(select(table, panel, f"S_{module} beyond")):
-        # The point lies beyond the frame.
+        # An arrow shows that a singular point lies beyond the frame.
         axes.annotate(
             rf"$S_{module}\!\nearrow$", (end["C"], end["B"]), (-2, -38), textcoords="offset points", ha="right", **NAME
         )

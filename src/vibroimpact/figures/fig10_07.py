@@ -55,7 +55,7 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
     points : DataFrame
         The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
     fixed_point : str
-        Label of the fixed point shown.
+        Label of the fixed point.
     model : str, default 'slow_flow'
         slow_flow, exact_orbit or second_term; see `vibroimpact.accuracy.model_choice`.
 
@@ -81,9 +81,9 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
 
 
 def _times(first: float, period: float, end: float, points: int = 401) -> np.ndarray:
-    """Return evenly spaced times in [0, end] and the impacts among them, which are half a period apart.
+    """Return evenly spaced times in [0, end], merged with the times of impacts, which are half a period apart.
 
-    first: time of an impact; NaN if there is none.
+    first: time of one impact, or NaN if there are no impacts.
     """
     impacts = np.arange(first - period, end, 0.5 * period) if np.isfinite(first) else np.empty(0)
     return np.union1d(np.linspace(0.0, end, points), impacts[impacts >= 0])
@@ -91,7 +91,7 @@ def _times(first: float, period: float, end: float, points: int = 401) -> np.nda
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: the first module above the second."""
+    """Draw the table of `compute`, with the first module above the second."""
     figure = new_figure(SINGLE_COLUMN, 92.0)
     grid = figure.subplots(len(MODULES), 1, sharex=True, sharey=True)
     for axes, module, letter in zip(grid, MODULES, "ab", strict=True):
@@ -111,6 +111,6 @@ def draw_response(axes, table: pd.DataFrame, module: int) -> None:
 
 
 def key(figure) -> None:
-    """Name the coordinates below the panels, since the curves are too close for direct labels."""
+    """Draw a legend of the coordinates below the panels, since the curves are too close for direct labels."""
     handles = [Line2D([], [], **look, label=f"${name}_i$") for name, look in COORDINATES.items()]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), handlelength=2.4)

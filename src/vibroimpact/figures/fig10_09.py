@@ -29,13 +29,13 @@ __all__ = ["compute", "draw"]
 CHAPTER = {"a": "unstable", "b": "unstable", "c": "stable"}
 """Verdicts in the caption of the chapter."""
 PLACE_OF_B = {"b1": 0.957, "b2": 1.665}
-"""C of point b at the chapter's parameters, which these verdicts are about, in planes of both modules."""
+"""C of point b in the planes of both modules, at the chapter's parameters, to which the verdicts of CHAPTER apply."""
 
 
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute` as in figure 10.6.
 
-    At the chapter's parameters, the headings also show the chapter's verdicts that differ.
+    At the chapter's parameters, the headings also show the chapter's verdicts that differ from (10.26).
     """
     found = [abs(select(table, plane, f"P_{plane[1]}")["C"] - C) < 1e-3 for plane, C in PLACE_OF_B.items()]
     return fig10_06.draw(table, CHAPTER if all(len(near) and near.all() for near in found) else {})

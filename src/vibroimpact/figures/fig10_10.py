@@ -38,7 +38,7 @@ def compute(
     Raises
     ------
     ValueError
-        As those two.
+        If one of these two functions raises it.
     """
     point = motion(system, points, fixed_point, model).point
     return join(
@@ -51,7 +51,7 @@ def compute(
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: the planes side by side, the responses of both modules below."""
+    """Draw the table of `compute`: both planes side by side, and below them the responses of both modules."""
     figure = new_figure(SINGLE_COLUMN, 132.0)
     panels = figure.subplot_mosaic([[1, 2], ["module 1"] * 2, ["module 2"] * 2], height_ratios=(1, 1, 1))
     label, names = table["panel"].iloc[0][:-1], {}

@@ -45,10 +45,10 @@ SPEC = {
 
 
 def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """Return the motion as in figure 10.8 ("csv") and measures of the amplitudes of both boxes ("statistics")."""
+    """Return the motion as in figure 10.8 ("csv") and statistics of the amplitudes of both boxes ("statistics")."""
     return {"csv": simulated.compute(system, samples, events), "statistics": simulated.statistics(system, samples)}
 
 
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw the tables of `compute` as in figure 10.8, with intervals without resonance on grey."""
+    """Draw the tables of `compute` as in figure 10.8, with grey shading in intervals without resonance."""
     return simulated.draw(tables["csv"], simulated.without_resonance(tables["csv"]))

@@ -1,4 +1,4 @@
-"""Where methods fail: the error of each method over the depth of a grazing impact."""
+"""Compute and draw the error of each method against the depth of a grazing impact, to show where methods fail."""
 
 import numpy as np
 import pandas as pd
@@ -33,11 +33,11 @@ SPEC = {
 }  # fmt: skip
 
 DIGITS = range(2, 15)
-"""Negative decimal exponents of the depths."""
+"""Decimal exponents of the depths, without their minus sign."""
 
 
 def compute() -> pd.DataFrame:
-    """Return a row per drawn method and depth, with the columns of `stress_tests.judge`."""
+    """Return one row per drawn method and depth, with some of the columns of `stress_tests.judge`."""
     system, methods = System(**CHAPTER), [method for method in METHODS if method.name in LOOKS]
     rows = [{"digits": digits} | row for digits in DIGITS for row in judge(grazing(system, -1, digits), methods)]
     table = pd.DataFrame(rows)[[name for names in SPEC["columns"] for name in names.split(", ")]]
@@ -46,7 +46,7 @@ def compute() -> pd.DataFrame:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: hollow markers miss the impact or add others."""
+    """Draw the table of `compute`, with hollow markers for runs with missed or spurious impacts."""
     figure = new_figure(SINGLE_COLUMN, 90.0)
     axes = figure.add_subplot()
     axes.set(xscale="log", yscale="log", xlabel="depth of the impact", ylabel="error of the final state")

@@ -1,4 +1,4 @@
-"""Error against cost of every model in every scene of the chapter's theory and simulations, a panel for each scene."""
+"""Compute and draw the error of each model against its cost, in one panel per figure of the chapter."""
 
 from importlib import import_module
 from string import ascii_lowercase
@@ -54,15 +54,15 @@ SPEC = {
 }  # fmt: skip
 
 TOLERANCE = {"fixed_points": 10.0, "theoretical_response": 10.0, "simulation": 0.5}
-"""Largest error of a figure [percent of the axis], by its notebook: of the theory its order, epsilon = 0.1; of a
-simulation about the width of a line. The statistics of a chaotic window scatter by more with the rounding alone, by 4 %
-in that of figure 10.11: two processors would draw two figures."""
+"""Largest error of a figure [percent of the axis], keyed by its notebook: for the theory epsilon = 0.1, the order of
+its error; for a simulation about the width of a line. In a chaotic window, rounding alone changes the statistics by
+more, by 4 % in figure 10.11, so that two processors would draw two figures."""
 COMPARED = 120
-"""Most forcing periods of a simulation that are compared."""
+"""Largest number of forcing periods over which simulations are compared."""
 LEAST, MOST = 1e-3, 100.0
-"""Errors between which the axis runs [percent]."""
+"""Smallest and largest error [percent] that is drawn to scale."""
 LOWEST, LANE = 1e-4, 3e-4
-"""Lower end of the axis, and place of smaller errors, the reference among them."""
+"""Lower end of the axis, and place on it for errors below LEAST, such as the error 0 of the reference."""
 
 
 def compute(scenes: dict, seconds: float) -> pd.DataFrame:
@@ -71,10 +71,10 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
     Parameters
     ----------
     scenes : dict
-        By figure its `module`, `notebook`, `model` in use, parameters of its `system`, and `settings`: of the figure,
-        or of its simulation (see `vibroimpact.accuracy.window.window`).
+        For each figure, by name: its `module`, `notebook`, `model` in use, parameters of its `system`, and `settings`
+        of the figure or of its simulation (see `vibroimpact.accuracy.window.window`).
     seconds : float
-        How long each run is repeated for its time, if it is shorter.
+        Time [s] for which each run is repeated to measure its run time.
 
     Returns columns figure, model, compared_with, error, tolerance, seconds, in_use; see SPEC.
     """
@@ -88,15 +88,15 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
 
 
 def _motions(module, system, settings, models, seconds):
-    """Return the model, reference, error and cost of the figures of fixed points.
+    """For each model, yield its name, the reference, the error and the cost [s], for a figure of fixed points.
 
-    The cost is that of the whole computation from the parameters.
+    The cost is the run time of the whole computation from the parameters.
     """
 
     def made(model):
         try:
             return module.compute(system, fixed_point_table("", system), **settings, model=model)
-        except ValueError:  # it has no such motion
+        except ValueError:  # the model gives no such motion
             return None
 
     tables = {model: made(model) for model in models}
@@ -106,10 +106,10 @@ def _motions(module, system, settings, models, seconds):
 
 
 def _simulations(module, system, settings, models, seconds):
-    """Return the same of a simulated motion, in both arithmetics from where the transient in float64 ends.
+    """For each model, return its name, the reference, the error and the cost [s], for a figure of a simulated motion.
 
-    The transient would keep the reference busy for a minute; its time is that of the window with few samples, in
-    proportion to the periods.
+    Both arithmetics start where the transient in float64 ends, since the transient takes the reference a minute. The
+    cost of the transient is estimated from the cost of a window with few samples, in proportion to the periods.
     """
     whole = window(system, settings | {"model": "float64"})
     part = settings | {"initial_state": whole.samples[list(NAMES)].iloc[0].tolist(), "transient_cycles": 0}
@@ -131,10 +131,10 @@ def _simulations(module, system, settings, models, seconds):
 
 
 def largest_error(table, reference) -> float:
-    """Return the largest difference of two tables of a figure [percent of the range of its axis].
+    """Return the largest difference between two tables of a figure [percent of the range of its axis].
 
-    Compared are the points P_i of planes, and curves at the times that both have; inf if one table is None or shows
-    other points.
+    Points P_i of planes are compared, and curves at the times that both tables have. The result is inf if a table is
+    None, or if the tables show different points.
     """
     if table is None or reference is None:
         return np.inf
@@ -150,15 +150,15 @@ def largest_error(table, reference) -> float:
 
 
 def _plotted(table, column):
-    """Return the values to compare from one column, by panel, series and, for curves, time."""
+    """Return the values to compare from one column, keyed by panel, series and, for curves, time."""
     rows = table[table["series"].str.startswith("P_")] if column != "value" else table.dropna(subset="value")
     return rows.set_index(["panel", "series", *(["tau"] if column == "value" else [])])[column]
 
 
 def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
-    """Return what is plotted of bursts [percent]: time that ball 2 spends in them, and amplitudes of X_2 by periods.
+    """Return statistics of the bursts [percent]: share of time in bursts of ball 2, and amplitudes of X_2.
 
-    The smallest, mean and largest amplitude are in percent of the range of X_2 in the reference.
+    The smallest, mean and largest amplitude of a forcing period are in percent of the range of X_2 in the reference.
     """
     impacts = run.events[(run.events["module"] == 2) & (run.events["kind"] == "impact")]
     bursts = modulation.bursts(impacts["tau"], impacts["wall"], system.period)
@@ -171,7 +171,7 @@ def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: a panel per figure, filled marks for the models in use, the tolerance dotted."""
+    """Draw the table of `compute`: one panel per figure, filled markers for the models in use, the tolerance dotted."""
     scenes = list(dict.fromkeys(table["figure"]))
     columns, rows = side_by_side(len(scenes))
     figure = new_figure(DOUBLE_COLUMN, 44.0 * rows + 8.0)
@@ -202,5 +202,5 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def _name(figure):
-    """Return the number of a figure of the chapter; the name of another."""
+    """Return "Fig. 10.6" for the name "fig10_06", and so on; return the name of any other figure unchanged."""
     return f"Fig. {figure[3:].replace('_', '.').replace('.0', '.')}" if figure.startswith("fig10_") else figure

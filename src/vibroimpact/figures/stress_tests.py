@@ -1,4 +1,4 @@
-"""The stress tests as a picture: methods across, groups of tests down, the share that a method gets right in a cell."""
+"""Compute and draw the results of the stress tests: columns are methods, rows are groups of tests."""
 
 import pandas as pd
 from matplotlib.colors import to_rgb
@@ -32,7 +32,7 @@ SPEC = {
     },
 }  # fmt: skip
 
-VERDICTS = {  # the worse, the further down
+VERDICTS = {  # from the best to the worst
     "unavailable": ("–", "#DDDDDD"),
     "right": ("✓", "#D9EFE3"),
     "reported undecidable": ("?", "#74AEDF"),
@@ -40,30 +40,30 @@ VERDICTS = {  # the worse, the further down
     "did not finish": ("∞", "#A68FC4"),
     "silently wrong": ("×", "#DB5A45"),
 }
-"""Mark and colour of each verdict, which say the same; the colour is that of a cell where all tests fail."""
+"""Mark and colour of each verdict, both with the same meaning; the colour is used in full if all tests fail."""
 PALEST = 0.3
-"""Part of the colour in a cell where next to no test fails."""
+"""Depth of the colour, as a part of full colour, in a cell where almost no test fails."""
 ROW, HEAD, FOOT = 7.4, 18.0, 9.0
-"""Heights in mm."""
+"""Heights in mm of a row of cells, of the names of methods above, and of the legend below."""
 LEFT, RIGHT = 27.0, 11.0
-"""Widths in mm beside the marks: names of the groups, and what the last name of a method hangs over."""
+"""Widths in mm of the margins: left for the names of groups, right for the overhang of the last method's name."""
 
 
 def compute(full: bool) -> pd.DataFrame:
-    """Return the rows of `accuracy.stress_tests.judge` for all tests or, unless full, those of the reduced set."""
+    """Return the rows of `accuracy.stress_tests.judge` for all tests or, if `full` is False, for the reduced set."""
     chosen = [test for test in stress_tests() if full or test.quick]
     return pd.DataFrame([row for test in chosen for row in judge(test, METHODS)])
 
 
 def shade(verdict: str, failed: float) -> tuple[float, float, float]:
-    """Return the colour of a cell: that of its worst verdict, the paler the smaller the share of tests that fail."""
+    """Return the colour of a cell: the colour of its worst verdict, paler if a smaller share of its tests failed."""
     part = 1.0 if verdict == "right" else PALEST + (1.0 - PALEST) * failed
     return tuple(1.0 - part * (1.0 - value) for value in to_rgb(VERDICTS[verdict][1]))
 
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: columns group, method, verdict."""
+    """Draw the columns group, method and verdict of the table of `compute`."""
     groups, methods = table["group"].unique().tolist(), table["method"].unique().tolist()
     height = HEAD + FOOT + ROW * len(groups)
     figure = new_figure(DOUBLE_COLUMN, height, layout=None)

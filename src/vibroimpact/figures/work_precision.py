@@ -1,4 +1,4 @@
-"""The work-precision chart: error against time per forcing cycle, one panel per problem, one curve per method."""
+"""Compute and draw work-precision data: error against time per cycle, one panel per problem, one curve per method."""
 
 from string import ascii_lowercase
 
@@ -46,7 +46,7 @@ SPEC = {
 
 SMALLEST, LARGEST = 1e-16, 30.0
 NO_RESULT, END = 1e3, 3e4
-"""Errors are drawn between SMALLEST and LARGEST; beyond, at NO_RESULT, are the runs that failed."""
+"""Errors are clipped to SMALLEST .. LARGEST. Failed runs are drawn beyond them, at NO_RESULT; the axis ends at END."""
 GOALS = 1e-12, 1e-6
 GUIDE = {"color": GREY, "linestyle": ":", "linewidth": 0.9, "zorder": 0}
 
@@ -57,7 +57,7 @@ def compute(problems: dict, seconds: float, short: bool) -> pd.DataFrame:
     Parameters
     ----------
     problems : dict
-        By name `system` (parameters by name), `initial_state` and `cycles`.
+        For each problem, by name: `system` (parameters by name), `initial_state` and `cycles`.
     seconds, short
         As in `measure`.
     """
@@ -70,7 +70,7 @@ def compute(problems: dict, seconds: float, short: bool) -> pd.DataFrame:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: filled markers have the impacts of the reference, hollow ones miss or add some."""
+    """Draw the table of `compute`, with hollow markers for runs with missed or spurious impacts."""
     figure = new_figure(DOUBLE_COLUMN, 100.0)
     problems = list(dict.fromkeys(table["problem"]))
     panels = figure.subplots(1, len(problems), sharex=True, sharey=True, squeeze=False)[0]
@@ -82,7 +82,7 @@ def draw(table: pd.DataFrame) -> Figure:
         axes.vlines(GOALS, 0, 1, transform=axes.get_xaxis_transform(), **GUIDE)
         measured = drawn[(drawn["problem"] == problem) & drawn["seconds_per_cycle"].notna()]
         by_method = measured.groupby("method", sort=False)
-        # First the names of those without a result: they have little room.
+        # Methods without a result come first, since their names have little room.
         by_room = sorted(by_method, key=lambda one: one[1]["outcome"].eq("finished").any())
         curves[axes] = [(method, _method(axes, method, rows)) for method, rows in by_room]
         axes.set_xticks(10.0 ** np.arange(-15, 1, 3))
@@ -108,4 +108,4 @@ def _method(axes, method, rows):
     x, wrong = good["error_state"].clip(SMALLEST, LARGEST), good["missed"] + good["spurious"] > 0
     lane = axes.plot(np.full(failed.sum(), NO_RESULT), rows["seconds_per_cycle"][failed], **mark(method))
     curve = draw_method(axes, method, x, good["seconds_per_cycle"], wrong)
-    return curve if len(good) else lane  # what bears the name
+    return curve if len(good) else lane  # the lines to be named

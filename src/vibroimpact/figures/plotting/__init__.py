@@ -1,1 +1,1 @@
-"""Style, tables, shared drawings and files of all figures."""
+"""Code shared by the figures: style, drawing, files, and the motions and fixed points that notebooks show."""

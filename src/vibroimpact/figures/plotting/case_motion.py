@@ -1,6 +1,6 @@
-"""The motion that a notebook shows: simulated with its own parameters, or read from `inputs`, files of a build.
+"""Provide the motion that a notebook shows, simulated with its parameters or read from files of a build.
 
-A file that was made with other parameters than those of the notebook is refused.
+The files are given by `inputs`. A file that was computed with other parameters is an error.
 """
 
 import json
@@ -16,25 +16,25 @@ from vibroimpact.figures.plotting.markdown import EXACTLY, digits
 from vibroimpact.system import System
 
 SETTLED, NEAR = 1e-6, 0.02
-"""Largest change of a motion that repeats, and of one that nearly repeats; displacements, of which a wall is 1."""
+"""Largest change of a displacement in a motion that repeats, and in one that nearly repeats; the walls are at 1."""
 AS_SYMMETRIC = "as the motions of the chapter's theory"
 AS_ASYMMETRIC = "as in no motion of the chapter's theory"
 
 
 def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Return the samples and events of the simulated window of a case, from the files in inputs if they are given.
+    """Return the samples and events of the simulated window of a case, read from the files in `inputs` if given.
 
     Parameters
     ----------
     parameters : dict
-        Of the system, by name.
+        Parameters of the system, by name.
     settings : dict
-        Of the simulation, see `vibroimpact.accuracy.window.window`.
+        Settings of the simulation, see `vibroimpact.accuracy.window.window`.
 
     Raises
     ------
     ValueError
-        If the files hold another case, or were made with other parameters or settings.
+        If the files belong to another case, or were computed with other parameters or settings.
     """
     if inputs:
         made = json.loads(Path(inputs["summary"]).read_text(encoding="utf-8"))
@@ -46,16 +46,16 @@ def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tupl
 
 
 def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -> str:
-    """Return whether a simulated motion repeats, and how long its balls fly, in Markdown: measured in its window.
+    """Return sentences in Markdown on a simulated motion: whether it repeats, and how long its balls fly.
 
     Parameters
     ----------
     displacements
-        Shape (n, 4), `per_cycle` times in a forcing period.
+        Displacements in the window, shape (n, 4), with `per_cycle` samples per forcing period.
     impacts : DataFrame
-        Columns tau, module, wall, in the window.
+        Impacts in the window, columns tau, module, wall.
     period : float
-        Of the forcing.
+        Forcing period.
     """
     mirror = mirror_distance(displacements, per_cycle)
     kind = f"symmetric, {AS_SYMMETRIC}" if mirror <= SETTLED else f"**asymmetric**, {AS_ASYMMETRIC}"
@@ -70,7 +70,10 @@ def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -
 
 
 def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, float]]:
-    """Return module, mean flight from wall +1 and from wall -1 [forcing periods], of balls that leave both walls."""
+    """For each ball that leaves both walls, return its module and its mean flight times from walls +1 and -1.
+
+    The times are in forcing periods.
+    """
     found = []
     for module, mine in impacts.groupby("module"):
         flown = mine["tau"].diff().shift(-1).groupby(mine["wall"]).mean() / period
@@ -80,7 +83,7 @@ def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, floa
 
 
 def repetition(displacements, per_cycle: int) -> str:
-    """Say after how many periods a motion repeats in its window, with the largest change of a displacement."""
+    """Return a phrase on how many periods a motion takes to repeat, with the largest change of a displacement."""
     whole = (len(displacements) - 1) // per_cycle
     changes = {lag: distance_after(displacements, per_cycle, lag) for lag in range(1, whole + 1)}
     lags = [lag for lag in changes if lag <= max(1, whole // 2)]

@@ -1,6 +1,6 @@
-"""The fixed points that a notebook shows: computed from its own parameters, or read from `inputs`, files of a build.
+"""Provide the fixed points that a notebook shows, computed from its parameters or read from files of a build.
 
-A file that was made with other parameters than those of the notebook is refused.
+The files are given by `inputs`. A file that was computed with other parameters is an error.
 """
 
 import numpy as np
@@ -13,18 +13,18 @@ from vibroimpact.figures.plotting.markdown import EXACTLY, plain
 from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 
 AGREES = 1e-8
-"""Difference of coordinates below which two tables hold the same fixed points: they were made by the same code."""
+"""Two tables contain the same fixed points if the coordinates differ by less; the same code computes both tables."""
 COORDINATES = ["C1", "C2", "B1", "B2", "psi1", "psi2"]
 HINT = "with inputs = {} the notebook computes from its own parameters"
 
 
 def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
-    """Return the fixed points of a case, from inputs["points"] if that is given; see `fixed_point_table`.
+    """Return the fixed points of a case, read from inputs["points"] if `inputs` is given; see `fixed_point_table`.
 
     Raises
     ------
     ValueError
-        If the file holds another case, or other points than those of the system.
+        If the file contains another case, or other points than the fixed points of the system.
     """
     computed = fixed_point_table(case, system)
     if not inputs:
@@ -35,15 +35,15 @@ def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
 
 
 def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFrame:
-    """Return the verdicts of all criteria on each fixed point, from files of a build if these are given.
+    """Return the verdicts of all criteria on each fixed point, read from files of a build if `inputs` is given.
 
-    Columns label, orbit (label of the exact orbit that goes with the point), exact (verdict of its multipliers),
-    largest multiplier (their largest modulus), ...
+    Columns label, orbit (label of the exact orbit next to the point), exact (verdict by the multipliers of the orbit),
+    largest multiplier (largest modulus of these multipliers), and the others of `fixed_point_rows`.
 
     Raises
     ------
     ValueError
-        If the file holds another case, or other points.
+        If the file contains another case, or other points.
     """
     if inputs:
         orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["points"])
@@ -64,17 +64,17 @@ WHY = {
     "largest multiplier": "its largest multiplier",
     "exact": "exact: its multipliers",
 }
-"""Columns of the table of reasons, and what its heads call them."""
+"""Columns of the table that explains the verdicts, with their headings."""
 
 
 def why(verdicts: pd.DataFrame) -> pd.DataFrame:
-    """Return the verdict of every criterion on each fixed point, with the largest multiplier of its exact orbit."""
+    """Return the table that explains the verdicts: one row per fixed point, with the columns WHY."""
     shown = verdicts[[*WHY]].round({"largest multiplier": 4}).rename(columns=WHY).set_index("fixed point")
     return shown.astype(object).where(shown.notna() & (shown != ""), "–")
 
 
 def exact(verdicts: pd.DataFrame) -> str:
-    """Return the verdict of the Floquet multipliers of exact orbits on fixed points; columns label, orbit, exact."""
+    """Return a sentence on the Floquet verdict on each fixed point, from the columns label, orbit and exact."""
     if verdicts.empty:
         return f"{EXACTLY} the theory has no fixed point here that it could confirm or refute."
     said = []

@@ -1,4 +1,4 @@
-"""Parts of a mechanical drawing: springs, dampers, ground, balls, coordinates. Lengths are mm on paper."""
+"""Draw parts of a mechanical drawing: springs, dampers, ground, balls, coordinates. Lengths are in mm on paper."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -9,7 +9,7 @@ from vibroimpact.figures.plotting.style import BLACK, LIGHT_GREY, new_figure
 OUTLINE, LINE, THIN = 1.1, 0.9, 0.5
 """Line widths in points: bodies, springs and dampers, auxiliary lines."""
 SYMBOL = 10
-"""Size of symbols in points, so that their subscripts still have 7."""
+"""Size of symbols in points, chosen so that their subscripts have a size of 7 points."""
 CENTRE_LINE = (0, (7, 2, 1.5, 2))
 
 
@@ -22,13 +22,13 @@ def sheet(width: float, height: float) -> tuple[Figure, object]:
 
 
 def polyline(axes, x, y, linewidth=LINE, **style):
-    """Return a line through points."""
+    """Draw a line through points, and return it."""
     style = {"color": BLACK, "solid_capstyle": "round", "solid_joinstyle": "round"} | style
     return axes.plot(x, y, linewidth=linewidth, **style)[0]
 
 
 def symbol(axes, x, y, text, **style):
-    """Return a symbol centred on a point."""
+    """Write a symbol centred on a point, and return the text."""
     style = {"fontsize": SYMBOL, "ha": "center", "va": "center"} | style
     return axes.text(x, y, text, **style)
 
@@ -77,7 +77,7 @@ def ball(axes, x, y, radius, **style):
 
 
 def arrow(axes, tail, head, style="-|>", linewidth=LINE, size=6.0):
-    """Draw an arrow between two points, its tip exactly on the second."""
+    """Draw an arrow between two points, with its tip exactly on the second point."""
     axes.add_patch(
         FancyArrowPatch(
             tail,
@@ -95,12 +95,12 @@ def arrow(axes, tail, head, style="-|>", linewidth=LINE, size=6.0):
 
 
 def coordinate(axes, x, y, length, text):
-    """Draw the positive direction of a coordinate that is measured at x."""
+    """Draw an arrow with a label at x, in the positive direction of a coordinate."""
     arrow(axes, (x, y), (x + length, y), linewidth=0.7 * LINE)
     symbol(axes, x + length + 0.8, y, text, ha="left")
 
 
 def dimension(axes, x0, x1, y, text):
-    """Draw a dimension line between x0 and x1."""
+    """Draw a dimension line with a label between x0 and x1."""
     arrow(axes, (x0, y), (x1, y), style="<|-|>", linewidth=THIN)
     symbol(axes, 0.5 * (x0 + x1), y + 0.8, text, va="bottom")

@@ -1,4 +1,4 @@
-"""The slow invariant manifold B(C) as figures 10.4, 10.6, 10.9 and 10.10 show it: a stable and an unstable branch."""
+"""Compute and draw the slow invariant manifold B(C) of figures 10.4, 10.6, 10.9 and 10.10, with its two branches."""
 
 import numpy as np
 import pandas as pd
@@ -12,9 +12,9 @@ BRANCHES = {"SIM unstable": UNSTABLE, "SIM stable": STABLE}
 
 
 def branches(panel: str, kappa: float, C_max: float, points: int = 401) -> list[pd.DataFrame]:
-    """Return both branches of B(C), (10.16), for 0 <= C <= C_max, split where (10.26) says; columns C, B.
+    """Return both branches of B(C), (10.16), for 0 <= C <= C_max, divided at the limit of (10.26); columns C, B.
 
-    The point where the branches meet is in both, and the fold C_min of (10.25) is among the points.
+    Both branches contain the point where they meet, and the points include the fold C_min of (10.25).
 
     Raises
     ------

@@ -1,34 +1,34 @@
-"""Texts from elsewhere, names of cases or reasons in tables say, in Markdown that shows them and does nothing else."""
+"""Write texts of any origin, such as names of cases or reasons in tables, so that Markdown shows them unchanged."""
 
 import re
 
 ESCAPED = re.compile(r"([!-/:-@\[-`{-~])")
-"""ASCII punctuation, each of which a backslash makes an ordinary character."""
+"""ASCII punctuation; in Markdown, a backslash makes each of these an ordinary character."""
 EXACTLY = "**The exact system:**"
-"""Begins the one line on the page of a figure that says what the exact system does."""
+"""Beginning of the line, on the page of a figure, that describes the exact system."""
 
 
 def one_line(text) -> str:
-    """Return a text on one line, without characters that cannot be seen."""
+    """Return a text on one line, with a replacement character for each character that is not printable."""
     return "".join(
         letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in " ".join(str(text).split())
     )
 
 
 def plain(text) -> str:
-    """Return a text as it is: no markup, formula, link or entity begins in it, and a cell of a table ends behind it."""
+    """Return a text, escaped so that it contains no markup, formula, link or entity and does not end a table cell."""
     return ESCAPED.sub(r"\\\1", one_line(text))
 
 
 def code(text) -> str:
-    """Return a text in the letters of code, however many backticks are in it."""
+    """Return a text as inline code; it may contain any number of backticks."""
     text = one_line(text)
     fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
     return f"{fence} {text} {fence}" if "`" in text else f"{fence}{text}{fence}"
 
 
 WORDS = {"None": "–", "nan": "–", "inf": "∞", "True": "yes", "False": "no"}
-"""Texts that replace values that are not numbers."""
+"""Texts that replace None, NaN, infinity, True and False."""
 
 
 def digits(value, number: int = 3) -> str:

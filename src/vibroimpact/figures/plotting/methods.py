@@ -1,4 +1,4 @@
-"""The methods that the accuracy charts draw: eight of those in their tables, one of each kind at least."""
+"""Choose and draw the eight methods of the accuracy charts; the tables contain more methods."""
 
 from vibroimpact.figures.plotting.style import BLACK
 
@@ -12,18 +12,18 @@ LOOKS = {
     "penalty": ("#882255", "v", 3.8),
     "Ivanov, events": ("#B0568A", "P", 4.2),
 }
-"""Colour, mark and its size of each method that is drawn; all colours are dark enough for text on white."""
+"""Colour, marker and marker size of each method in the charts; all colours are dark enough for text on white."""
 HOLLOW = "hollow: missed or spurious impacts"
 
 
 def mark(method: str) -> dict:
-    """Return the style of a method's markers."""
+    """Return the style of the markers of a method."""
     color, marker, size = LOOKS[method]
     return {"color": color, "marker": marker, "markersize": size, "markeredgewidth": 0.7, "linestyle": "none"}
 
 
 def draw_method(axes, method: str, x, y, wrong) -> list:
-    """Draw the curve of a method, its markers hollow where `wrong` (n,); return its lines."""
+    """Draw the curve of a method, with hollow markers where `wrong` (n,) is True; return its lines."""
     return [
         *axes.plot(x, y, **mark(method) | {"linestyle": "-", "linewidth": 0.8}),
         *axes.plot(x[wrong], y[wrong], **mark(method), markerfacecolor="white"),

@@ -1,4 +1,4 @@
-"""Names of curves, placed where they cover no line, marker or other name."""
+"""Write names of curves at places where they cover no line, marker or other name."""
 
 from itertools import pairwise
 
@@ -7,29 +7,29 @@ import numpy as np
 from vibroimpact.figures.plotting.style import GREY, HALO
 
 STEP, GAP = 4.0, 1.6
-"""Distance of neighbouring places that are tried, and least distance of a name from a line or marker, in points."""
+"""Distance between places that are tried, and smallest distance from a name to a line or marker, in points."""
 LEADER = 5.0
-"""Distance in points from which a name needs a leader to its curve."""
+"""Distance in points between a name and its curve above which a leader line connects them."""
 FAR = 50.0
-"""Distance in points beyond which a place must only be free."""
+"""Distance in points from its curve above which a name may have a place where its curve is not obvious."""
 APART = 3.0
-"""By how many points a name without leader is nearer to its own curve than to another that has a name."""
+"""Smallest difference, in points, of a name's distances from other named curves and from its own, without a leader."""
 
 UNCLEAR, COVERS = 1, 2
-"""What is wrong with a place, taken where there is no better one: its curve is not obvious; it covers something."""
+"""Defects of a place that is taken for lack of a better one: its curve is not obvious; the name covers something."""
 
 
 def name_curves(figure, panels: dict, **style) -> None:
-    """Write the name of each curve next to it, in its colour, over no line, marker, text or inset of its axes.
+    """Write the name of each curve next to it, in its colour, where it covers no line, marker, text or inset.
 
-    Call this last: it fixes the limits and the layout of the figure. A halo hides what is no line, as a shade.
+    Call this last, since the places are found for the present limits and layout. Names have a halo against shading.
 
     Parameters
     ----------
     panels : dict
-        By axes the names with the Line2D that show each curve, as pairs.
+        For each axes, a list of pairs: the name of a curve, and a list of the Line2D that show the curve.
     style
-        Of the texts.
+        Text properties of the names.
     """
     figure.draw_without_rendering()
     for axes, curves in panels.items():
@@ -37,7 +37,7 @@ def name_curves(figure, panels: dict, **style) -> None:
 
 
 class _Names:
-    """The names of one set of axes; lengths are pixels."""
+    """Names of the curves in one set of axes; lengths are in pixels."""
 
     def __init__(self, axes, point):
         self.axes, self.point = axes, point
@@ -65,7 +65,7 @@ class _Names:
                 self.avoided[leader] = _outline(leader, self.point)
 
     def _place(self, half, own, others):
-        """Return the nearest free place for a box of half a size, and both ends of its leader."""
+        """Return the nearest good place for a box with the half-size `half`, and both ends of its leader line."""
         frame, margin = self.axes.get_window_extent(), half + GAP * self.point
         x = np.arange(frame.x0 + margin[0], frame.x1 - margin[0], STEP * self.point)
         y = np.arange(frame.y0 + margin[1], frame.y1 - margin[1], STEP * self.point)
@@ -95,7 +95,7 @@ class _Names:
 
 
 def _outline(line, point):
-    """Return the points along a line and the radius of its marker, or of what lies between, (n, 3) pixels."""
+    """Return discs that cover a line and its markers: centre x, centre y and radius in pixels, (n, 3)."""
     corners = line.get_transform().transform(line.get_xydata())
     corners = corners[np.isfinite(corners).all(axis=1)]
     marked = line.get_marker() not in ("", "None", None)
@@ -108,7 +108,7 @@ def _outline(line, point):
 
 
 def _gaps(place, half, points):
-    """Return the distances of a box from discs (n, 3)."""
+    """Return the distances of discs (n, 3) from a box with its centre at `place` and the half-size `half`."""
     apart = np.maximum(np.abs(points[:, :2] - place) - half, 0.0)
     return np.hypot(apart[..., 0], apart[..., 1]) - points[:, 2]
 

@@ -1,28 +1,28 @@
-"""The parameters of a notebook: a name that it does not know is an error, whoever sets it."""
+"""Check the parameters of a notebook: an unknown name is an error, whether a user or papermill sets it."""
 
 import ast
 
 FIRST = "figure = "
-"""Begins the cell with the parameters of a notebook."""
+"""Beginning of the cell with the parameters of a notebook."""
 GIVEN = "# Parameters"
-"""Begins the cell with those that papermill sets, of which it only warns where the notebook has no such name."""
+"""Beginning of the cell with the parameters that papermill sets; for an unknown name, papermill itself only warns."""
 OF_ALL = ("figure", "alt", "case", "inputs")
 
 
 def refuse_unknown(shell, known) -> None:
-    """Check the names that the cells of parameters assign, where they were run last.
+    """Check the names that are assigned in the last run of the cells with parameters.
 
     Parameters
     ----------
     shell
         The running IPython, which keeps the sources of cells.
     known
-        Names of the parameters, but for those of all notebooks.
+        Names of the parameters of this notebook, without the parameters that all notebooks have.
 
     Raises
     ------
     ValueError
-        If others are assigned.
+        If another name is assigned.
     """
     cells = shell.user_ns["In"]
     last = max(number for number, source in enumerate(cells) if source.startswith(FIRST))

@@ -1,4 +1,4 @@
-"""The simulated motion of the second module as figures 10.8 and 10.11 show it: X_2 above W_2."""
+"""Compute and draw the simulated motion of the second module, X_2 above W_2, for figures 10.8 and 10.11."""
 
 import numpy as np
 import pandas as pd
@@ -12,11 +12,11 @@ from vibroimpact.tables import curve, join, select
 PANELS = {"a": "X_2", "b": "W_2"}
 WORDS = {"X_2": "second box", "W_2": "its ball, relative to the box"}
 LONG_WINDOW = 300.0
-"""A longer window (about 50 cycles) is drawn in thin lines, because neighbouring cycles nearly touch."""
+"""Length [tau] (about 50 cycles) above which a window has thin lines, because neighbouring cycles nearly touch."""
 
 
 def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
-    """Return X_2 and W_2 = X_2 - Y_2 over tau, as simulated.
+    """Return the simulated X_2 and W_2 = X_2 - Y_2 as functions of tau.
 
     Parameters
     ----------
@@ -25,9 +25,9 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame
     events : DataFrame
         Impacts, sticks and releases, columns tau, module, wall, X2 (others are ignored).
 
-    Returns columns panel ("a", "b"), series ("X_2", "W_2"), tau, cycle (tau in forcing periods), value. The second
-    module's events between the first and the last sample are among the points: there W_2 is exactly at a wall and has
-    its corners.
+    Returns columns panel ("a", "b"), series ("X_2", "W_2"), tau, cycle (tau in forcing periods), value. The points
+    include the events of module 2 between the first and the last sample, where W_2 is exactly at a wall and has its
+    corners.
     """
     inside = (events["module"] == 2) & events["tau"].between(samples["tau"].min(), samples["tau"].max())
     corners = events.loc[inside, ["tau", "X2"]].assign(W2=events.loc[inside, "wall"].astype(float))
@@ -42,11 +42,11 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame
 
 
 def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
-    """Return the variation of each box's amplitude, half its peak-to-peak displacement per forcing period.
+    """Return statistics of the amplitude of each box, which is half the peak-to-peak displacement of a forcing period.
 
-    Returns columns displacement ("X1", "X2"), smallest and largest amplitude, amplitude variation (standard deviation
-    over mean), modulation periods (how many distances there are between swells), mean length in cycles (of these; blank
-    without any); see `exact.measures.modulation`.
+    Returns columns displacement ("X1", "X2"), smallest amplitude, largest amplitude, amplitude variation (standard
+    deviation divided by mean), modulation periods (number of distances between swells), mean length in cycles (mean of
+    these distances; blank if there are none); see `exact.measures.modulation`.
     """
     per_cycle = samples_per_cycle(samples["tau"].to_numpy(), system.period)
     amplitudes = {name: modulation.cycle_amplitudes(samples[name], per_cycle) for name in ("X1", "X2")}
@@ -66,12 +66,12 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
 
 @styled
 def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
-    """Draw the table of `compute`: a X_2 above b W_2, the walls W_2 = 1 and W_2 = -1 as thin lines.
+    """Draw the table of `compute`: X_2 in panel a, and below, in panel b, W_2 with thin lines for the walls.
 
     Parameters
     ----------
     shaded : ndarray, default ()
-        Intervals of time in forcing cycles, (n, 2), on a grey ground.
+        Time intervals with a grey background [forcing cycles], (n, 2).
     """
     figure = new_figure(SINGLE_COLUMN, 80.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True)
@@ -90,7 +90,7 @@ def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
 
 
 def without_resonance(table: pd.DataFrame) -> np.ndarray:
-    """Return the intervals of time [forcing cycles], (n, 2), in which ball 2 takes over a cycle from wall to wall."""
+    """Return the time intervals [forcing cycles], (n, 2), in which ball 2 needs more than a cycle from wall to wall."""
     motion = select(table, "b", "W_2")
     time, wall = motion.loc[motion["value"].abs() == 1, ["cycle", "value"]].to_numpy().T
     reached = time[np.diff(wall, prepend=0) != 0]

@@ -1,4 +1,4 @@
-"""The look shared by all figures, and how a figure becomes files."""
+"""Style shared by all figures, and functions that draw a figure and save it to files."""
 
 import functools
 import json
@@ -21,16 +21,16 @@ BLACK, GREY, LIGHT_GREY = "black", "0.55", "0.86"
 STABLE = {"color": BLACK, "linewidth": 1.8, "linestyle": "-"}
 UNSTABLE = {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (4.5, 2.5))}
 LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
-"""Lines of the chapter: stable branch bold solid, unstable branch dashed, B_min and C_min dotted."""
+"""Line styles of the chapter: stable branch bold solid, unstable branch dashed, B_min and C_min dotted."""
 HALO = {"path_effects": [withStroke(linewidth=2.5, foreground="white")], "zorder": 4}
-"""Of a name that lines may cross."""
+"""Text style, with a white outline, for a name that lines may cross."""
 
 # No date, so that the same figure always gives the same bytes.
 _METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
 
 
 def styled(function):
-    """Run a drawing function in the shared style, whatever the caller's Matplotlib settings are."""
+    """Decorate a drawing function to use the shared style, independent of the caller's Matplotlib settings."""
 
     @functools.wraps(function)
     def in_style(*args, **kwargs):
@@ -46,18 +46,18 @@ def new_figure(width: float, height: float, layout: str | None = "constrained") 
 
 
 def side_by_side(panels: int, most: int = 3) -> tuple[int, int]:
-    """Return the columns and rows of so many panels, at most three to a row of two columns' width."""
+    """Return the numbers of columns and rows for a number of panels, with at most `most` panels in a row."""
     columns = min(panels, most)
     return columns, -(-panels // columns)
 
 
 def heading(axes, letter: str = "", words: str = "") -> None:
-    """Head a panel with its letter in bold, as captions have it, and what it shows."""
+    """Write the heading of a panel: its letter in bold, as in captions, and words on its content."""
     axes.set_title("   ".join(filter(None, [letter and rf"$\mathbf{{{letter}}}$", words])), loc="left", pad=4)
 
 
 def time_plot(axes, lines, walls: bool = True) -> None:
-    """Draw lines over time, each a time (n,), values (n,) and a style; thin lines at the walls W = 1 and W = -1."""
+    """Draw lines over time, each given as (times (n,), values (n,), style), and thin lines at the walls W = +-1."""
     for wall in (-1.0, 1.0) if walls else ():
         axes.axhline(wall, color=BLACK, linewidth=0.4, zorder=0)
     for time, values, style in lines:
@@ -66,13 +66,13 @@ def time_plot(axes, lines, walls: bool = True) -> None:
 
 
 def hatch_gaps(axes) -> None:
-    """Let cells of a map that have no value be seen."""
+    """Hatch the cells of a map that have no value."""
     axes.patch.set(hatch="xxx", edgecolor=GREY)
 
 
 @styled
 def png(figure: Figure) -> bytes:
-    """Return the picture of a figure, to be shown and not to be kept."""
+    """Return the PNG of a figure, to be shown but not saved."""
     buffer = BytesIO()
     figure.savefig(buffer, format="png")
     return buffer.getvalue()
@@ -80,21 +80,21 @@ def png(figure: Figure) -> bytes:
 
 @styled
 def save(figure: Figure, outputs: dict) -> None:
-    """Write a figure to outputs["png"], ["pdf"], ["svg"] (those present), with the layout of the first file.
+    """Write a figure to outputs["png"], ["pdf"] and ["svg"], if present, all with the layout of the first file.
 
-    The versions of this process, which draws, go to outputs["provenance"] if it is there.
+    Versions of the packages in this process are written to outputs["provenance"], if present.
     """
-    # Always in this order: where axes come to lie depends in the last digits on what was drawn before.
+    # The order is fixed, since the last digits of the axes' positions depend on what was drawn before.
     for kind in (kind for kind in _METADATA if kind in outputs):
         figure.savefig(outputs[kind], format=kind, metadata=_METADATA[kind])
-        figure.set_layout_engine(None)  # one layout for all files; one that is kept has each of them drawn twice
+        figure.set_layout_engine(None)  # one layout for all files; a layout engine would draw each file twice
     if "provenance" in outputs:
         versions = json.dumps({"versions": recorded_versions()})
         Path(outputs["provenance"]).write_text(versions, encoding="utf-8")
 
 
 def draw_tables(figure, read: dict) -> Figure:
-    """Return the picture of a figure's module from its tables by name; `draw` of one with a single table takes that."""
+    """Draw a figure, given its module and its tables by name; pass a single table to `draw` without its name."""
     if not read:
         return figure.draw()
     several = list(read) != ["csv"] or getattr(figure, "SPEC", {}).get("tables")
@@ -102,14 +102,16 @@ def draw_tables(figure, read: dict) -> Figure:
 
 
 def write_and_draw(figure, computed, outputs: dict) -> None:
-    """Write the tables of a figure's `compute` that have a file, and draw them as written.
+    """Write the tables of a figure to files, and draw the figure from the tables as written.
 
     Parameters
     ----------
     figure
-        Its module.
+        Module of the figure.
+    computed
+        Result of its `compute`.
     outputs : dict
-        Paths by kind of picture and by name of table.
+        Paths by kind of picture and by name of table; a table without a path is not written.
     """
     drawn = _by_name(computed)
     for name in drawn.keys() & outputs.keys():
@@ -119,16 +121,16 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
 
 
 def shown(figure, inputs: dict, *args, **settings) -> tuple:
-    """Return what a page shows of a figure: what its `compute` returns, and its PNG (a path or the content).
+    """Return the content of a figure's page: the result of `compute`, and the PNG (a path or the bytes).
 
     Parameters
     ----------
     figure
-        Its module.
+        Module of the figure.
     inputs : dict
-        Paths of its tables and "png" in a build, which are read; empty: it is computed and drawn.
+        Paths of its tables and "png" in a build. If empty, the figure is computed and drawn.
     args, settings
-        Of `compute`.
+        Arguments of `compute`.
     """
     if not inputs:
         computed = figure.compute(*args, **settings)

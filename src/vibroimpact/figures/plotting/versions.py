@@ -1,4 +1,4 @@
-"""Versions of what draws: those that decide on pixels, and those recorded with a figure."""
+"""Return versions of packages: those that determine the pixels of a picture, and those recorded with a figure."""
 
 import platform
 from importlib.metadata import version
@@ -13,6 +13,6 @@ def drawing_versions() -> dict[str, str]:
 
 
 def recorded_versions() -> dict[str, str]:
-    """Return the versions of this Python and of the packages that a figure is computed and drawn with."""
+    """Return the versions of Python and of the packages that compute and draw a figure."""
     packages = ("numpy", "scipy", "numba", "matplotlib")
     return {"python": platform.python_version(), **{name: version(name) for name in packages}}
