@@ -58,7 +58,7 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
-    """Return, for evenly spaced kappa, the border of stability, C_min, and the length in C of the piece between them."""
+    """Return, for evenly spaced kappa, the border of stability, C_min, and the distance in C between them."""
     fold = select(table, "regions", "C_min")["C"].to_numpy()
     border = select(table, "regions", "stable").iloc[: len(fold)]
     rows = np.linspace(0, len(fold) - 1, values).astype(int)
