@@ -38,7 +38,7 @@ _SIDES = ("1_plus", "1_minus", "2_plus", "2_minus")
 
 
 class Table(NamedTuple):
-    """Hold the result of a command: column names, and rows of numbers, texts and booleans."""
+    """Result of a command: column names, and rows of numbers, texts and booleans."""
 
     columns: tuple[str, ...]
     rows: list[tuple]
@@ -48,9 +48,9 @@ class Table(NamedTuple):
     """Function that draws the result as a Matplotlib Figure."""
 
     def write(self, file) -> None:
-        """Write CSV to an open text file.
+        """Write the table as CSV to an open text file.
 
-        Numbers have as many digits as identify them; NaN is an empty field.
+        Numbers have all digits that are needed to read them back exactly; NaN is an empty field.
         """
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(self.columns)
@@ -58,7 +58,7 @@ class Table(NamedTuple):
 
 
 class Command(NamedTuple):
-    """Describe a command: its help text, its options and the function that computes its table."""
+    """Description of a command: its help text, its options and the function that computes its table."""
 
     help: str
     add_options: Callable
@@ -96,16 +96,16 @@ def _no_options(parser):
 
 
 def _fixed_points(system, options):
-    """Return a row per fixed point with the verdicts of the criteria: fast, slow and theory (both)."""
+    """Return one row per fixed point, with the verdict of each of CRITERIA."""
     columns = ("label", "C1", "C2", "B1", "B2", "psi1", "psi2", *CRITERIA)
     rows = [point.row() | of_fixed_point(system, point) for point in fixed_points(system)]
     return Table(columns, [tuple(row[name] for name in columns) for row in rows])
 
 
 def _orbits(system, options):
-    """Return a row per admissible orbit.
+    """Return one row per admissible orbit.
 
-    Phases are in forcing periods, at walls +1 and -1; modulus_1 is that of the largest multiplier.
+    Phases, in forcing periods, and speeds belong to walls +1 and -1; modulus_1 is the largest modulus of a multiplier.
     """
     measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
     columns = ("symmetric", "C1", "C2", *measures, "modulus_1", "residual", "exact")
@@ -127,7 +127,7 @@ def _simulate_options(parser):
 
 
 def _simulate(system, options):
-    """Return a row per sample (tau and the state), or per event (with the state just after it)."""
+    """Return one row per sample (tau and the state), or one row per event (with the state just after the event)."""
     cycles = whole("cycles", options.cycles, 0, _MOST_SAMPLES)
     if options.events:
         events = simulate(system, options.state, cycles, options.tau0).events.tolist()
@@ -160,7 +160,7 @@ def _design_options(parser):
 
 
 def _range(text) -> tuple[float, ...]:
-    """Return one number, or both numbers of A..B."""
+    """Return the number in a text, or both numbers in a text of the form A..B."""
     try:
         return tuple(float(word) for word in text.split("..", maxsplit=1))
     except ValueError:
@@ -168,7 +168,7 @@ def _range(text) -> tuple[float, ...]:
 
 
 def _design(options):
-    """Return a row per frequency; the summary is the text of a Design."""
+    """Return one row per frequency; the summary is the text of the `Design`."""
     if options.plot is not None and options.plot.suffix not in PICTURES:
         raise ValueError(f"plot: {options.plot} does not end in {', '.join(PICTURES)}")
     if options.plot is not None:

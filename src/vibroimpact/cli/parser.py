@@ -24,9 +24,9 @@ class _Parser(argparse.ArgumentParser):
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run one command; return the exit status.
+    """Run one command and return 0.
 
-    The status is 2 for invalid arguments and 1 for a failed computation.
+    The process exits with status 2 for invalid arguments, and with status 1 for a failed computation.
     """
     options = parser().parse_args(arguments)
     return options.run(options)
@@ -87,9 +87,9 @@ def _check_folders(options):
 
 
 def _put(table: Table, output: Path | None):
-    """Write the table to its file and print the summary, or print the table.
+    """Write the table to the file `output`, if given, and print the summary, if the command has one.
 
-    A table that cannot be saved is printed.
+    The table is printed if there is neither, or if it cannot be saved.
     """
     failed = None
     try:
@@ -111,12 +111,12 @@ def _put(table: Table, output: Path | None):
 
 
 def _draw(table, options):
-    """Save the plot of a result that is already printed, in the style of the project."""
+    """Save the plot of a result, in the style of the project; the result itself is already printed or saved."""
     os.environ["MPLBACKEND"] = "agg"  # Matplotlib fails to load if MPLBACKEND names a missing backend
     try:
         from vibroimpact.figures.plotting.style import save, styled
 
         save(styled(table.plot)(), {options.plot.suffix.removeprefix("."): options.plot})
-    except Exception as error:  # drawing runs other programs and reads fonts; the result is already printed
+    except Exception as error:  # drawing runs other programs and reads fonts; the result is safe
         reason = f"{error}".strip().partition("\n")[0]
         options.parser.exit(1, f"{options.parser.prog}: plot: {options.plot} cannot be saved: {reason}\n")
