@@ -2,15 +2,15 @@
 
 - `System`, `PhysicalSystem`: the parameters, dimensionless or in SI units.
 - `fixed_points`: the motions that the chapter's theory predicts.
-- `orbits`, `prove`: exact periodic motions with their Floquet multipliers; the proof of one in interval arithmetic.
+- `orbits`, `prove`: exact periodic motions with Floquet multipliers; proof of such a motion in interval arithmetic.
 - `periodic_orbit`: a periodic motion of any period and any impacts, refined from a state near it.
-- `simulate`, `simulate_many`, `ensemble`: one exact run; many; summary statistics of many.
+- `simulate`, `simulate_many`, `ensemble`: one exact run; many exact runs; summary statistics of many runs.
 - `largest_lyapunov`, `lyapunov_spectrum`: Lyapunov exponents with errors.
 - `attractors`, `basins`: the attractors of a system; their basins on a plane of initial states.
 - `sections`: stroboscopic sections of many runs, such as a bifurcation diagram.
-- `branches`, `bifurcation_curves`: continuation in one parameter; folds and symmetry breaking in two.
+- `branches`, `bifurcation_curves`: continuation in one parameter; folds and symmetry breaking in two parameters.
 - `sweep`: observations over a grid of parameters.
-- `design`, `best_tuning`, `textbook_tuning`: the ball for a machine; linear absorbers.
+- `design`, `best_tuning`, `textbook_tuning`: choice of the ball for a machine; linear absorbers.
 - `to_frame`, `to_dataset`: results as tables.
 
 Verdicts on stability have the same names everywhere: `fast` (impacts), `slow` (amplitudes), `theory` (both), `exact`
@@ -66,7 +66,7 @@ _PUBLIC = {
     "STICK": "vibroimpact.system.state",
     "RELEASE": "vibroimpact.system.state",
 }
-"""Modules of the public names; `__init__.pyi` has the same for type checkers."""
+"""Module of each public name; `__init__.pyi` lists the same names for type checkers."""
 __all__ = [*_PUBLIC, "__version__"]
 
 

@@ -1,6 +1,7 @@
 """Compile simulations, results of runs, and ensembles in advance: `python -m vibroimpact.compile`.
 
-Numba caches the code next to the library, else in the user's cache, else in a temporary folder; or in NUMBA_CACHE_DIR.
+Numba caches the code in NUMBA_CACHE_DIR if this is set. Otherwise it uses the first of these folders that is writable:
+the folder of the library, the user's cache, a temporary folder.
 """
 
 import gc
@@ -39,14 +40,14 @@ def event_loop() -> None:
 def certificates() -> None:
     """Compile certificates and Jacobians of runs.
 
-    They use an artificial run, so that they need not wait for the event loop.
+    An artificial run is used, so that the event loop need not be compiled first.
     """
     run = _artificial_run()
     _ = run.certificate, run.jacobian
 
 
 def results_of_runs() -> None:
-    """Compile the other results computed from runs."""
+    """Compile the other results of runs: energies, errors and the growth of perturbations."""
     import numpy as np
 
     from vibroimpact.exact.engine.variation import growth
@@ -56,7 +57,7 @@ def results_of_runs() -> None:
 
 
 def ensembles() -> None:
-    """Compile ensembles, in lanes and, for undamped systems, run by run.
+    """Compile ensembles, which compute runs in lanes, or one by one if the system is undamped.
 
     This comes last because ensembles use all other code.
     """

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-_PER_CYCLE, _MOST = 64, 20_000  # points of a plot: per cycle, and at most
+_PER_CYCLE, _MOST = 64, 20_000  # points of a plot: number per cycle, and largest total number
 
 
 def to_frame(result: Any) -> "pandas.DataFrame":
@@ -124,9 +124,9 @@ def plot_times(run) -> np.ndarray:
 
 
 def plot(system, times, samples):
-    """Return a Matplotlib Figure of states (n, 8) at times tau.
+    """Return a Matplotlib Figure of the states (n, 8) at the given times.
 
-    It shows X_i of both boxes, and W_i = X_i - Y_i between the walls.
+    It shows X_i of the box and W_i = X_i - Y_i of the ball, for both modules.
     """
     need("figures", "matplotlib")
     from matplotlib.figure import Figure
@@ -146,16 +146,16 @@ def _has_rows(one):
 
 
 def _rows(one, number):
-    """Return the rows of one member of a list."""
+    """Return the rows of one result, whose index in the list of results is `number`."""
     if isinstance(one, dict):
         return [one]
     return one.rows(number) if hasattr(one, "rows") else [one.row()]
 
 
 def _columns(table):
-    """Return the columns of a structured array (n,) by name.
+    """Return the columns of a structured array (n,), keyed by name.
 
-    A field with several numbers gives columns numbered from 1, or named as the components of a state.
+    A field with several numbers becomes several columns, numbered from 1, or named like the components of a state.
     """
     columns = {}
     for name in table.dtype.names:

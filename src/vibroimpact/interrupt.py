@@ -9,9 +9,9 @@ from contextlib import contextmanager
 
 @contextmanager
 def without_traceback() -> Iterator[None]:
-    """End the process on an interrupt with one line instead of a traceback.
+    """End the process on Ctrl-C with a line of text instead of a traceback.
 
-    The process ends by the signal itself, so that a shell stops its loop or script.
+    The process is ended by the signal itself, so that a shell also stops the loop or script that runs it.
     """
     try:
         yield

@@ -1,7 +1,7 @@
 """Build tidy tables of plotted numbers, and write and read them as CSV without loss.
 
 Every table has the columns `panel` and `series`, then one column per plotted quantity, named as on the axis.
-The column `label` names single points. A field is blank where a row does not have the quantity.
+The column `label` names single points. A field is blank if a row has no value of the quantity.
 """
 
 import numpy as np
@@ -14,11 +14,11 @@ import pandas as pd  # noqa: E402 (after the dependency check)
 
 TEXT = ("panel", "series", "label")
 BLANK_TEXT = (*TEXT, "failed")
-"""Text columns, in which a blank field is an empty text; in other columns it is a missing value."""
+"""Text columns, in which a blank field is an empty text; in other columns, a blank field is a missing value."""
 
 
 def curve(panel: str, series: str, **quantities) -> pd.DataFrame:
-    """Return the rows of one curve or point set; quantities are arrays (n,) or scalars, broadcast."""
+    """Return the rows of one curve or point set; quantities are arrays (n,), or scalars for all rows."""
     values = np.broadcast_arrays(*(np.atleast_1d(quantity) for quantity in quantities.values()))
     columns = dict(zip(quantities, values, strict=True))
     return pd.DataFrame({"panel": panel, "series": series, **columns})
@@ -33,17 +33,17 @@ def join(curves) -> pd.DataFrame:
 
 
 def select(table: pd.DataFrame, panel: str, series: str) -> pd.DataFrame:
-    """Return the rows of one series of one panel, in plotting order."""
+    """Return the rows of one series in one panel, in plotting order."""
     return table[(table["panel"] == panel) & (table["series"] == series)]
 
 
 def write(table: pd.DataFrame, path) -> None:
-    """Write a table with as many digits as identify its numbers."""
+    """Write a table as CSV, with all digits that are needed to read its numbers back exactly."""
     table.to_csv(path, index=False, lineterminator="\n")
 
 
 def read(path) -> pd.DataFrame:
-    """Read a table written by `write`, equal to the last digit."""
+    """Read a table that was saved by `write`, with exactly the same numbers."""
     table = pd.read_csv(path, dtype=dict.fromkeys(BLANK_TEXT, str))
     text = [name for name in BLANK_TEXT if name in table]
     table[text] = table[text].fillna("")
