@@ -89,7 +89,7 @@ def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
 
 
 def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
-    """Return the motion of the fixed point with a given label, see `motions`; the table has all fixed points.
+    """Return the motion of one fixed point (see `motions`), given its label and a table of all fixed points.
 
     Raises
     ------

@@ -19,7 +19,7 @@ class NoOrbit(ValueError):
 
 
 def first_order(system, point) -> np.ndarray:
-    """Return the derivatives by epsilon of C (row 0) and of the impact phases [rad] (row 1) at a fixed point, (2, 2).
+    """Return the epsilon-derivatives of C (row 0) and of the impact phases [rad] (row 1) at a fixed point, (2, 2).
 
     Multiplied by epsilon, they are the second terms of (10.7). An inactive module (`System.modules`) has NaN.
 
@@ -62,7 +62,7 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 
 
 def offsets(system, point, roots) -> np.ndarray:
-    """Return the differences in C and in impact phase [rad] of exact roots (..., 4) from a fixed point, (..., 2, 2).
+    """Subtract a fixed point from exact roots (..., 4); return the differences in C and phase [rad], (..., 2, 2).
 
     Entries of an inactive module are NaN.
     """

@@ -89,7 +89,7 @@ def stress_tests() -> list[StressTest]:
 
 
 def judge(test: StressTest, methods) -> list[dict]:
-    """Return one row per method: verdict and errors of its careful setting on a stress test."""
+    """Run each method with its careful setting on a stress test; return one row per method: verdict and errors."""
     reference = reference_of(test)
     return [_row(test, method, reference) for method in methods]
 

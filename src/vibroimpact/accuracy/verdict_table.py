@@ -42,7 +42,7 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.DataFrame:
     """Return one row per fixed point, sorted by label, with the verdict of each criterion.
 
-    The verdict `exact` on a fixed point is that on the exact orbit next to it.
+    The verdict `exact` is the Floquet verdict on the exact orbit next to the fixed point.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
     orbit next to the point, see `partners`; "" if there is none), and one column per criterion.
     """
     points = sorted(points, key=lambda point: point.label)
-    symmetric = orbits[orbits["symmetric"].astype(bool)]  # an empty table has no types
+    symmetric = orbits[orbits["symmetric"].astype(bool)]  # in an empty table this column is not boolean
     found = partners([point.C for point in points], symmetric[["C1", "C2"]].to_numpy(float))
     rows = []
     for point, place in zip(points, found, strict=True):

@@ -89,7 +89,7 @@ def _check_folders(options):
 def _put(table: Table, output: Path | None):
     """Write the table to the file `output`, if given, and print the summary, if the command has one.
 
-    The table is printed if there is neither, or if it cannot be saved.
+    The table is printed if there is no file and no summary, or if the table cannot be saved.
     """
     failed = None
     try:

@@ -88,7 +88,7 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
 
 
 def _motions(module, system, settings, models, seconds):
-    """For each model, yield its name, the reference, the error and the cost [s], for a figure of fixed points.
+    """Yield, for each model of a figure of fixed points, its name, the reference, the error and the cost [s].
 
     The cost is the run time of the whole computation from the parameters.
     """
@@ -106,7 +106,7 @@ def _motions(module, system, settings, models, seconds):
 
 
 def _simulations(module, system, settings, models, seconds):
-    """For each model, return its name, the reference, the error and the cost [s], for a figure of a simulated motion.
+    """Return, for each model of a simulated motion, its name, the reference, the error and the cost [s].
 
     Both arithmetics start where the transient in float64 ends, since the transient takes the reference a minute. The
     cost of the transient is estimated from the cost of a window with few samples, in proportion to the periods.

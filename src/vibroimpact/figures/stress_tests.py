@@ -32,7 +32,7 @@ SPEC = {
     },
 }  # fmt: skip
 
-VERDICTS = {  # from the best to the worst
+VERDICTS = {  # in order of increasing severity
     "unavailable": ("–", "#DDDDDD"),
     "right": ("✓", "#D9EFE3"),
     "reported undecidable": ("?", "#74AEDF"),
@@ -42,7 +42,7 @@ VERDICTS = {  # from the best to the worst
 }
 """Mark and colour of each verdict, both with the same meaning; the colour is used in full if all tests fail."""
 PALEST = 0.3
-"""Depth of the colour, as a part of full colour, in a cell where almost no test fails."""
+"""Share of the full colour in a cell where almost no test fails."""
 ROW, HEAD, FOOT = 7.4, 18.0, 9.0
 """Heights in mm of a row of cells, of the names of methods above, and of the legend below."""
 LEFT, RIGHT = 27.0, 11.0

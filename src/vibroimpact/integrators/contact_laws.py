@@ -1,4 +1,4 @@
-"""Laws of compliant contact: the force on a ball at a depth p beyond a wall, or, for a spring over the box, at p = |W|.
+"""Laws of compliant contact: the force on a ball at depth p beyond a wall; a spring over the whole box has p = |W|.
 
 All laws have the form K p^n + D p^m p'. In the phase plane of p and V = p', with the mass mu = epsilon / (1 + epsilon)
 of the relative motion, V dV/dp = -(K p^n + D p^m V) / mu.
@@ -59,7 +59,7 @@ def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float, speed: fl
     The ball has the given speed in the middle of the box.
     """
     zeta = damping_ratio(kappa)
-    deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # omega u for speed 1
+    deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # largest u at speed 1, times omega
     return 0.5 * (law.stiffness + 1.0) * mass * (deepest * speed) ** 2
 
 

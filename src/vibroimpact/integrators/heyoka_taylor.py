@@ -132,7 +132,7 @@ class _Integrator:
     def _impact(self, i, wall):
         """Return the callback that applies the impact law to the state in place.
 
-        The callback stops the flight instead, for `Contacts`, if a ball sticks or is so slow that it may stick.
+        If a ball is stuck, or so slow that it may stick, the callback only stops the flight; `Contacts` takes over.
         """
         s_box, s_ball = 4 + BOXES[i], 4 + BALLS[i]
 

@@ -27,7 +27,7 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 
 SHORTEST, PATIENCE = 1e-6, 100
-"""A run is stopped, as an endless chatter, after PATIENCE successive steps to a jump that are shorter than SHORTEST."""
+"""A run is stopped, as an endless chatter, after more than PATIENCE successive jumps less than SHORTEST [tau] apart."""
 HALVINGS = 50  # bisections of a step that locate a jump
 
 
@@ -85,7 +85,7 @@ def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
 def _rates(tau, z, q, k, boxes, ways, d):
     """Write the derivative of the unfolded coordinates into d, for given boxes and signs of v (`ways`).
 
-    The formula is smooth, also at coordinates z with another box or sign than the given ones.
+    The formula is smooth even where the actual boxes and signs at z differ from the given ones.
     """
     share, s = q[9] / (1.0 + q[9]), np.empty(8)
     for i in range(2):
@@ -188,7 +188,7 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, ways):
-    """Bisect a step that ends beyond a jump; return the shortest fraction that still does, and its last coordinates."""
+    """Bisect a step that ends beyond a jump; return the shortest fraction that still does, and the end coordinates."""
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, ways, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)

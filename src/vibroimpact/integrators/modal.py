@@ -26,7 +26,7 @@ from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 WORST = 1e8
 """Condition number of the eigenvectors at which the modes have lost half of their digits."""
 TRIES, NEAR = 60, 3e-8
-"""Largest number of Newton steps for an event, and the length [tau] of a last step, whose square is below rounding."""
+"""Largest number of Newton steps for an event, and the step length [tau] that ends them: its square is negligible."""
 
 
 class Modal(Method):
@@ -120,9 +120,9 @@ def _state(s, walls, count, shape, amplitudes, t, there):
 
 @inlined()
 def _guess(before, there, i, low, high):
-    """Return the zero of the cubic that has the gap of module i, and the slope of the gap, in two states.
+    """Interpolate the gap of module i and its slope between two states by a cubic; return the time of its zero.
 
-    Newton's method starts at the zero of the tangent in the later state.
+    Newton's method for this zero starts with the tangent in the later state.
     """
     x = 2 * i
     wall = 1.0 if there[x] - there[x + 1] > 0.0 else -1.0

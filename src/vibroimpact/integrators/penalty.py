@@ -1,4 +1,4 @@
-"""Integrate with compliant walls, made of springs and dampers (contact_laws), whose forces depend on the state alone.
+"""Integrate with compliant walls of springs and dampers (contact_laws); contact forces join the right-hand side.
 
 The method of Dormand and Prince (1980) is used. It is explicit, since a contact is an oscillation that must be
 resolved. It is compiled, since a general solver would spend most of its time outside the evaluation of the force.
@@ -26,9 +26,9 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
 SLOWEST = 1e-3
-"""Lowest speed V for which the damping of a contact is set; a damping proportional to 1 / V has no limit at V = 0."""
+"""Speed V that sets the damping of slower contacts too, since damping proportional to 1 / V has no limit at V = 0."""
 NOTICED = 0.01
-"""Lowest speed, in the middle of the box, of a ball whose impact is counted, if the wall is a spring over the box."""
+"""Lowest speed, in the middle of the box, of a ball whose impact is counted, for a spring over the whole box."""
 SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
 HALVINGS = 40  # bisections that make a step end where a contact begins
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)

@@ -81,7 +81,7 @@ class Method(ABC):
         """
 
     def scale(self, setting, run: MethodRun) -> float:
-        """Return the small quantity that controls the error; by default 1 / number of steps, the mean step."""
+        """Return the small quantity that controls the error; by default 1 / number of steps."""
         return 1.0 / run.steps
 
 

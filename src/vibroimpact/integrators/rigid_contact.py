@@ -17,7 +17,7 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients,
 SLOWEST = 1e-6
 """Lowest rebound speed that is followed. Slower rebounds change the state by epsilon SLOWEST^3, less than rounding."""
 ROOM = 64
-"""Number of rows for the impacts of a run that are allocated at the start."""
+"""Initial number of rows for the impacts of a run."""
 
 
 @inlined()
@@ -72,7 +72,7 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 def first_look(tau, s, q, walls, step):
     """Return the time from now at which to evaluate the gaps first, so that no short flight is missed.
 
-    It is `step`, or half the duration expected of a flight that begins at a wall now, if this is shorter.
+    This time is `step`, or half the expected duration of a flight that begins at a wall now, if that is shorter.
     """
     for i in range(2):
         x = 2 * i

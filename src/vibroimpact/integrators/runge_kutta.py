@@ -13,7 +13,7 @@ from vibroimpact.integrators.right_hand_side import coefficients, derivative, in
 from vibroimpact.integrators.rigid_contact import ROOM, SLOWEST, first_look, guard, newton_or_middle, resolve
 
 TRIES, NEAR = 60, 1e-14
-"""Largest number of Newton steps for an event, and the length [tau] of a step that is the last one."""
+"""Largest number of Newton steps for an event, and the step length [tau] that ends them."""
 
 
 class RungeKutta4(Method):
@@ -49,7 +49,7 @@ def _step(tau, s, q, walls, h, slopes, there):
 
 @inlined()
 def _event(tau, s, q, walls, i, high, slopes, event):
-    """Return the length of the step, below `high`, at the end of which the guard of module i vanishes.
+    """Return the length of the step, below `high`, after which the guard of module i is zero.
 
     The state at that time is written to `event`.
     """

@@ -1,4 +1,4 @@
-"""Integrate with SciPy's solve_ivp: an impact or a vanishing contact force is a terminal event, then it restarts."""
+"""Integrate with SciPy's solve_ivp, which stops at each impact or vanishing contact force and is then restarted."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -16,7 +16,7 @@ PATIENCE = 100  # largest number of successive events without progress in time
 class SolveIvp(Method):
     """One method of solve_ivp, with compiled right-hand side and Jacobian; the setting is rtol.
 
-    The first step after an impact is at most half of the expected flight, so that no impact of a chatter is missed.
+    The first step after an impact is at most half of the expected flight, so that it does not pass over a chatter.
     """
 
     family, knob = "solve_ivp", "rtol"

@@ -8,7 +8,7 @@ class Undecidable(ArithmeticError):
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
-    """Return an interval (arb) with the first root of the series in (0, end] and no other root, or None without roots.
+    """Return an interval (arb) that contains only the first root of the series in (0, end], or None if it has none.
 
     series: arb_poly, positive at 0. Its mean-value enclosures prove that no root comes before the interval. hint
     (< end): point at which (0, end] is first split, for a root much nearer than end.
@@ -45,7 +45,7 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
 
 
 def refine(series, ball: arb) -> arb:
-    """Return the root inside the interval `ball` to working precision; the series falls there and has one root.
+    """Return, to working precision, the root in the interval `ball`, in which the series falls and has one root.
 
     The interval Newton method is used, with bisection as the fallback.
     """

@@ -13,7 +13,7 @@ from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 # Impacts of a completed chatter are not listed if their rebound speed |W'| is at most this.
 LISTED_SPEED = Fraction(1, 10**12)
-GUARD_BITS = 64  # beyond the requested digits
+GUARD_BITS = 64  # bits beyond the requested digits
 SEARCH_BITS = 96  # sufficient to exclude and bracket most events; otherwise the full precision is used
 
 
@@ -273,7 +273,7 @@ class Trajectory:
         self._note(module, STICK)
 
     def _settle(self, *modules, started=False):
-        """Release every stuck ball, of the given modules or both, that its contact force w X'' no longer pushes.
+        """Release each stuck ball, in the given modules or in both, whose contact force w X'' no longer pushes it.
 
         The sign of the first Taylor coefficient of the force that does not vanish within the digits decides. This works
         after the force falls through zero, after it jumps due to an impact of the other module, and at the start.
@@ -319,7 +319,7 @@ class Trajectory:
         return bool(time > 0 and self.tau + time < next_stop + self.tolerance and self._is_undisturbed(contacts, time))
 
     def _is_undisturbed(self, contacts, time):
-        """Return True if, for this time, contact forces stay positive and other balls stay far from the walls."""
+        """Return True if, during this time, contact forces stay positive and other balls stay far from the walls."""
         flow, vector = self._flow(SEARCH_BITS), self._vector()
         acceleration = flow.size(vector) * to_ball(flow.norm)
         series = flow.series(vector)
@@ -362,7 +362,7 @@ def _relative(ball, motion):
 
 
 def _force(ball, motion):
-    """Return the contact force w X'' of wall w on a ball that rests on it, per mass, as a power series."""
+    """Return the contact force w X'' of wall w on a ball that rests on it, per unit mass, as a power series."""
     return ball.wall * motion.derivative().derivative()
 
 

@@ -13,7 +13,7 @@ from vibroimpact.figures.plotting.markdown import EXACTLY, plain
 from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 
 AGREES = 1e-8
-"""Two tables contain the same fixed points if the coordinates differ by less; the same code computes both tables."""
+"""Two tables contain the same fixed points if all coordinates differ by less than this; the same code computes both."""
 COORDINATES = ["C1", "C2", "B1", "B2", "psi1", "psi2"]
 HINT = "with inputs = {} the notebook computes from its own parameters"
 
@@ -68,7 +68,7 @@ WHY = {
 
 
 def why(verdicts: pd.DataFrame) -> pd.DataFrame:
-    """Return the table that explains the verdicts: one row per fixed point, with the columns WHY."""
+    """Return the table that explains the verdicts: one row per fixed point, with the columns in WHY."""
     shown = verdicts[[*WHY]].round({"largest multiplier": 4}).rename(columns=WHY).set_index("fixed point")
     return shown.astype(object).where(shown.notna() & (shown != ""), "–")
 

@@ -16,7 +16,7 @@ def one_line(text) -> str:
 
 
 def plain(text) -> str:
-    """Return a text, escaped so that it contains no markup, formula, link or entity and does not end a table cell."""
+    """Return a text with escapes, so that it has no markup, formula, link or entity and does not end a table cell."""
     return ESCAPED.sub(r"\\\1", one_line(text))
 
 

@@ -11,9 +11,9 @@ STEP, GAP = 4.0, 1.6
 LEADER = 5.0
 """Distance in points between a name and its curve above which a leader line connects them."""
 FAR = 50.0
-"""Distance in points from its curve above which a name may have a place where its curve is not obvious."""
+"""A name may have a place where its curve is not obvious if there is no better place within this distance, in points."""
 APART = 3.0
-"""Smallest difference, in points, of a name's distances from other named curves and from its own, without a leader."""
+"""Points by which a name without a leader line must be nearer to its own curve than to other named curves."""
 
 UNCLEAR, COVERS = 1, 2
 """Defects of a place that is taken for lack of a better one: its curve is not obvious; the name covers something."""
@@ -22,7 +22,7 @@ UNCLEAR, COVERS = 1, 2
 def name_curves(figure, panels: dict, **style) -> None:
     """Write the name of each curve next to it, in its colour, where it covers no line, marker, text or inset.
 
-    Call this last, since the places are found for the present limits and layout. Names have a halo against shading.
+    Call this last, since the places are found for the present limits and layout. A halo separates names from shading.
 
     Parameters
     ----------

@@ -94,7 +94,7 @@ def save(figure: Figure, outputs: dict) -> None:
 
 
 def draw_tables(figure, read: dict) -> Figure:
-    """Draw a figure, given its module and its tables by name; pass a single table to `draw` without its name."""
+    """Draw the figure of a module from its tables, keyed by name; `draw` gets a single table without its name."""
     if not read:
         return figure.draw()
     several = list(read) != ["csv"] or getattr(figure, "SPEC", {}).get("tables")
