@@ -11,7 +11,7 @@ STEP, GAP = 4.0, 1.6
 LEADER = 5.0
 """Distance in points between a name and its curve above which a leader line connects them."""
 FAR = 50.0
-"""A name may have a place where its curve is not obvious if there is no better place within this distance, in points."""
+"""A name may have a place where its curve is not obvious if no better place is within this distance, in points."""
 APART = 3.0
 """Points by which a name without a leader line must be nearer to its own curve than to other named curves."""
 
