@@ -10,9 +10,8 @@ PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
 def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
     """Call several functions repeatedly, in turn, so that a disturbance of the machine affects all of them.
 
-    Each function is called as often as fits in `seconds`, at least once and at most `most` times. The caller must have
-    called it before, so that one-time work (compilation, tables) is not timed. Return, for each function, its result
-    and the time [s] of its fastest call.
+    Each function is called as often as fits in `seconds`, at least once and at most `most` times. One-time work (such
+    as compilation) must be done by an earlier call. Return, for each function, its result and its shortest time [s].
     """
     given, best = [None] * len(works), [float("inf")] * len(works)
     total, calls, left = [0.0] * len(works), [0] * len(works), list(range(len(works)))

@@ -3,8 +3,7 @@
 General integrators cannot treat the end of a chatter, a ball at rest on a wall. So a ball whose rebound is slower than
 `slow` sticks if the box presses it against the wall; the omitted impacts change the state by less than slow^3. The
 result of the integrator is not checked: if it misses an impact, the ball continues beyond the wall. The code is
-compiled. The coefficients q are those of `right_hand_side`, and the impact law is that of
-`vibroimpact.system.restitution`.
+compiled. Coefficients q: see `right_hand_side`; impact law: see `vibroimpact.system.restitution`.
 """
 
 import math

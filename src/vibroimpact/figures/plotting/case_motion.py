@@ -70,10 +70,7 @@ def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -
 
 
 def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, float]]:
-    """For each ball that leaves both walls, return its module and its mean flight times from walls +1 and -1.
-
-    The times are in forcing periods.
-    """
+    """Return, for each ball that leaves both walls, its module and mean flight times [periods] from walls +1 and -1."""
     found = []
     for module, mine in impacts.groupby("module"):
         flown = mine["tau"].diff().shift(-1).groupby(mine["wall"]).mean() / period
