@@ -159,7 +159,7 @@ def proven_run(
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
     """Return the event times of the fine run (n,), and the difference between two runs at each event (n,).
 
-    The difference is the largest one in time and coordinates; inf from the first event with another wall or kind.
+    It is the largest one in time and coordinates; inf from the first event with another module, wall or kind.
     """
     error = np.full(len(fine.events), np.inf)
     for i, (one, other) in enumerate(zip(coarse.events, fine.events, strict=False)):
