@@ -1,1 +1,1 @@
-"""Find all exact 1:1 orbits, with two impacts per cycle and module, and their Floquet multipliers."""
+"""Find exact 1:1 orbits, with two impacts per forcing cycle and module, and compute their Floquet multipliers."""

@@ -1,19 +1,20 @@
 """Find asymmetric 1:1 responses (unequal flight times) by Newton's method from many starts.
 
-Module i meets wall +1 at p_i and wall -1 at q_i = p_i + u_i T. At each impact its ball's velocity changes by I_i and
--I_i in turn, so the flight from wall +1 has the velocity I_i (1 - u_i), the flight back -I_i u_i, and each covers
-I_i u_i (1 - u_i) T. Box i receives the velocity changes -epsilon I_i at p_i and +epsilon I_i at q_i. The superposition
-of the forced response and of all impulses gives, per module, two conditions of restitution and one of distance,
+Ball i meets wall +1 at p_i and wall -1 at q_i = p_i + u_i T. Its velocity changes by I_i at p_i and by -I_i at q_i.
+Its velocity is therefore I_i (1 - u_i) on the flight from wall +1 and -I_i u_i on the flight back, and both flights
+have the length I_i u_i (1 - u_i) T. The velocity of box i changes by -epsilon I_i at p_i and by +epsilon I_i at q_i.
+The motion of the boxes is the sum of the forced response and the responses to all impulses. Each module has two
+equations from Newton's rule and one for the length of the flights,
 
     (1 + kappa) X_i'(p_i-) = I_i (1 - u_i - kappa u_i + epsilon),
     (1 + kappa) X_i'(q_i-) = I_i (kappa (1 - u_i) - u_i - epsilon),
     I_i u_i (1 - u_i) T = 2 + X_i(q_i) - X_i(p_i),
 
-six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots with u_1 = u_2 = 1/2. A module that
-takes no part has p_i = q_i = I_i = 0.
+in total six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots with u_1 = u_2 = 1/2. An
+inactive module (see `System.modules`) has p_i = q_i = I_i = 0.
 
-The starts cover the flight fractions and the lag p_2 - p_1 evenly; for each of them the equations are linear in I and
-in the forcing phase, so the other unknowns start at their least-squares values. The list is not proved complete.
+The starts cover u_1, u_2 and the lag p_2 - p_1 evenly. For given values of these three, the equations are linear in I_i
+and in cosine and sine of the forcing phase, which start at their least-squares values. Roots may be missed.
 """
 
 import numpy as np
@@ -28,9 +29,9 @@ _UNEQUAL = 1e-7
 _BOXES = np.array([0, 0, 1, 1])
 _KICKS = np.array([-1.0, 1.0, -1.0, 1.0])
 MODULES = np.array([1, 1, 2, 2, 1, 2])
-"""Modules of the unknowns (p_1, q_1, p_2, q_2, I_1, I_2) and of the conditions."""
+"""Module of each unknown (p_1, q_1, p_2, q_2, I_1, I_2), and of each equation."""
 _MODULES = np.eye(2)[MODULES - 1]
-_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # derivatives of the flight times by the impact times
+_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # derivatives of the flight times from wall +1 by the impact times
 _PLASTIC = 1.2207440846057596  # root of x^4 = x + 1; its powers give a low-discrepancy sequence
 
 
@@ -65,22 +66,25 @@ class AsymmetricConditions:
         return residual, jacobian
 
     def linear_system(self, times: np.ndarray):
-        """Return the matrix (n, 6, 4) of the equations for (I_1, I_2, c, s).
+        """Return the matrix (n, 6, 4) of the linear equations for (I_1, I_2, c, s) at impact times (n, 4).
 
-        The forcing phase is exp(i Omega tau) (c + i s).
+        The forcing is in phase with Im(exp(i Omega tau) (c + i s)): c and s shift its phase.
         """
         forced = self.amplitude * np.exp(1j * self.system.Omega * times)
         by_phase = np.stack([self._forced(forced), self._forced(1j * forced)], axis=2)
         return np.concatenate([self._linear(times)[0], by_phase], axis=2)
 
     def _forced(self, forced):
-        """Return the terms of the six conditions in the forced response, (n, 6), from its complex value at impacts."""
+        """Return the terms of the equations due to the forced response, (n, 6), from its complex values at impacts."""
         velocity = (1 + self.system.kappa) * self.system.Omega * forced.real
         distance = forced.imag[:, 0::2] - forced.imag[:, 1::2]
         return np.concatenate([velocity, distance], axis=1)
 
     def _linear(self, times):
-        """Return the coefficients of the strengths, (n, 6, 2), and the responses to unit changes of ball velocity."""
+        """Return the coefficients (n, 6, 2) of I_1, I_2 in the equations, and responses of the boxes to unit impacts.
+
+        The responses are velocities and accelerations before impact m, per unit change of ball velocity at impact k.
+        """
         system = self.system
         x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))
         by_impact = np.concatenate([(1 + system.kappa) * v, x[:, 0::2] - x[:, 1::2]], axis=1)
@@ -90,11 +94,11 @@ class AsymmetricConditions:
         return by_impact.reshape(-1, 6, 2, 2).sum(axis=3) - _MODULES * own[..., None], (v, a)
 
     def _fractions(self, times):
-        """Return the flight times from wall +1 over the period, (n, 2)."""
+        """Return the flight times from wall +1 as fractions of the period, u_1 and u_2, shape (n, 2)."""
         return wrapped(times[:, 1::2] - times[:, 0::2], self.system.period) / self.system.period
 
     def _moved(self, forced, responses, strengths, times):
-        """Return the derivatives (n, 6, 4) with respect to the impact times."""
+        """Return the derivatives (n, 6, 4) of the equations with respect to the impact times."""
         system = self.system
         others = 1 - np.eye(4)
         v, a = (r * others * strengths[:, None, _BOXES] for r in responses)
@@ -110,7 +114,7 @@ class AsymmetricConditions:
 def asymmetric_solutions(system, starts: int = STARTS):
     """Return the roots (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6), and the number of starts that led to each.
 
-    Times are in [0, T). Mirror images are separate roots; each is credited with the starts that led to the other.
+    Times are in [0, T). Mirror images are separate roots; a start that led to one of them counts for both.
 
     Raises
     ------
@@ -146,6 +150,6 @@ def _starts(system, conditions, count):
 
 
 def _mirrored(roots, period):
-    """Return the images under state(tau) -> -state(tau + T/2), which exchanges the walls."""
+    """Return the mirror images of the roots, state(tau) -> -state(tau + T/2), which exchanges the walls."""
     times = wrapped(roots[:, [1, 0, 3, 2]] + period / 2, period)
     return np.concatenate([times, roots[:, 4:]], axis=1)

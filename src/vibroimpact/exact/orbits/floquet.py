@@ -1,4 +1,4 @@
-"""Compute the monodromy matrix and the Floquet multipliers of a motion with known impacts."""
+"""Compute the monodromy matrix and the Floquet multipliers of a motion whose impacts are known."""
 
 from typing import NamedTuple
 
@@ -13,12 +13,12 @@ from vibroimpact.system.verdict import all_stable, verdict
 _MODULES = np.array([1, 1, 2, 2])
 _WALLS = np.array([1, -1, 1, -1])
 _NORMALS = np.array([[1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0]]) @ np.eye(4, 8)
-"""Normals of the walls of both modules: W_i of a state."""
+"""Normals of the walls of both modules, (2, 8): their products with a state are W_1 and W_2."""
 _ROUNDING = 100 * np.finfo(float).eps
 
 
 def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    """Return d state / d tau in free flight, (10.2), for states (..., 8) at times tau (...)."""
+    """Return d state / d tau in free flight by (10.2), (..., 8), for states (..., 8) at times tau (...)."""
     phase = system.Omega * np.asarray(tau)[..., None]
     field = np.zeros(state.shape)
     boxes = np.concatenate([state[..., BOXES], np.sin(phase), np.cos(phase)], axis=-1)
@@ -39,19 +39,19 @@ def restitution_matrix(system, module: np.ndarray) -> np.ndarray:
 
 
 def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.ndarray) -> np.ndarray:
-    """Return the saltation matrix S, shape (..., 8, 8): perturbation after = S perturbation before.
+    """Return the saltation matrix S, shape (..., 8, 8), which maps perturbations before an impact to those after.
 
-    Both perturbations are taken at the time tau of the impact.
+    Both perturbations are taken at the time tau of the unperturbed impact.
 
     before: states (..., 8) just before impacts of `module` (1 or 2) at times tau, both (...). The perturbed motion
     meets the wall n . x = const later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n . f-) (Aizerman
-    and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through f- and f+, since wall and impact law
-    do not depend on time. det S = kappa^2. `engine.variation` has the saltation matrix of runs and names the others.
+    and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through the vector fields f- and f+, since
+    wall and impact law do not depend on time. det S = kappa^2. `engine.variation` names the other implementations.
 
     Raises
     ------
     ValueError
-        If the relative velocity before an impact is zero (grazing), where no such matrix exists.
+        If the relative velocity before an impact is zero (grazing), so that S does not exist.
     """
     normal = _NORMALS[np.asarray(module) - 1]
     before_field = vector_field(system, before, tau)
@@ -66,10 +66,10 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
 
 
 class Passage(NamedTuple):
-    """Motion followed through its impacts.
+    """Motion from tau = 0 to tau = end through n impacts.
 
-    first (8,), final (8,): states at tau = 0 and at the end. times (n,): of the impacts. before (n, 8), after (n, 8):
-    states around each impact. end: time of the end. jacobian (8, 8): derivative of the final state by the first one.
+    first (8,), final (8,): states at tau = 0 and at the end. times (n,): times of the impacts. before (n, 8), after
+    (n, 8): states just before and after each impact. jacobian (8, 8): derivative of the final by the first state.
     """
 
     first: np.ndarray
@@ -81,18 +81,18 @@ class Passage(NamedTuple):
     jacobian: np.ndarray
 
     def flights(self):
-        """Return all free flights: initial states (n, 8), initial times (n,) and durations (n,)."""
+        """Return the initial states, initial times and durations of all n + 1 free flights."""
         edges = np.array([0.0, *self.times, self.end])
         return np.vstack([self.first, self.after]), edges[:-1], np.diff(edges)
 
 
 def impact_sequence(times: np.ndarray, period: float):
-    """Return the times, modules and walls of four impacts, each (4,), in order of time.
+    """Return the times, modules and walls of the impacts of one period, each (n,), in order of time.
 
-    The times given, (2, 2) [module, wall +1 / wall -1], are in [0, T).
+    times: impact times in [0, T), shape (2, 2) with indices [module, wall +1 / wall -1].
 
-    An impact at 0 comes last, at T, since the state at tau = 0 is the one after it. A module with NaN times has no
-    impacts.
+    An impact at 0 is moved to T and comes last, since the state at tau = 0 is the state after this impact. A module
+    with NaN times has no impacts; otherwise n is 4.
     """
     within = np.where(times == 0, period, times).ravel()
     order = np.argsort(within, kind="stable")[: np.isfinite(within).sum()]
@@ -100,7 +100,7 @@ def impact_sequence(times: np.ndarray, period: float):
 
 
 def free_flights(system, begins: np.ndarray, durations: np.ndarray):
-    """Return the maps x -> A x + b of free flights from times (n,) over durations (n,): (n, 8, 8) and (n, 8)."""
+    """Return A (n, 8, 8) and b (n, 8) of the maps x -> A x + b of free flights from times (n,) over durations (n,)."""
     flow = expm(rate_matrix(system) * durations[:, None, None])
     phases = system.Omega * begins
     maps, pushes = np.zeros((len(durations), 8, 8)), np.zeros((len(durations), 8))
@@ -114,8 +114,8 @@ def free_flights(system, begins: np.ndarray, durations: np.ndarray):
 def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, end: float) -> Passage:
     """Follow the motion from `state` (8,) at tau = 0 to tau = end, through impacts at given times.
 
-    times: ascending in [0, end]; modules: 1 or 2 for each time. The caller ensures that the ball is at its wall at
-    these times.
+    times: ascending in [0, end]. modules: the module of each impact, 1 or 2. The caller ensures that the ball is at its
+    wall at these times.
 
     Raises
     ------
@@ -136,7 +136,7 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
 
 
 def of_modules(system, jacobian: np.ndarray) -> np.ndarray:
-    """Return a monodromy matrix (8, 8), or the part (4, 4) of the module of a single machine."""
+    """Return the monodromy matrix of the active modules: (8, 8), or its part (4, 4) for a single machine."""
     part = np.isin(MODULES, system.modules)
     return jacobian[part][:, part]
 
@@ -144,14 +144,14 @@ def of_modules(system, jacobian: np.ndarray) -> np.ndarray:
 def multipliers(jacobian: np.ndarray) -> np.ndarray:
     """Return the complex eigenvalues (n,) of a monodromy matrix (n, n).
 
-    They are sorted by descending modulus, then by descending imaginary part.
+    The eigenvalues are sorted by descending modulus, then by descending imaginary part.
     """
     values = np.linalg.eigvals(jacobian).astype(complex)
     return values[np.lexsort((-values.imag.round(12), -abs(values).round(12)))]
 
 
 def floquet(orbit) -> str:
-    """Return the stability of an orbit with known impacts, see `by_multipliers`."""
+    """Return the stability of an Orbit by its multipliers (see `by_multipliers`)."""
     jacobian = of_modules(orbit.system, orbit.passage.jacobian)
     return by_multipliers(jacobian, orbit.residual, np.nanmin(np.abs(orbit.ball_speeds)))
 
@@ -159,16 +159,17 @@ def floquet(orbit) -> str:
 def by_multipliers(jacobian: np.ndarray, residual: float, slowest: float) -> str:
     """Return "stable" if all multipliers are inside the unit circle, "unstable" if one is outside, else "undecided".
 
-    A multiplier decides if its modulus differs from 1 by more than its error, estimated to first order: the condition
-    number of the eigenvalue times the error of the monodromy matrix. The latter is due to rounding and to the error of
-    the orbit (its residual over the distance of the nearest multiplier from +1), relative to the norm of the matrix.
+    A multiplier is inside or outside if its modulus differs from 1 by more than its error. The error is estimated to
+    first order, as the condition number of the eigenvalue times the error of the monodromy matrix. The matrix has
+    errors from rounding and from the error of the orbit: the residual over the distance of the nearest multiplier from
+    +1 and over the slowest speed. Both errors are relative to the norm of the matrix.
 
     Parameters
     ----------
     jacobian : ndarray
-        Monodromy matrix of the modules that take part, (n, n).
+        Monodromy matrix of the active modules, (n, n).
     residual : float
-        Largest difference of the state after one period from that before.
+        Largest difference between the states at the start and at the end of the period.
     slowest : float
         Smallest relative speed of a ball at a wall.
     """

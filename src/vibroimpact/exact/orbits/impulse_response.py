@@ -1,4 +1,4 @@
-"""Compute steady responses of the boxes to the forcing and to trains of unit impulses, in closed form."""
+"""Compute the steady responses of the boxes to the forcing and to trains of unit impulses in closed form."""
 
 import math
 from functools import lru_cache
@@ -15,7 +15,7 @@ _UNIT_IMPULSES = np.eye(4)[:, 2:]
 
 
 def forced_amplitude(system) -> np.ndarray:
-    """Return the complex amplitude a, shape (2,), of the boxes without balls: they move as Im(a exp(i Omega tau)).
+    """Return the complex amplitude a, shape (2,), of the boxes without balls, X = Im(a exp(i Omega tau)).
 
     Raises
     ------
@@ -29,7 +29,7 @@ def forced_amplitude(system) -> np.ndarray:
 
 
 def _resonance(system, harmonic):
-    """Return the error message for undamped boxes in resonance with a harmonic of the forcing."""
+    """Return the error message for undamped boxes in resonance with a harmonic of the forcing frequency."""
     return (
         f"system: the undamped boxes are in resonance with {harmonic}Omega = {system.Omega}, so that impacts in every "
         "cycle excite no bounded motion; add damping"
@@ -37,9 +37,9 @@ def _resonance(system, harmonic):
 
 
 class ImpulseResponse:
-    """Motion [X1, X2, X1', X2'] of the unforced boxes under a steady train of unit impulses on one box.
+    """Steady motion [X1, X2, X1', X2'] of the unforced boxes under a train of unit impulses on one box.
 
-    sign = +1: equal impulses, one per period T. sign = -1: alternating impulses, one every T / 2.
+    sign: +1 for equal impulses, one per forcing period T; -1 for impulses of alternating sign, one every T / 2.
 
     Raises
     ------
@@ -58,8 +58,8 @@ class ImpulseResponse:
         start = np.linalg.solve(closure, _UNIT_IMPULSES)
         nodes = math.ceil(self.interval * np.linalg.norm(self._rate, 2) * _NODES_PER_RADIAN)
         self._spacing = self.interval / nodes
-        # A table of all nodes would grow as 1/Omega: store Taylor series at the first nodes, and propagators from
-        # there.
+        # A table of all nodes would grow as 1/Omega: store Taylor series at the first nodes only, and the propagators
+        # from these nodes to later ones.
         self._fine = max(_FINE_NODES, math.isqrt(nodes))
         at_nodes = powers(expm(self._rate * self._spacing), min(nodes + 1, self._fine)) @ start
         self._onward = powers(expm(self._rate * self._spacing * self._fine), nodes // self._fine + 1)
@@ -70,14 +70,14 @@ class ImpulseResponse:
     def __call__(self, s: np.ndarray) -> np.ndarray:
         """Return the motion at times s since an impulse, shape (*s.shape, 4, 2).
 
-        s is any real array; column j belongs to a train of impulses on box j.
+        s is a real array of any shape. Column j of the result is the response to impulses on box j.
 
-        At an impulse, the value is that just after it.
+        At the time of an impulse, the result is the state just after the impulse.
         """
         return self.of_trains(np.asarray(s)[..., None], np.arange(2)).swapaxes(-1, -2)
 
     def of_trains(self, s: np.ndarray, boxes: np.ndarray) -> np.ndarray:
-        """Return the motion (..., 4) at times s since an impulse of a train on box `boxes` (0, 1).
+        """Return the motion (..., 4) at times s after an impulse on box `boxes` (0 or 1).
 
         The arguments broadcast.
         """
@@ -94,10 +94,10 @@ class ImpulseResponse:
         return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None] % 2))
 
     def between(self, times: np.ndarray, boxes: np.ndarray):
-        """Return displacement, velocity and acceleration just before impulses, each (*times.shape, n).
+        """Return displacements, velocities and accelerations just before impulses, each (*times.shape, n).
 
         Train k has an impulse on box boxes[k] at times[..., k]. Entry [..., m, k] is the response of box boxes[m] to
-        train k just before the impulse of train m.
+        train k, just before the impulse of train m.
         """
         motion = self.of_trains(times[..., :, None] - times[..., None, :], boxes)
         own = np.arange(len(boxes))
@@ -106,16 +106,16 @@ class ImpulseResponse:
 
 
 def _singular(matrices, scale):
-    """Return True for matrices (..., n, n) that are singular to rounding.
+    """Return True for each matrix (..., n, n) that is singular within rounding.
 
-    scale: that of the terms that may cancel in them. At a resonance of both boxes the whole matrix vanishes, so that
-    its condition number is meaningless.
+    scale: magnitude of the terms that cancel in a singular matrix. The condition number cannot decide: at a resonance
+    of both boxes the whole matrix vanishes.
     """
     return np.linalg.svd(matrices, compute_uv=False)[..., -1] <= 1e-12 * scale
 
 
 def powers(matrix: np.ndarray, count: int) -> np.ndarray:
-    """Return matrix**n for n = 0 .. count - 1, stacked, by doubling (rounding grows with log(count) only)."""
+    """Return matrix**n for n = 0 .. count - 1, stacked; with doubling, rounding grows only with log(count)."""
     powers = np.eye(len(matrix))[None]
     while len(powers) < count:
         powers = np.concatenate([powers, powers @ np.linalg.matrix_power(matrix, len(powers))])
@@ -123,7 +123,7 @@ def powers(matrix: np.ndarray, count: int) -> np.ndarray:
 
 
 def impulse_response(system, sign: int) -> ImpulseResponse:
-    """Return the impulse response of a system from a cache; it does not depend on the forces."""
+    """Return the ImpulseResponse of a system, from a cache that systems with other forces share."""
     return _kept(system.with_idle_damped().with_(f10_hat=0.0, f20_hat=0.0), sign)
 
 

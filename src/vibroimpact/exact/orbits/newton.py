@@ -1,21 +1,21 @@
-"""Apply Newton's method to many starts at once, or from root to root as a parameter changes."""
+"""Apply Newton's method from many starts at once, or follow one root as a parameter changes."""
 
 from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
 _STEPS = 30
-_SETTLED, _STALLED = 1e-12, 1e-8  # the second, the root of rounding, applies near a double root after all steps
+_SETTLED, _STALLED = 1e-12, 1e-8  # step sizes of convergence: to a simple root; near a double root, after all steps
 
 
 def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
-    """Return the roots reached from `starts`, shape (n, d), in no particular order and with repetitions.
+    """Return the roots reached from `starts` (n, d), in no particular order and with repetitions.
 
-    equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened to at most
-    `reach` in every component. A start has converged once its step is below 1e-12 (1 + |x|), or, if all steps are used
-    up, below 1e-8 (1 + |x|). Starts that meet a singular Jacobian or do not converge give no root.
+    equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened so that no
+    component exceeds `reach`. A start has converged once its step is below 1e-12 (1 + |x|) or, in the last step, below
+    1e-8 (1 + |x|). A start gives no root if it does not converge or meets a singular Jacobian.
 
-    Columns of `starts` beyond the d unknowns are passed to the equations unchanged.
+    `starts` may have further columns after the d unknowns; they are passed to the equations and returned unchanged.
     """
     x = np.array(starts, dtype=float)
     found = [np.empty((0, x.shape[1]))]
@@ -36,10 +36,10 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
 
 
 def follow(equations: Callable, x: np.ndarray, values: Iterable[float], near: float) -> Iterator[tuple]:
-    """Yield values of a parameter in turn, each with the root (d,) of equations(value) that Newton's method finds.
+    """Yield each value of a parameter with the root (d,) of equations(value), found by Newton's method.
 
-    It starts from the root at the last value, the first time from x (d,). It ends where there are no equations, where
-    it finds no root, or where a component has changed by `near` or more.
+    Each start is the root at the previous value; the first start is x (d,). The iteration ends if equations(value)
+    raises ValueError, if no root is found, or if a component of the root has changed by `near` or more.
     """
     for value in values:
         try:

@@ -18,8 +18,8 @@ from vibroimpact.system.representation import Found, Representation, brief
 from vibroimpact.system.state import BALLS, BOXES, MODULES, NAMES
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
-_STEP = 0.005  # radians of the fastest oscillation between samples of W; Hermite interpolation is then exact to 2e-12
-_SAMPLES = 4096  # samples of each flight at a time, so that memory does not grow with the period
+_STEP = 0.005  # spacing of samples of W in radians of the fastest oscillation; Hermite interpolation is exact to 2e-12
+_SAMPLES = 4096  # samples of each flight held at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
 _MOST_STARTS = 2**20
 _SIDES = "1_plus", "1_minus", "2_plus", "2_minus"
@@ -29,15 +29,15 @@ COLUMNS = (
     *(f"modulus_{k}" for k in range(1, 9)),
     *(*NAMES, "residual", "exact", "proved"),
 )
-"""Columns of a table of orbits."""
+"""Columns of the table of orbits."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Orbit(Representation):
     """A periodic response with two impacts per forcing cycle and module.
 
-    All quantities are dimensionless; indices are [module, wall +1 / wall -1]. For a single machine
-    (`PhysicalSystem.single`), entries of the other module are NaN, in the state 0.
+    All quantities are dimensionless. Arrays (2, 2) have the indices [module, wall +1 / wall -1]. For a single machine
+    (`PhysicalSystem.single`), the entries of the second module are 0 in the state and NaN elsewhere.
 
     Attributes
     ----------
@@ -46,25 +46,25 @@ class Orbit(Representation):
     symmetric : bool
         True if state(tau + T/2) = -state(tau).
     impact_phases : ndarray
-        Impact times as fractions of the period in [0, 1), shape (2, 2).
+        Impact times as fractions of the period, in [0, 1), shape (2, 2).
     ball_speeds : ndarray
-        Speed of the flight that starts at this wall, shape (2, 2); negative for an inadmissible root.
+        Ball speeds on the flights that start at each wall, shape (2, 2); some are negative for an inadmissible root.
     multipliers : ndarray
-        Floquet multipliers, complex, by descending modulus, shape (8,), or (4,) for a single machine. If both modules
-        impact at the same instant and gamma12 is not 0, they apply to perturbations that let module 1 impact first.
+        Complex Floquet multipliers by descending modulus, shape (8,), or (4,) for a single machine. If both modules
+        impact at the same instant and gamma12 is not 0, they hold for perturbations after which module 1 impacts first.
     state : ndarray
-        State at tau = 0, just after the impact if there is one, shape (8,).
+        State at tau = 0, shape (8,); if there is an impact at tau = 0, the state just after it.
     passage : Passage
-        The motion over one period, from `state` through all its impacts.
+        The motion over one period, from `state` through all impacts.
     excursion : float
-        Largest |W_i| at its extrema between impacts (a wall is at 1); 0 if no flight has an extremum.
+        Largest |W_i| at extrema of W_i between impacts (the walls are at |W_i| = 1); 0 if W_i has no extremum.
     admissible : bool
         True if the orbit is a motion of the system: all speeds are positive, so that every ball meets its wall from
         inside, and |W_i| <= 1 at all times.
     residual : float
-        Largest of | |W_i| - 1 | at the impacts and |state(T) - state(0)|, over one period.
+        Largest error over one period: of |W_i| = 1 at the impacts and of state(T) = state(0).
     proof : OrbitProof, optional
-        Result of `with_proof`; None before.
+        Proof of the orbit, set by `with_proof`; None otherwise.
 
     Examples
     --------
@@ -87,7 +87,7 @@ class Orbit(Representation):
 
     @property
     def stability(self) -> str:
-        """ "stable", "unstable" or "undecided", as proved or else by the computed multipliers and their errors."""
+        """ "stable", "unstable" or "undecided": the proved verdict, or else the one from the computed multipliers."""
         return self.proof.stability if self.proved else floquet(self)
 
     @property
@@ -97,11 +97,11 @@ class Orbit(Representation):
 
     @property
     def proved(self) -> bool:
-        """True if the stability is proved in interval arithmetic, False if it is only computed."""
+        """True if the stability is proved in interval arithmetic, False if it is only computed in floating point."""
         return self.proof is not None and self.proof.stability in (STABLE, UNSTABLE)
 
     def with_proof(self) -> "Orbit":
-        """Return the same orbit with the `proof` of its existence, its motion between the walls and its stability.
+        """Return the orbit with a `proof` of its existence, its motion between the walls and its stability.
 
         Returns
         -------
@@ -116,9 +116,10 @@ class Orbit(Representation):
         return replace(self, proof=prove(self))
 
     def row(self) -> dict:
-        """Return the numbers and verdicts by name, as in `to_frame`, with those of the proof if there is one.
+        """Return the row of `to_frame` for this orbit, as numbers and verdicts by column name.
 
-        Phases are in periods, at wall +1 and -1. The moduli of multipliers that a single machine lacks are NaN.
+        If the orbit has a proof, its columns are added. Phases are in periods. A single machine has only 4 multipliers;
+        the remaining moduli are NaN.
         """
         moduli = np.pad(np.abs(self.multipliers), (0, 8 - len(self.multipliers)), constant_values=np.nan)
         numbers = (self.C, self.impact_phases.ravel(), self.ball_speeds.ravel(), moduli, self.state, [self.residual])
@@ -136,15 +137,15 @@ class Orbit(Representation):
 
     @property
     def C(self) -> np.ndarray:
-        """Amplitudes C_i of the saw-teeth, (10.11), shape (2,); negative for an inadmissible root."""
+        """Saw-tooth amplitudes C_i, (10.11), shape (2,); C_i can be negative for an inadmissible root."""
         plus, minus = self.ball_speeds.T
-        # Both flights cover the same path in a period: plus t = minus (T - t).
+        # The two flights of a period have the same length: plus t = minus (T - t).
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
         return sawtooth_amplitude(self.system.epsilon, path)
 
     @property
     def amplitudes(self) -> np.ndarray:
-        """Largest displacements |X_i| of the boxes, shape (2,); NaN for a module that takes no part."""
+        """Largest displacements |X_i| of the boxes, shape (2,); NaN for an inactive module (see `System.modules`)."""
         at_impacts = abs(self.passage.before[:, [0, 2]]).max(axis=0)
         largest = np.maximum(at_impacts, extremes(self.system, self.passage, balls=0.0))
         return np.where(np.isin([1, 2], self.system.modules), largest, np.nan)
@@ -152,17 +153,17 @@ class Orbit(Representation):
 
 @dataclass(frozen=True, eq=False)
 class OrbitSearch:
-    """Orbits found by a search, and the effort spent.
+    """Result of a search for orbits, with the effort spent on asymmetric orbits.
 
     Attributes
     ----------
     orbits : list of Orbit
-        The symmetric ones are complete up to rounding (see `exact.orbits.symmetric`).
+        The orbits. The list of symmetric orbits is complete up to rounding (see `exact.orbits.symmetric`).
     starts : int
-        Newton starts spent on the asymmetric ones, which may be incomplete.
+        Number of Newton starts in the search for asymmetric orbits, of which some may be missed.
     fewest_hits : int
-        Smallest number of these starts that led to one asymmetric orbit (mirror images counted as one), or 0 without
-        any. A small number warns that others may have been missed.
+        Number of starts that led to the asymmetric orbit that was found least often (mirror images count as one), or 0
+        if none was found. A small number is a warning that other orbits may have been missed.
     """
 
     orbits: list[Orbit]
@@ -173,8 +174,8 @@ class OrbitSearch:
 def orbits(system: System) -> list[Orbit]:
     """Return all 1:1 responses of (10.2) with one impact per cycle at each wall of each module.
 
-    The orbits are exact at any epsilon. Asymmetric ones are found by Newton's method from many starts and may be
-    incomplete.
+    The orbits are exact at any epsilon. Asymmetric orbits are found by Newton's method from many starts, so that some
+    may be missed.
 
     Parameters
     ----------
@@ -184,8 +185,8 @@ def orbits(system: System) -> list[Orbit]:
     Returns
     -------
     list of Orbit
-        Orbits, including roots that are not motions of the system (see Orbit.admissible). Symmetric ones come first;
-        then the order is by ascending sum of the two ball speeds of module 1, of module 2, then by phases. An
+        Orbits, including roots that are not motions of the system (see Orbit.admissible). Symmetric orbits come first.
+        Both groups are sorted by the sum of the two ball speeds of module 1, then of module 2, then by the phases. An
         asymmetric orbit is next to its mirror image.
 
     Raises
@@ -202,7 +203,7 @@ def orbits(system: System) -> list[Orbit]:
 
 
 def search(system: System, starts: int = STARTS) -> OrbitSearch:
-    """Return orbits(system) with the effort spent on asymmetric ones, which shows how likely one was missed.
+    """Return `orbits` with the effort spent on asymmetric orbits, which indicates how likely one was missed.
 
     Raises
     ------
@@ -219,7 +220,7 @@ def search(system: System, starts: int = STARTS) -> OrbitSearch:
 
 
 def prove(orbit: Orbit):
-    """Prove an orbit in interval arithmetic: existence, motion between the walls and multipliers.
+    """Prove the existence of an orbit, its motion between the walls and its stability in interval arithmetic.
 
     Parameters
     ----------
@@ -229,7 +230,7 @@ def prove(orbit: Orbit):
     Returns
     -------
     OrbitProof
-        Radius of uniqueness, error bounds and verdicts.
+        Half-width of the box with exactly one root, error bounds and verdicts.
 
     Raises
     ------
@@ -252,11 +253,11 @@ def prove(orbit: Orbit):
 
 
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:
-    """Return the multipliers of a symmetric orbit over half a period followed by mirroring.
+    """Return the multipliers of the map over half a period, followed by the mirroring state -> -state.
 
-    Their squares are the multipliers of the orbit.
+    Their squares are the multipliers of the orbit, which must be symmetric.
 
-    They distinguish a fold (+1) from symmetry breaking (-1).
+    They distinguish a fold (multiplier +1) from symmetry breaking (multiplier -1).
 
     Raises
     ------
@@ -273,35 +274,35 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
 
 
 def _order(orbit):
-    """Return the sorting key; phases break ties between uncoupled modules."""
+    """Return the key to sort an orbit by; the phases distinguish orbits with equal ball speeds."""
     numbers = [*orbit.ball_speeds.sum(axis=1), *orbit.impact_phases.ravel()]
     return (not orbit.symmetric, *np.nan_to_num(numbers).round(9))
 
 
 def symmetric_orbit(system, root) -> Orbit:
-    """Return the orbit of a root (4,) of the symmetric equations.
+    """Return the Orbit for a root (4,) of the symmetric equations.
 
-    The root holds the impact times of both modules at one wall, then C_1 and C_2.
+    The root contains the impact times of both modules at wall +1, then C_1 and C_2.
     """
     return _orbit(system, *_symmetric_impacts(system, root), np.full(2, 0.5), sign=-1)
 
 
 def symmetric_boxes(system, root, tau) -> np.ndarray:
-    """Return X_1 and X_2 of a root of the symmetric equations at times tau (n,), shape (n, 2)."""
+    """Return X_1 and X_2 at times tau (n,) for a root of the symmetric equations, shape (n, 2)."""
     return _boxes(system, *_symmetric_impacts(system, root), -1, tau)[:, :2]
 
 
 def _symmetric_impacts(system, root):
-    """Return the impact times (2, 2) and ball velocity changes (2,) of a root of the symmetric equations."""
+    """Return impact times (2, 2) and changes of ball velocity (2,) for a root of the symmetric equations."""
     times, C = root[:2], root[2:]
     later = wrapped(times + system.period / 2, system.period)
     return np.stack([times, later], axis=1), 4 * path_of(system.epsilon, C) / system.period
 
 
 def asymmetric_orbit(system, root) -> Orbit:
-    """Return the orbit of a root of the asymmetric equations.
+    """Return the Orbit for a root (6,) of the asymmetric equations.
 
-    The root holds the impact times, (module, wall) flattened, then the impulses.
+    The root contains the impact times in the order of (module, wall), then the changes of ball velocity.
     """
     times = root[:4].reshape(2, 2)
     fractions = wrapped(times[:, 1] - times[:, 0], system.period) / system.period
@@ -309,11 +310,11 @@ def asymmetric_orbit(system, root) -> Orbit:
 
 
 def _orbit(system, times, changes, fractions, sign):
-    """Return the orbit with impacts at `times` (2, 2) and ball velocity changes (2,).
+    """Return the Orbit with impacts at `times` (2, 2) and changes of ball velocity `changes` (2,).
 
-    The flight fractions (2,) are those of the flights from wall +1.
+    fractions (2,): durations of the flights from wall +1, as fractions of the period.
 
-    sign: -1 for a symmetric orbit, where the impulses of a module form one alternating train; +1 for two trains.
+    sign: -1 for a symmetric orbit, where each module has one train of alternating impulses; +1 for one train per wall.
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
     state = _state(system, times, changes, speeds, sign)
@@ -340,11 +341,11 @@ def _orbit(system, times, changes, fractions, sign):
 
 
 def _boxes(system, times, changes, sign, tau):
-    """Return the motion [X_1, X_2, X_1', X_2'] at times tau (n,).
+    """Return the motion [X_1, X_2, X_1', X_2'] of the boxes at times tau, shape (n, 4).
 
-    It is the superposition of the forced response and of the responses to the impulse trains.
+    The motion is the sum of the response to the forcing and the responses to the trains of impulses.
 
-    times (2, 2), changes (2,), sign: of the impacts, as for `_orbit`.
+    times (2, 2), changes (2,), sign: as for `_orbit`.
     """
     response, amplitude = impulse_response(system, sign), forced_amplitude(system)
     trains = 1 if sign == -1 else 2
@@ -355,7 +356,7 @@ def _boxes(system, times, changes, sign, tau):
 
 
 def _state(system, times, changes, speeds, sign):
-    """Return the state (8,) at tau = 0."""
+    """Return the state (8,) at tau = 0; times, changes, sign: as for `_orbit`; speeds: ball speeds (2, 2)."""
     since = wrapped(-times, system.period)
     modules, last = np.arange(2), since.argmin(axis=1)
     walls = np.array([1, -1])[last]
@@ -369,7 +370,7 @@ def _state(system, times, changes, speeds, sign):
 
 
 def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
-    """Return the largest |X_i - balls Y_i| at extrema inside the free flights of a motion, (2,); 0 without extremum."""
+    """Return the largest |X_i - balls Y_i| at extrema inside the free flights, (2,); 0 if there is no extremum."""
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     count = 1 + math.ceil(durations.max() * fastest / _STEP)
@@ -391,7 +392,7 @@ def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
 
 
 def _samples(step, start, count):
-    """Return step^k start for k < count, shape (n, count, d), by doubling: rounding grows with log(count) only."""
+    """Return step^k start for k < count, shape (n, count, d); with doubling, rounding grows only with log(count)."""
     samples, ahead = start[:, None], step.swapaxes(1, 2)
     while (made := samples.shape[1]) < count:
         samples = np.concatenate([samples, samples[:, : count - made] @ ahead], axis=1)
@@ -400,11 +401,11 @@ def _samples(step, start, count):
 
 
 def _turning_values(W, V):
-    """Return the values of W at its turning points.
+    """Return the values of W at its turning points, by Hermite interpolation between samples.
 
-    The samples (n, count) hold W and its velocity times the sample spacing.
+    W (n, count): samples. V (n, count): velocity of W times the spacing of the samples.
     """
     turns = V[:, :-1] * V[:, 1:] < 0
     w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
-    s = v0 / (v0 - v1)  # zero of the velocity up to O(spacing^2), which does not affect W to this order
+    s = v0 / (v0 - v1)  # zero of the velocity to O(spacing^2); the error in W is of higher order, since W' = 0 there
     return w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)

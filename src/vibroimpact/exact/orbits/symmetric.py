@@ -1,18 +1,18 @@
 """Find all symmetric 1:1 responses, state(tau + T/2) = -state(tau), as roots of a function of one variable.
 
-Module i meets wall +1 at tau_i and wall -1 half a period later. With C_i = 1 - U_i(tau_i), as in (10.12), the ball
-flies 2 C_i / (1 + epsilon) in half a period: its speed is V_i = 4 C_i / ((1 + epsilon) T). Each impact reverses it,
-which changes the velocity of box i by -2 epsilon V_i and +2 epsilon V_i in turn. With the superposition of the forced
-response and both trains of impulses, the conditions on module i (the ball meets the wall; Newton's rule) are the
-imaginary and the real part of
+Ball i meets wall +1 at tau_i and wall -1 half a period later. With C_i = 1 - U_i(tau_i), as in (10.12), the ball flies
+the distance 2 C_i / (1 + epsilon) in half a period: its speed is V_i = 4 C_i / ((1 + epsilon) T). Each impact reverses
+the ball, which changes the velocity of box i by -2 epsilon V_i at wall +1 and by +2 epsilon V_i at wall -1. The motion
+of the boxes is the sum of the forced response and the responses to both trains of impulses. Module i has two
+conditions: the ball meets the wall, and Newton's rule. They are the imaginary and the real part of
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
 with a complex 2 x 2 matrix P and the forced amplitudes a. For a given delta these four real equations are linear in
-C_1, C_2, c = cos(Omega tau_1), s = sin(Omega tau_1), and c^2 + s^2 = 1 is one equation for delta alone. Multiplied
-by the determinant of the linear system, it is analytic without poles, except for kinks at delta = 0 and T/2, so that a
-Chebyshev interpolant between the kinks has all its roots to rounding. A module that takes no part has
-tau_i = C_i = 0.
+C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Their solution turns c^2 + s^2 = 1 into one equation for delta
+alone. Multiplied by the squared determinant of the linear system, this equation has no poles. It is analytic except at
+the kinks delta = 0 and T/2, so that Chebyshev interpolants between the kinks give all roots to rounding. An inactive
+module (see `System.modules`) has tau_i = C_i = 0.
 """
 
 import math
@@ -26,23 +26,23 @@ from vibroimpact.system.amplitude import path_of
 from vibroimpact.system.matrices import stiffness_matrix
 
 _DEGREE = 32
-_PIECES_AT_ONCE = 256  # so that memory does not grow with the period
+_PIECES_AT_ONCE = 256  # a fixed number, so that memory does not grow with the period
 _RADIANS_PER_PIECE = 1.0  # of the fastest oscillation; the interpolant of degree 32 is then exact to rounding
-_NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are rounding
+_NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are due to rounding
 _NEAR = 1e-3  # the eigenvalue solver may return a double root as a pair off the real axis
 _SAME = 1e-8
 _BOXES = np.array([0, 1])
 MODULES = np.array([1, 2, 1, 2])
-"""Modules of the unknowns (tau_1, tau_2, C_1, C_2) and of the conditions."""
+"""Module of each unknown (tau_1, tau_2, C_1, C_2), and of each condition."""
 
 
 class SymmetricConditions:
-    """Equations of the module docstring for one system, or for it under several forces.
+    """Equations of the module docstring for one system, optionally under several forces.
 
     Parameters
     ----------
     forced : ndarray, optional
-        Forced amplitudes of the boxes under each of the forces, (m, 2) complex; those of the system by default.
+        Forced amplitudes of the boxes, one row per force, (m, 2) complex. By default, one row for the system's force.
 
     Raises
     ------
@@ -61,9 +61,9 @@ class SymmetricConditions:
         self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
 
     def matrix(self, times: np.ndarray):
-        """Return P and the factor dP of its derivatives for impact times (..., 2): both (..., 2, 2) complex.
+        """Return P and a matrix dP with its derivatives, for impact times (..., 2): both (..., 2, 2) complex.
 
-        Off the diagonal, dP / d tau_i is +dP in row i and -dP in column i.
+        The derivative of P by tau_i is +dP in row i and -dP in column i, and 0 on the diagonal.
         """
         x, v, a = self._response.between(times, _BOXES)
         own = np.eye(2)
@@ -74,7 +74,7 @@ class SymmetricConditions:
     def __call__(self, unknowns: np.ndarray):
         """Return the residual (n, 4) and Jacobian (n, 4, 4) for unknowns (tau_1, tau_2, C_1, C_2), (n, 4).
 
-        An optional fifth column is the index of the force.
+        An optional fifth column of the unknowns is the index of the force.
         """
         times, C = unknowns[:, :2], unknowns[:, 2:4]
         amplitudes = self.amplitudes[unknowns[:, 4].astype(int)] if unknowns.shape[1] > 4 else self.amplitudes
@@ -102,7 +102,7 @@ class SymmetricConditions:
 def symmetric_solutions(system) -> np.ndarray:
     """Return every root (tau_1, tau_2, C_1, C_2) with 0 <= tau_i < T, shape (n, 4), admissible or not.
 
-    A module that takes no part has tau_i = C_i = 0.
+    An inactive module has tau_i = C_i = 0.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def symmetric_solutions(system) -> np.ndarray:
 
 
 def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
-    """Return `symmetric_solutions` of the system under each of the forces (f10_hat, f20_hat), shape (n, 2).
+    """Return `symmetric_solutions` of the system for each force (f10_hat, f20_hat) in an array (n, 2).
 
     Raises
     ------
@@ -124,7 +124,7 @@ def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
 
 
 def _solutions(system, systems):
-    """Return the roots of each of several systems that differ only in their forces."""
+    """Return the roots for each of several systems that differ only in their forces."""
     found = [np.empty((0, 4))] * len(systems)
     for modules in {one.modules for one in systems} - {()}:
         alike = [k for k, one in enumerate(systems) if one.modules == modules]
@@ -140,9 +140,9 @@ def _solutions(system, systems):
 
 
 def _uncoupled_starts(conditions, modules):
-    """Return all pairs of the roots of the modules without coupling.
+    """Return the Newton starts of uncoupled modules: each root of module 1 with each root of module 2.
 
-    For each module, |P_ii C_i + i| = |a_i| is quadratic in C_i.
+    For each module alone, the equation |P_ii C_i + i| = |a_i| is quadratic in C_i.
     """
     diagonal = np.diagonal(conditions.matrix(np.zeros((1, 2)))[0][0])
     starts = []
@@ -158,7 +158,7 @@ def _uncoupled_starts(conditions, modules):
 
 
 def _coupled_starts(system, conditions):
-    """Return the Newton starts at the real roots delta of the condition c^2 + s^2 = 1."""
+    """Return the Newton starts of coupled modules, from the real roots delta of the condition c^2 + s^2 = 1."""
     delta, force = _roots_of_condition(system, conditions)
     C1, C2, c, s = np.moveaxis(_circle_points(*conditions.linear_system(delta, force)), -1, 0)
     time = np.arctan2(s, c) / conditions.omega
@@ -166,9 +166,9 @@ def _coupled_starts(system, conditions):
 
 
 def _roots_of_condition(system, conditions):
-    """Return the real parts of the nearly real roots delta in [0, T], and their forces.
+    """Return the real parts of all nearly real roots delta in [0, T], and the index of the force for each.
 
-    The condition is interpolated by Chebyshev polynomials on pieces of the interval.
+    The condition c^2 + s^2 = 1 is interpolated by Chebyshev polynomials on pieces of the interval.
     """
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     pieces = 2 * math.ceil(system.period / 2 * fastest / _RADIANS_PER_PIECE)
@@ -190,13 +190,13 @@ def _roots_of_condition(system, conditions):
 
 
 def _condition(conditions, delta, force):
-    """Return N_c^2 + N_s^2 - D^2 up to a factor, with c = N_c / D and s = N_s / D.
+    """Return N_c^2 + N_s^2 - D^2, with c = N_c / D and s = N_s / D, times a positive factor per piece.
 
-    These are Cramer's determinants of the linear system for (C_1, C_2, c, s). delta (pieces, n) is under one force
-    (pieces, 1); the factor of each piece keeps the squares within the range of floats.
+    N_c, N_s and D are Cramer's determinants of the linear system for (C_1, C_2, c, s). delta: (pieces, n); force:
+    index of the force of each piece, (pieces, 1). The factors keep the squares within the range of floats.
     """
     matrices, constant = conditions.linear_system(delta, force)
-    size = np.abs(matrices).max(axis=2).mean(axis=1)  # one scale per unknown: keeps the determinants of order one
+    size = np.abs(matrices).max(axis=2).mean(axis=1)  # one scale per unknown, so that the determinants are of order 1
     matrices, strength = matrices / size[:, None, None, :], size[:, 2, None]
 
     def cramer(column):
@@ -208,13 +208,14 @@ def _condition(conditions, delta, force):
 
 
 def _circle_points(matrices, constant):
-    """Return three points (C_1, C_2, c, s) of each solution set, shape (n, 3, 4).
+    """Return three starts (C_1, C_2, c, s) for each linear system, shape (n, 3, 4).
 
-    The points lie on c^2 + s^2 = 1 or nearest to it.
+    The first start is the solution of the linear system.
 
-    If the matrix is singular (for identical modules in phase, for example), the solution set is a line that meets the
-    circle twice. Near such a matrix both points are needed as starts, so that the line through the weakest direction
-    is always used. Missing points are nan.
+    If the matrix is singular (for identical modules in phase, for example), the solutions form a line that meets the
+    circle c^2 + s^2 = 1 twice. Near such a matrix both intersections are needed as starts. The other two starts are
+    therefore always the intersections for the line in the weakest direction, or its point nearest to the circle.
+    Missing starts are NaN.
     """
     u, values, v = np.linalg.svd(matrices)
     parts = constant @ u
@@ -228,15 +229,15 @@ def _circle_points(matrices, constant):
 
 
 def wrapped(value, modulus):
-    """Return value modulo modulus, in [0, modulus) also after rounding."""
+    """Return value modulo modulus, always below the modulus, also after rounding."""
     value = np.mod(value, modulus)
     return np.where(value >= modulus, 0.0, value)
 
 
 def distinct(roots: np.ndarray, period: float, phases: int):
-    """Return one of each group of equal rows, and the size of each group.
+    """Return the first row of each group of equal rows, and the size of each group.
 
-    The first `phases` columns are compared on the circle of the given period.
+    Rows are equal within rounding; the first `phases` columns are compared modulo the period.
     """
     kept, sizes = np.empty((0, roots.shape[1])), []
     for root in roots:

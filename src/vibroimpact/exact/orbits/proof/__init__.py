@@ -1,4 +1,4 @@
-"""Prove single orbits in interval arithmetic (python-flint): existence, motion between the walls, multipliers."""
+"""Prove existence, motion between the walls and stability of single orbits by interval arithmetic (python-flint)."""
 
 from vibroimpact.system.extras import need
 

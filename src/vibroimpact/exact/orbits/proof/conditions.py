@@ -1,8 +1,9 @@
-"""Evaluate the conditions of asymmetric.py on impact times and velocity changes in interval arithmetic.
+"""Evaluate the equations of asymmetric.py in interval arithmetic.
 
-They are six smooth equations for p_1, q_1, p_2, q_2, I_1, I_2 as long as the order of the impacts stays the same.
-Orbits of both kinds are roots; a symmetric one is its own mirror image. The boxes move steadily under forcing and
-trains of impulses. A module that takes no part has p_i = q_i = I_i = 0.
+The six equations for p_1, q_1, p_2, q_2, I_1, I_2 are smooth as long as the order of the impacts stays the same. Both
+kinds of orbit are roots; a symmetric orbit is its own mirror image. The motion of the boxes is the steady response to
+the forcing and to trains of impulses. An inactive module has p_i = q_i = I_i = 0. Impacts are numbered from 0 to 3:
+those of module 1 at wall +1 and -1, then those of module 2.
 """
 
 import itertools
@@ -19,11 +20,11 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 
 
 class SteadyBoxes:
-    """Boxes [X1, X2, X1', X2'] of a system, with its float64 matrices and forcing taken as exact.
+    """Steady motion [X1, X2, X1', X2'] of the boxes of a system, whose float64 matrices and forcing count as exact.
 
-    omega, period: of the forcing. rate (4, 4): of the free motion. start (4, 2): state just after an impulse, column j
-    for a train on box j (sign +1: equal impulses, one per period; -1: alternating ones, one every half period).
-    amplitude (4, 1) complex: without impulses the state is Im(amplitude exp(i omega tau)).
+    omega, period: of the forcing. rate (4, 4): rate matrix of free motion. start (4, 2): state just after an impulse;
+    column j is for a train of impulses on box j (sign +1: equal impulses, one per period; -1: impulses of alternating
+    sign, one every half period). amplitude (4, 1): without impulses the state is Im(amplitude exp(i omega tau)).
 
     Raises
     ------
@@ -45,7 +46,7 @@ class SteadyBoxes:
             raise ValueError("system: the undamped boxes are in resonance with the impacts; add damping") from None
 
     def free(self, duration) -> arb_mat:
-        """Return exp(rate duration) (4, 4) for a time or an interval of times."""
+        """Return the matrix exp(rate duration), (4, 4), for a duration or an interval of durations."""
         return (self.rate * duration).exp()
 
     def forced(self, tau) -> acb_mat:
@@ -54,12 +55,12 @@ class SteadyBoxes:
 
 
 def identity(size: int) -> arb_mat:
-    """Return the unit matrix."""
+    """Return the unit matrix (size, size)."""
     return arb_mat(np.eye(size).tolist())
 
 
 class EnclosedConditions:
-    """The equations for one system, with its float64 matrices and forcing taken as exact.
+    """The equations for one system, whose float64 matrices and forcing count as exact.
 
     Raises
     ------
@@ -75,9 +76,9 @@ class EnclosedConditions:
         self.epsilon, self.kappa = arb(system.epsilon), arb(system.kappa)
 
     def __call__(self, unknowns):
-        """Return the residual (6, 1) and Jacobian (6, 6) over six intervals.
+        """Return the residual (6, 1) and Jacobian (6, 6) of the equations over intervals of the six unknowns.
 
-        The result is None where impacts may coincide.
+        Returns None if two impacts may coincide.
         """
         lags = self.lags(unknowns)
         if lags is None:
@@ -98,9 +99,9 @@ class EnclosedConditions:
         return arb_mat([row[:1].tolist() for row in rows]), arb_mat([row[1:].tolist() for row in rows])
 
     def lags(self, unknowns):
-        """Return the time since impact k at impact m, by (m, k), or None where impacts may coincide.
+        """Return {(m, k): time from impact k to the next impact m}, or None if two impacts may coincide.
 
-        Times are above 0 and below one period.
+        The times are above 0 and below one period.
         """
         lags = {}
         for m, k in itertools.permutations(self.impacts, 2):
@@ -112,11 +113,11 @@ class EnclosedConditions:
         return lags
 
     def fraction(self, i, lags):
-        """Return the flight time of ball i from wall +1, over the period."""
+        """Return the flight time of ball i (0 or 1) from wall +1 as a fraction of the period."""
         return lags[2 * i + 1, 2 * i] / self.period
 
     def before(self, m, unknowns, lags):
-        """Return the state (4,) of the boxes just before impact m and its derivatives by the unknowns, (4, 7)."""
+        """Return an array (4, 7): the state of the boxes just before impact m, then its derivatives by the unknowns."""
         forced = self.boxes.forced(unknowns[m])
         state = np.full((4, 1 + _UNKNOWNS), arb(0))
         state[:, 0] = [entry.imag for entry in forced.entries()]
@@ -135,10 +136,10 @@ class EnclosedConditions:
 
 
 def _jet(value, unknown=None):
-    """Return a number with its derivatives by the unknowns, (7,), from a constant or an unknown."""
+    """Return a value with its derivatives by the six unknowns, (7,); unknown: index of the unknown, if it is one."""
     return np.array([value, *(arb(int(k == unknown)) for k in range(_UNKNOWNS))])
 
 
 def _product(one, other):
-    """Return the product of two numbers with their derivatives."""
+    """Return the product of two numbers with derivatives, each (7,) as from `_jet`."""
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])

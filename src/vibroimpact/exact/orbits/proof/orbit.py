@@ -1,9 +1,10 @@
-"""Prove existence, motion between the walls and multipliers of single orbits in interval arithmetic.
+"""Prove existence, motion between the walls and stability of a computed orbit in interval arithmetic.
 
-Krawczyk's test (Krawczyk 1969; Neumaier 1990) on the six conditions of asymmetric.py proves that exactly one root lies
-near the listed numbers. The root is symmetric if its mirror image is as near, so that both must be the same; it is
-asymmetric if a flight fraction is not 1/2. Its enclosure gives enclosures of the state at the impacts, of the monodromy
-matrix and of its eigenvalues (flint's acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017).
+Krawczyk's test (Krawczyk 1969; Neumaier 1990) on the six equations of asymmetric.py proves that exactly one root lies
+in a box around the computed numbers. If the mirror image of the root lies in the box too, both are the same, and the
+root is symmetric. If a flight fraction is not 1/2, the root is asymmetric. The enclosure of the root gives enclosures
+of the states at the impacts, of the monodromy matrix and of its eigenvalues (flint's acb_mat.eig: Rump 2010; van der
+Hoeven and Mourrain 2017). Numbers of the Orbit, computed in float64, are called listed numbers.
 """
 
 import math
@@ -20,28 +21,28 @@ _BITS = 128
 _WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths to try
 _TIGHT = 2.0**-90
 _SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
-"""Distances of a listed state and of a listed multiplier from the proved ones (relative to its size where that is above
-1) beyond which they belong to another orbit. Computed ones differ by rounding, double multipliers by its root."""
-_STEPS = 20  # largest number of steps to narrow a box; convergence is quadratic after the first ones
+"""Tolerances for the distance between listed and proved states and multipliers, relative to values larger than 1. A
+larger distance means that the listed values belong to another orbit. Rounding shifts double multipliers by its root."""
+_STEPS = 20  # largest number of steps to narrow a box; convergence soon becomes quadratic
 
 
 @dataclass(frozen=True)
 class OrbitProof:
-    """Proof of an orbit of a system, with its float64 matrices and forcing taken as exact.
+    """Proof of an orbit of a system, whose float64 matrices and forcing count as exact.
 
     Attributes
     ----------
     radius : float
-        Half-width of a box around the listed impact times and changes of ball velocity with exactly one root, of the
-        listed kind (symmetric or not); 0 if nothing is proved.
+        Half-width of a box around the listed impact times and changes of ball velocity that contains exactly one root.
+        The root is symmetric or asymmetric, as listed. The half-width is 0 if nothing is proved.
     error : float
-        Bound on the distance of the listed impact times and speeds from those of the root; inf without a root.
+        Bound on the error of the listed impact phases and speeds; inf if no root is proved.
     motion : str
         "legal" if every ball meets its walls from inside and |W_i| < 1 in between; else "not legal" or "not proved".
     multipliers : tuple of acb
-        Enclosures by descending modulus, eight or, for a single machine, four; empty if they fail.
+        Enclosures of the 8 multipliers (4 for a single machine), by descending modulus; empty if none were found.
     moduli_error : float
-        Bound on the error of the listed moduli; inf without enclosures.
+        Bound on the error of the listed moduli of the multipliers; inf if there are no enclosures.
     """
 
     radius: float
@@ -59,7 +60,7 @@ class OrbitProof:
         return STABLE if moduli and all(modulus < 1 for modulus in moduli) else NOT_PROVED
 
     def row(self) -> dict:
-        """Return the numbers and verdicts by name."""
+        """Return the numbers and verdicts of the proof by column name of a table of orbits."""
         numbers = {"box_radius": self.radius, "orbit_error": self.error, "moduli_error": self.moduli_error}
         return numbers | {"motion_proved": self.motion, "floquet_proved": self.stability}
 
@@ -68,7 +69,7 @@ _NOTHING = OrbitProof(0.0, math.inf, NOT_PROVED, (), math.inf)
 
 
 def prove(orbit) -> OrbitProof:
-    """Prove as much as possible of an Orbit from its listed numbers.
+    """Prove as much as possible about an Orbit, starting from its listed numbers.
 
     Raises
     ------
@@ -97,7 +98,7 @@ def prove(orbit) -> OrbitProof:
 
 
 def _multipliers(monodromy) -> tuple[acb, ...]:
-    """Return enclosures of the eigenvalues of an interval matrix, by descending modulus, or none on failure."""
+    """Return enclosures of the eigenvalues of an interval matrix, by descending modulus, or () on failure."""
     try:
         values = acb_mat(monodromy).eig(multiple=True)
     except ValueError:
@@ -106,7 +107,7 @@ def _multipliers(monodromy) -> tuple[acb, ...]:
 
 
 def _of_kind(symmetric, conditions, root, listed, radius):
-    """Return True if the root is proved to be of the kind (symmetric or asymmetric) of the orbit."""
+    """Return True if the root is proved to be symmetric or asymmetric, as the flag `symmetric` requires."""
     if not symmetric:
         lags = conditions.lags(root)
         return any(not (2 * conditions.fraction(i, lags)).contains(1) for i in conditions.modules)
@@ -115,13 +116,13 @@ def _of_kind(symmetric, conditions, root, listed, radius):
 
 
 def _has_state(orbit, passage):
-    """Return True if the listed state is close to the proved one."""
+    """Return True if the listed state of the orbit at tau = 0 is close to a proved state."""
     listed = orbit.state.tolist()
     return any(all(map(_near, listed, proved.entries()[:8], [_SPOILT_STATE] * 8)) for proved in passage.states())
 
 
 def _has_multipliers(orbit, proved):
-    """Return True if every listed multiplier is close to a proved one, and vice versa."""
+    """Return True if every listed multiplier is close to a proved one, and every proved one to a listed one."""
     near = np.array(
         [[_near(one, other, _SPOILT_MULTIPLIER) for other in proved] for one in map(acb, orbit.multipliers.tolist())]
     )
@@ -133,19 +134,19 @@ def _near(listed, proved, spoilt):
 
 
 def _distance(enclosures, listed):
-    """Return an upper bound, rounded up, on the distance of numbers from their enclosures."""
+    """Return an upper bound on the distances between listed numbers and the enclosed numbers, rounded up."""
     gaps = [abs(value - number).upper() for value, number in zip(enclosures, listed, strict=True)]
     return max(math.nextafter(float(gap), math.inf) for gap in gaps)
 
 
 def krawczyk(equations, approximate: np.ndarray):
-    """Return an enclosure of the only root near a float64 root, and a half-width of uniqueness.
+    """Return an enclosure of a root near a float64 root, and the half-width of a box without any other root.
 
-    No other root lies within the half-width. The result is (None, 0.0) if the test fails.
+    The box is centred at the float64 root. If the test fails for every box, the result is (None, 0.0).
 
-    equations(x) returns residual (n, 1) and Jacobian (n, n) over intervals x, a list of n numbers, or None if they are
-    not defined on all of x. The widest box that passes Krawczyk's test is kept, and its image is narrowed to working
-    precision.
+    equations(x) returns the residual (n, 1) and Jacobian (n, n) for a list x of n intervals, or None if they are not
+    defined on all of x. Boxes are tried from the widest on. The image of the first box that passes Krawczyk's test is
+    narrowed to working precision.
     """
     centre = [arb(value) for value in approximate.tolist()]
     for exponent in range(_WIDEST, _NARROWEST, -1):
@@ -158,7 +159,7 @@ def krawczyk(equations, approximate: np.ndarray):
 
 
 def _image(equations, box):
-    """Return the image of a box under Krawczyk's operator; it contains every root in the box."""
+    """Return the image of a box under Krawczyk's operator, which contains every root in the box, or None on failure."""
     found, at = equations(box), equations([value.mid() for value in box])
     if found is None or at is None:
         return None

@@ -1,8 +1,9 @@
 """Follow an orbit over one period in interval arithmetic: flights, monodromy matrix, distances from the walls.
 
-The state includes sin(Omega tau) and cos(Omega tau) at indices 8 and 9, so that free flight is a linear map, the
-exponential of a rate matrix A (10, 10). With the map R of an impact and its normal n, the saltation matrix of
-floquet.py is R + (A R - R A) z n^T / (n . A z) for the state z before the impact.
+The state includes sin(Omega tau) and cos(Omega tau) at indices 8 and 9. Free flight is therefore a linear map, the
+exponential of a rate matrix A (10, 10) times the time. With the restitution matrix R and the normal n of the wall, the
+saltation matrix of floquet.py is R + (A R - R A) z n^T / (n . A z) for the state z just before the impact. Impacts are
+numbered from 0 to 3 as in conditions.py.
 """
 
 import functools
@@ -17,17 +18,17 @@ from vibroimpact.system.state import BALLS, BOXES, MODULES
 _SIZE = 10
 _DRIVEN = [*BOXES.tolist(), 8, 9]
 GAPS = arb_mat([[1, -1] + [0] * 8, [0, 0, 1, -1] + [0] * 6])
-"""W_1 and W_2 of a state (10, 1)."""
+"""Matrix (2, 10) that maps a state (10, 1) to W_1 and W_2."""
 LEGAL, ILLEGAL, NOT_PROVED = "legal", "not legal", "not proved"
 _NEAR = 1e-9
 _MOST = 2000  # largest number of pieces of a flight
 
 
 class EnclosedPassage:
-    """The motion of a root of `EnclosedConditions`, given by intervals around the six unknowns.
+    """The motion at a root of `EnclosedConditions`, which is given by intervals for the six unknowns.
 
-    rate (10, 10): rate matrix of free flight. phases [forcing periods] of the impacts, speeds of the flights that start
-    with them; both by the number of the impact, module by module, wall +1 first.
+    rate (10, 10): rate matrix of free flight. phases: times of the impacts in forcing periods. speeds: ball speeds on
+    the flights after the impacts. Both are dictionaries by the number of the impact.
     """
 
     def __init__(self, system, conditions, unknowns):
@@ -40,15 +41,15 @@ class EnclosedPassage:
         self.rate = _rate(system)
 
     def flights(self):
-        """Yield, for each flight, its first and last impact, the state after the first one, and the duration."""
+        """Yield, for each flight in order of time, the impacts before and after it, its initial state and duration."""
         order = sorted(self.phases, key=lambda m: float(self._unknowns[m].mid()))
         for m, following in zip(order, [*order[1:], order[0]], strict=True):
             yield m, following, self._impacts[m // 2] * self._before(m), self._lags[following, m]
 
     def states(self):
-        """Return the states (10, 1) at tau = 0.
+        """Yield the state (10, 1) at tau = 0.
 
-        There are two, before and after an impact, where an impact is nearer than floats can resolve.
+        If an impact is too close to tau = 0 to decide their order, yield the states before and after this impact.
         """
         *_, (last, first, state, _) = self.flights()
         yield (self.rate * (self._conditions.period - self._unknowns[last])).exp() * state
@@ -58,10 +59,10 @@ class EnclosedPassage:
     def monodromy(self) -> arb_mat:
         """Return the monodromy matrix (8, 8).
 
-        It maps perturbations just before the first impact to those one period later.
+        The matrix maps perturbations just before the first impact to the perturbations one period later.
 
-        For a single machine it is that of the state (4,) of the module that takes part. Entries are not finite if an
-        impact may have no relative velocity.
+        For a single machine, the matrix (4, 4) of the active module is returned. Entries are not finite if the relative
+        velocity at an impact may be zero.
         """
         maps = [(self.rate * duration).exp() * self._saltation(m) for m, _, _, duration in self.flights()]
         whole = functools.reduce(lambda so_far, next_one: next_one * so_far, maps)
@@ -82,7 +83,7 @@ class EnclosedPassage:
         return arb_mat([[entry] for entry in [*state[:8], phase.sin(), phase.cos()]])
 
     def _speed(self, k):
-        """Return the speed of the flight that starts with impact k."""
+        """Return the speed of the ball on the flight after impact k."""
         u = self._conditions.fraction(k // 2, self._lags)
         return self._unknowns[4 + k // 2] * (1 - u if WALLS[k] == 1 else u)
 
@@ -113,18 +114,18 @@ def _impact(i, conditions):
 
 
 def between_walls(passage) -> str:
-    """Return LEGAL or ILLEGAL if an EnclosedPassage proves it, else NOT_PROVED.
+    """Return LEGAL or ILLEGAL if the motion of an EnclosedPassage is proved to be so, else NOT_PROVED.
 
-    A legal motion keeps each ball between its walls except at the impacts, which have a positive speed. Flights are
-    halved until on each piece |W_i| < 1 or, next to an impact, W_i leaves or approaches the wall monotonically. W_i is
-    expanded to first order about the centre of a piece, with an enclosure of the second order.
+    In a legal motion each ball stays between its walls, except at impacts, which have a positive speed. Flights are
+    halved until |W_i| < 1 is proved on each piece or, next to an impact, W_i leaves or approaches the wall
+    monotonically. W_i is expanded to first order about the centre of a piece, with an enclosure of the remainder.
     """
     verdicts = {_of_flight(passage.rate, *flight) for flight in passage.flights()}
     return next(verdict for verdict in (ILLEGAL, NOT_PROVED, LEGAL) if verdict in verdicts)
 
 
 def _of_flight(rate, start, end, state, duration):
-    """Return the verdict on a free flight from a state (10, 1), from impact `start` to impact `end`."""
+    """Return the verdict on a free flight with the initial state (10, 1), from impact `start` to impact `end`."""
     pending = [(0.0, 1.0)]
     for _ in range(_MOST):
         if not pending:
@@ -142,7 +143,10 @@ def _of_flight(rate, start, end, state, duration):
 
 
 def _ranges(rate, state, duration, low, high):
-    """Return W_1, W_2 and their derivatives over a piece, and W_1, W_2 at its centre."""
+    """Return enclosures of W_i and W_i' over a piece of a flight, and of W_i at its centre, for i = 1, 2.
+
+    low, high: ends of the piece as fractions of the flight.
+    """
     centre = (rate * (duration * ((low + high) / 2))).exp() * state
     offset = arb(0, (high - low) / 2) * duration
     around = (rate * offset).exp() * centre
@@ -152,9 +156,9 @@ def _ranges(rate, state, duration, low, high):
 
 
 def _inside(i, W, V, leaving, nearing):
-    """Return True if ball i stays inside on a piece between the impacts `leaving` and `nearing`.
+    """Return True if ball i is proved to stay between its walls on a piece of a flight.
 
-    One of the two may be None.
+    leaving, nearing: the impact at the start and at the end of the piece, or None.
     """
     touched = {WALLS[k]: sign for k, sign in ((leaving, -1), (nearing, 1)) if k is not None and k // 2 == i}
     return all(touched[wall] * wall * V > 0 if wall in touched else wall * W < 1 for wall in (1, -1))

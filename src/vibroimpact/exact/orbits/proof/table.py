@@ -6,9 +6,9 @@ from vibroimpact.exact.orbits.proof.passage import NOT_PROVED
 
 
 def counts(table: pd.DataFrame) -> dict:
-    """Count the orbits of a table, and those whose existence, motion and verdict are proved.
+    """Return the number of orbits in a table, and the numbers of those with each kind of proof, by name.
 
-    Stable ones count only if their motion is proved legal too.
+    "legal_and_stable" counts orbits with proofs of both properties.
     """
     legal, stability = table["motion_proved"] == "legal", table["floquet_proved"]
     found = {
