@@ -1,1 +1,1 @@
-"""Many runs at once, eight in the lanes of vector instructions; `ensemble.ensemble` is the entry point."""
+"""Simulate eight runs at once in the lanes of vector instructions; `ensemble.ensemble` is the entry point."""

@@ -37,19 +37,22 @@ OUTCOME = np.dtype(
         ("ball_speed", "f8", (2,)),
     ]
 )
-"""Data type of the outcome of a run: status, a key of STATUSES; the final state; and, for each module over the observed
-cycles, the numbers of impacts and sticks, the largest |X_i|, and the time averages of X_i^2 and |Y_i'|."""
+"""Data type of the outcome of a run: the status (a key of STATUSES) and the final state; then, for each module and over
+the observed cycles: numbers of impacts and sticks, largest |X_i|, and time averages of X_i^2 and |Y_i'|."""
 WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
 """OUTCOME with the energy balance."""
 
 FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
-"""Indices of the statistics in the fields of OUTCOME."""
+"""For each statistic in OUTCOME, its index for module 1 in a row of statistics; module 2 follows."""
 MEANS = slice(PATH, INTEGRALS + 2)
-"""Indices of time integrals."""
+"""Indices of the statistics that become time averages when they are divided by the time."""
 MOST_RUNS, SHARES = 1024, 4
-"""Largest number of runs in a piece of work; pieces per core if there are many runs."""
+"""Largest number of runs in a piece of work; number of pieces per core if there are many runs."""
 DEFERRED = INADMISSIBLE + 1
-MOST_LOG_RATIO = np.log(4.0)  # of the rates of boxes and forcing; beyond it a flight takes many steps, each rounded
+"""Status of a run that the lanes skip and `_single_run` computes."""
+MOST_LOG_RATIO = np.log(4.0)
+"""Largest log ratio of the rates of boxes and forcing for a run in lanes; beyond it a flight takes many steps, and the
+rounding errors of the steps add up."""
 
 
 def ensemble(
@@ -70,26 +73,28 @@ def ensemble(
         One System, or an array of them (a list or nested lists).
     states : array_like
         Initial states, shape (..., 8), by position or by name as for `simulate`. Systems and states broadcast: n
-        systems and n states pair by pair, one state with every system, or systems (m, 1) with states (n, 8) in all
-        combinations.
+        systems and n states form n pairs; one state is used with every system; systems (m, 1) and states (n, 8) give
+        all m n combinations.
     cycles, tau0
         As for `simulate`.
     settle : int, default 0
-        Cycles before the observation, from 0 to `cycles`. If settle equals cycles, only the final state is returned.
+        Number of cycles before the observation, from 0 to `cycles`. If settle equals cycles, only the final state is
+        computed, without statistics.
     progress : bool, default False
-        Count finished runs on standard error, about once a second.
+        Show the number of finished runs on standard error, about once a second.
     energy : bool, default False
-        Add the energy balance over the observed cycles (`Run.energy`) as the field `energy` (ENERGY).
+        Add a field `energy` (ENERGY) with the energy balance over the observed cycles, as in `Run.energy`.
     by_cycle : bool, default False
-        Return an outcome for each observed cycle along an additional last axis, with the state at the end of the cycle.
+        Return an outcome for each observed cycle along an additional last axis. Its field `final` is the state at the
+        end of the cycle.
 
     Returns
     -------
     ndarray
         Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
         the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
-        observed cycles are nan. The largest |X_i| is exact, except where a box almost at rest turns back (1e-5 of its
-        path); the averages are exact to rounding.
+        observed cycles are nan. The averages are exact to rounding. So is the largest |X_i|, except where a box almost
+        at rest turns back (error up to 1e-5 of its path).
 
     Raises
     ------
@@ -98,10 +103,10 @@ def ensemble(
 
     Notes
     -----
-    Impacts and sticks equal those of `simulate`, except for grazing contacts that its certificate counts as undecided,
-    and for impacts after which the ball hops by less than four units of rounding. The error of the final state of a
-    decided run is at most 2.6 times the estimate of that certificate (docs/engine.md). Use `simulate` for events,
-    samples or a certificate.
+    The numbers of impacts and sticks are those of `simulate`, with two exceptions: grazing contacts that the
+    certificate of the run counts as undecided, and impacts after which the ball hops by less than four units of
+    rounding. In a run without undecided contacts, the error of the final state is at most 2.6 times the estimate in
+    the certificate (docs/engine.md). Use `simulate` for events, samples or a certificate.
 
     Examples
     --------
@@ -136,7 +141,7 @@ def ensemble(
 
 
 def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
-    """Return the final states (n, 8) of runs of one system from initial states (n, 8) at tau = 0.
+    """Return the final states (n, 8) of one system after some cycles, from initial states (n, 8) at tau = 0.
 
     Raises
     ------
@@ -153,7 +158,7 @@ def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
 
 
 def _combined(systems, states):
-    """Return the distinct systems and, in the broadcast shape, each run's system index and initial state."""
+    """Return the distinct systems and, in the broadcast shape, the system index and the initial state of each run."""
     states = states_array("states", states)
     if states.ndim == 0 or states.shape[-1] != 8:
         raise ValueError(f"states: needs shape (..., 8), got {states.shape}")
@@ -170,7 +175,10 @@ def _combined(systems, states):
 
 
 def _run(known, begins, numbers, starts, stages, outcomes, places):
-    """Run the initial states at these places and write their outcomes; stages: as for `loop.Piece`."""
+    """Run the initial states with the indices `places` and write their outcomes.
+
+    known, begins: systems and initial times. numbers: system of each run. stages: as for `loop.Piece`.
+    """
     (settle, cycles, length), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
     owners, energy, shape = numbers[places] - first, "energy" in outcomes.dtype.names, (len(places), outcomes.shape[1])
     systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
@@ -206,10 +214,10 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 
 
 def _single_run(system, state, begin, stages, final, statistics):
-    """Return the status of a run by `simulate`; write its final states (k, 8) and statistics (k, STATISTICS).
+    """Compute a run outside the lanes; return its status, and write final states (k, 8) and statistics (k, STATISTICS).
 
-    This is for systems with fast and slow rates, whose flights would take many steps, and for systems whose potentials
-    lose accuracy by cancellation.
+    This is for systems whose flights would take many steps in a lane, since the rates of boxes and forcing differ much,
+    and for systems whose potentials lose accuracy by cancellation.
     """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]

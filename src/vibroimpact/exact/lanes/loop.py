@@ -1,4 +1,4 @@
-"""Run many initial states, as many at once as there are lanes; leave what the lanes cannot do to the event loop."""
+"""Run many initial states in eight lanes; pass events that the lanes cannot handle to the event loop."""
 
 import math
 from typing import NamedTuple
@@ -18,17 +18,18 @@ from vibroimpact.exact.lanes import rows, steps
 from vibroimpact.exact.lanes.rows import STATISTICS, STATISTICS_AT
 from vibroimpact.exact.lanes.statistics import accumulate_statistics, discount_rests, find_turns, open_or_close
 
-TABLE = 64  # times in the flow tables of the event loop, which handles the few events that the lanes cannot
-NEAR = 1e-6  # distance from a wall beyond which a ball cannot rest on it
-INTERRUPT_INTERVAL = 500_000  # steps of all lanes between two checks for an interrupt, about 20 ms
+TABLE = 64  # number of times in a flow table; it is small, since the event loop handles only few events
+NEAR = 1e-6  # a ball farther from a wall does not come to rest on it within the next events
+INTERRUPT_INTERVAL = 500_000  # number of steps between two checks for an interrupt, about 20 ms
 
 
 class Piece(NamedTuple):
-    """Runs to be computed, and their results.
+    """A piece of work: n runs to be computed, and their results.
 
-    numbers, rates, phases, potentials, drifts: of each system. owners (n,): the system of each initial state. starts
-    (n, 8). stages: cycles before the observation, cycles in all, and cycles in each of its k windows. status (n,);
-    final (n, k, 8); statistics (n, k, STATISTICS). continued: the runs continue others.
+    numbers, rates, phases, potentials, drifts: data of each system. owners (n,): index of the system of each run.
+    starts (n, 8): initial states. stages: number of cycles before the observation, total number of cycles, and number
+    of cycles in each of the k windows of the observation. Results: status (n,), final (n, k, 8) and statistics (n, k,
+    STATISTICS). continued: True if the runs continue other runs.
     """
 
     numbers: np.ndarray
@@ -46,12 +47,12 @@ class Piece(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """Runs in the lanes and their data, between two calls of the loop.
+    """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
-    runs, constants: `rows`; work: workspace of `steps`. members: the initial state in each lane, or -1; begun: number
-    of initial states processed. slots: position of the tables of each lane's system; owners: their systems; made:
-    contact states with tables. series, rotations: `flow_tables.tables`; known: constants. log, counters, statistics,
-    change: workspace.
+    For each lane: runs, constants: arrays with the rows of `rows`; members: index of the initial state, or -1; slots:
+    slot with the tables of its system; counters: counters of its event log. For each slot: owners: index of the system,
+    or -1; made: contact states whose tables are computed; series, rotations: tables as from `flow_tables.tables`;
+    known: constants. begun: number of initial states processed. work, log, statistics, change: workspace.
     """
 
     runs: np.ndarray
@@ -72,7 +73,7 @@ class Memory(NamedTuple):
 
 
 def memory() -> Memory:
-    """Return memory for `run_lanes`."""
+    """Return empty memory for `run_lanes`."""
     return Memory(
         runs=np.zeros((rows.STATES, WIDTH)),
         constants=np.zeros((rows.CONSTANTS, WIDTH)),
@@ -94,9 +95,10 @@ def memory() -> Memory:
 
 @compiled
 def run_lanes(piece, memory):
-    """Run the initial states of a piece whose status is FINISHED.
+    """Run all initial states in a piece with the status FINISHED; write status, final states and statistics.
 
-    Writes their status, final states and statistics. Returns False if it pauses for an interrupt; then call it again.
+    Returns True when all runs have ended. Returns False if it pauses so that the caller can handle an interrupt; the
+    caller then calls it again.
     """
     m, done = memory, 0
     while True:
@@ -119,7 +121,7 @@ def run_lanes(piece, memory):
 
 @inlined_source
 def _fill_lanes(piece, m):
-    """Begin waiting runs in free lanes; return the number of lanes in use."""
+    """Begin the next runs in free lanes; return the number of lanes in use."""
     alive = 0
     for lane in range(WIDTH):
         while m.members[lane] < 0 and m.begun[0] < len(piece.starts):
@@ -135,7 +137,7 @@ def _fill_lanes(piece, m):
 
 @inlined_source
 def begin_run(piece, n, lane, m):
-    """Put an initial state into a lane."""
+    """Begin run n of a piece in a lane."""
     owner, settle, runs = piece.owners[n], piece.stages[0], m.runs[:, lane]
     slot = _slot_of(piece, owner, m)
     m.members[lane], m.slots[lane], m.counters[lane] = n, slot, 0.0
@@ -153,7 +155,7 @@ def begin_run(piece, n, lane, m):
 
 @inlined_source
 def _slot_of(piece, owner, m):
-    """Return the slot with the tables of a system; compute them in a slot without runs if there is none yet."""
+    """Return the slot with the tables of a system; if there is none, compute the tables in a slot not in use."""
     for slot in range(WIDTH):
         if m.owners[slot] == owner:
             return slot
@@ -174,7 +176,7 @@ def _slot_of(piece, owner, m):
 
 @inlined_source
 def _fill_constants(piece, owner, flow, change, step, c):
-    """Write the constants (CONSTANTS,) of a system."""
+    """Write the constants of a system (see `rows`) to c (CONSTANTS,)."""
     q = flow.coefficients
     for row in range(4):
         for k in range(6):
@@ -199,7 +201,7 @@ def _fill_constants(piece, owner, flow, change, step, c):
 
 @inlined_source
 def _system_of(piece, lane, m):
-    """Return the flow and the potentials of the run in a lane."""
+    """Return the flow tables and the potentials for the system of the run in a lane."""
     owner, slot = piece.owners[m.members[lane]], m.slots[lane]
     flow = unpacked(piece.numbers[owner], m.series[slot], m.rotations[slot])
     return flow, Squares(piece.potentials[owner], piece.drifts[owner])
@@ -214,7 +216,7 @@ def _motion_of(runs, lane):
 
 @inlined_source
 def _handle_outcome(piece, lane, m):
-    """Continue the run of a lane after a pass; return PAUSED, or the status of a finished run."""
+    """Continue the run in a lane that a pass has stopped; return PAUSED, or the status of a run that has ended."""
     flow, squares = _system_of(piece, lane, m)
     if m.runs[rows.OUTCOME, lane] == steps.DOUBTFUL:
         return _run_by_events(piece, flow, squares, lane, m)
@@ -227,7 +229,10 @@ def _handle_outcome(piece, lane, m):
 
 @in_place
 def _end_window(piece, flow, squares, motion, lane, m):
-    """Close the window of observation that ends now, and open the next; return True at the end of the run."""
+    """Write the results of the window of observation that ends now; return True at the end of the run.
+
+    Otherwise begin the next window and return False.
+    """
     (settle, cycles, length), n = piece.stages, m.members[lane]
     stop, watched = int(m.runs[rows.STOP, lane]), m.runs[rows.WATCHED, lane] > 0.0
     if watched or stop == cycles:
@@ -263,7 +268,7 @@ def _write_statistics(m, lane):
 
 @in_place
 def _stop_crowded(piece, m):
-    """Stop runs with too many events."""
+    """Stop runs with too many events, with the status CROWDED."""
     most = event_loop.MOST_EVENTS + event_loop.MOST_EVENTS_PER_CYCLE * float(piece.stages[1])
     for lane in range(WIDTH):
         if m.members[lane] >= 0 and m.runs[rows.EVENTS, lane] > most:
@@ -272,7 +277,7 @@ def _stop_crowded(piece, m):
 
 @inlined_source
 def _run_by_events(piece, flow, squares, lane, m):
-    """Continue the run of a lane by the event loop until both balls fly; return PAUSED or the status of its end."""
+    """Continue the run in a lane by the event loop until both balls fly; return PAUSED, or the status if it ends."""
     runs, counters, unsampled = m.runs[:, lane], m.counters[lane], Sampling(0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[rows.FIRST, lane], m.constants[rows.FIRST_TAIL, lane]
     progress = _progress_of(m.runs, lane, first, flow.coefficients.omega)
@@ -297,7 +302,7 @@ def _run_by_events(piece, flow, squares, lane, m):
 
 @inlined_source
 def _progress_of(runs, lane, first, omega):
-    """Return the progress of the run in a lane."""
+    """Return the run in a lane as `Progress` for the event loop; first: initial phase with its tail."""
     phase, tail, turns = runs[rows.PHASE, lane], runs[rows.TAIL, lane], int(runs[rows.TURNS, lane])
     elapsed = (turns * TWO_PI + ((phase - first[0]) + (tail - first[1]))) / omega
     stalled, due = int(runs[rows.STALLED, lane]), int(runs[rows.DUE, lane])
@@ -306,7 +311,7 @@ def _progress_of(runs, lane, first, omega):
 
 @inlined_source
 def _write_progress(runs, motion, progress):
-    """Write the progress of a run in the event loop to its lane, where it begins a flight."""
+    """Write the `Progress` of a run from the event loop to its lane, where a flight begins."""
     for i in range(4):
         runs[rows.X1 + i], runs[rows.Y1 + i] = motion.boxes[i], motion.balls[i]
     runs[rows.SINE], runs[rows.COSINE] = motion.sine, motion.cosine
@@ -318,7 +323,10 @@ def _write_progress(runs, motion, progress):
 
 @inlined_source
 def _watch_events(piece, flow, squares, leaving, progress, lane, m):
-    """Add the statistics of the events between two states of a run in the event loop to those of its lane."""
+    """Add the statistics of the last events of a run in the event loop to the statistics in its lane.
+
+    leaving, progress: `Progress` before and after these events.
+    """
     noted, motion = int(m.counters[lane, EVENTS]), leaving.motion
     departure = Departure(motion.boxes, motion.balls, motion.walls, leaving.elapsed, leaving.phase)
     arrival = progress.motion.boxes, progress.elapsed, progress.phase
@@ -331,7 +339,7 @@ def _watch_events(piece, flow, squares, leaving, progress, lane, m):
 
 @inlined_source
 def _make_tables(flow, rates, progress, made, change):
-    """Compute the tables of the contact states that the next events can lead to."""
+    """Compute the missing flow tables for all contact states that may occur in the next events."""
     motion = progress.motion
     modes = mode_of(motion.walls)
     for i in range(2):

@@ -1,4 +1,4 @@
-"""Rows of the arrays of runs in lanes: where each quantity is, and Taylor polynomials of the boxes."""
+"""Define the rows of the arrays for runs in lanes, one column per lane; compute Taylor polynomials of the boxes."""
 
 import math
 
@@ -9,8 +9,8 @@ from vibroimpact.exact.engine.vectors import fused, load, store, where
 
 IMPACTS, STICKS, LARGEST, PATH, INTEGRALS = 0, 2, 4, 6, 8
 LOST, STORED, STATISTICS = INTEGRALS + energy.LOST, INTEGRALS + energy.STORED, INTEGRALS + energy.ENTRIES
-"""Indices of the statistics of a run: for each module impacts, sticks, the largest |X_i| and the length of the ball's
-path; then a row of `energy.accumulate_energy`; their number."""
+"""Indices of the statistics of a run, and their number STATISTICS. Two entries each, one per module: impacts, sticks,
+largest |X_i|, length of the ball's path. From INTEGRALS on: the entries of a row of `energy.accumulate_energy`."""
 
 X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
 Y1_LOW, Y2_LOW, PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 20)
@@ -18,13 +18,24 @@ PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_A
 TURNS_AT = STATISTICS_AT + STATISTICS
 SINCE, HIGHEST, KEPT, TURN = 6, 7, 8, 9
 STATES = TURNS_AT + 2 * TURN
-"""Rows of the runs, (STATES, 8): boxes; balls at the start of the flight; sine and cosine of the forcing phase;
-remainders of the positions of the balls; time since the start of the flight, and time to its end; length of the next
-step (0: begin a flight, -1: leave it to the event loop); bound on the energy of the boxes; limit for the Bernstein
-coefficients; walls that the balls leave; module on a wall, or -1; phase at the start, with its tail; revolutions, and
-those at which the run stops; 1 for a run; 1 if it is observed; its events; its flights without progress; result of a
-pass; statistics; and, for each box, a turn that may be its largest displacement (`find_turns`): boxes and forcing at a
-time near it, the approximate time from there to the turn, a bound on its displacement, and 1 if there is one."""
+"""Rows of the runs, (STATES, 8), one column per lane:
+
+X1 to V2: boxes; Y1 to U2: balls at the start of the flight; SINE, COSINE: of the forcing phase
+Y1_LOW, Y2_LOW: rounding remainders of the ball positions
+PASSED, REACH: time since the start of the flight, and its largest value
+TRIAL: length of the next step (0: begin a flight; -1: leave it to the event loop)
+SIZE: root of twice the energy of the boxes at the start of the flight
+LIMIT: limit for the Bernstein coefficients
+TOUCH1, TOUCH2: wall that each ball leaves, or 0; DUE: index of the module whose ball is at a wall, or -1
+PHASE, TAIL, TURNS: forcing phase at the start of the flight, its remainder, and the number of full turns
+STOP: number of full turns at which the run stops; ALIVE: 1 if the lane has a run; WATCHED: 1 if it is observed
+EVENTS, STALLED: numbers of events, and of flights without progress in time
+OUTCOME: result of a pass; STATISTICS_AT: first row of the statistics
+
+From TURNS_AT on, TURN rows for each box describe a turn that may be its largest displacement (`find_turns`): boxes and
+forcing at a time near the turn (6 rows); SINCE: approximate time from there to the turn; HIGHEST: bound on the
+displacement; KEPT: 1 if a turn is stored.
+"""
 
 LOW_PARTS, SCALARS_AT = 24, 40
 K11, K12, K22, GROUND, C11, C12, C22, F1, F2, OMEGA, EPSILON, KAPPA, DRIVE = range(SCALARS_AT, SCALARS_AT + 13)
@@ -34,23 +45,31 @@ CA, SA, STEP, BEND, BEND_FORCE, ROUNDING, LEAST_ROUNDING, LOSS, FIRST, FIRST_TAI
 )
 DROPS = DRIFTS + len(energy.OBSERVED)
 CONSTANTS = DROPS + 12 * len(energy.OBSERVED)
-"""Rows of the constants, (CONSTANTS, 8), of each system: exp(A h) - 1, four rows of six; the remainders of its columns
-for the boxes, four rows of four, since every step would repeat this error; the scalars of `flow.numbers_of`, in their
-order; cos - 1 and sin of Omega h; h; B / 72 per bound on the energy and due to the force; rounding, in the same way;
-loss of an impact; phase at the start; and, for each integral, its drift and the rows of its potential for both
-velocities."""
+"""Rows of the constants, (CONSTANTS, 8), one column per lane, for the system of the run in the lane:
 
-LONGEST_STEP = 0.52  # times the largest rate of boxes and forcing
+from 0: exp(A h) - 1 for a step h, four rows of six
+LOW_PARTS: rounding remainders of its columns for the boxes, four rows of four, since every step would repeat this error
+SCALARS_AT: scalars of `flow.numbers_of`, in their order
+CA, SA: cos - 1 and sin of Omega h; STEP: h
+BEND, BEND_FORCE: B / 72 for a bound B on the fourth derivative: factor of the root of twice the energy, and constant
+ROUNDING, LEAST_ROUNDING: bound on rounding errors, factor and constant in the same way
+LOSS: energy loss of an impact over its squared relative velocity
+FIRST, FIRST_TAIL: phase at the start of the run, and its remainder
+DRIFTS: drift of each integral
+DROPS: for each integral, the two rows of its potential for the velocities of the boxes
+"""
+
+LONGEST_STEP = 0.52  # longest step, times the largest rate of boxes and forcing
 ORDER = next(n for n in range(1, 99) if LONGEST_STEP**n / math.factorial(n - 1) < 2.0**-53)
 """Order n of the Taylor polynomials over a time t <= LONGEST_STEP / r, where r bounds the rates of boxes and forcing.
 
 The derivative of order n of a velocity is at most r^n E + n r^(n - 1) F, where E is the root of twice the energy of
-the boxes and F the force. So the truncation error of a velocity is less than a rounding of E / n + F / r, and that of a
-position is t / (n + 1) times as large.
+the boxes and F the force. The truncation error of a velocity is therefore below the rounding error of E / n + F / r,
+and the truncation error of a position is t / (n + 1) times as large.
 """
 SECOND = ORDER + 1
-"""First row of the polynomial of box 2 in the workspace (2 ORDER + 2, 8); that of box 1 starts at row 0."""
-TERMS = 7  # terms that suffice for the time of a turn in a step
+"""First row of the polynomial of box 2 in the workspace (2 ORDER + 2, 8); the polynomial of box 1 starts at row 0."""
+TERMS = 7  # number of terms of a polynomial that suffice for the time of a turn in a step
 
 
 @inlined
@@ -67,7 +86,10 @@ def most(a, b):
 
 @inlined
 def expand(c, x1, x2, v1, v2, s, k, work):
-    """Write the Taylor coefficients of both boxes, orders 0 to ORDER each."""
+    """Write the Taylor coefficients of the positions of both boxes to `work`, orders 0 to ORDER.
+
+    c: constants; x1, x2, v1, v2: boxes; s, k: sine and cosine of the forcing phase.
+    """
     omega = load(c, OMEGA)
     store(work, 0, x1)
     store(work, 1, v1)
@@ -88,7 +110,7 @@ def expand(c, x1, x2, v1, v2, s, k, work):
 
 @inlined
 def evaluate(work, first, t):
-    """Return the polynomial from row `first` on and its derivative at t."""
+    """Return the value and the derivative at t of the polynomial with coefficients from row `first` on."""
     value, slope = load(work, first + ORDER), 0.0 * t
     for m in range(ORDER - 1, -1, -1):
         slope = fused(slope, t, value)

@@ -1,9 +1,11 @@
-"""Statistics of the runs of an ensemble: impacts, displacements of the boxes, speeds of the balls, integrals.
+"""Compute the statistics of runs in an ensemble: impacts, displacements of boxes, speeds of balls, integrals.
 
-They are added up by flights in the lanes (`observe`) and by events in the event loop (`accumulate_statistics`).
+In the lanes, statistics are added up flight by flight (`observe`); in the event loop, event by event
+(`accumulate_statistics`).
 
-If the hull of a box in a lane exceeds its largest displacement so far, its turn is stored and computed later together
-with those of the other lanes. No lane has to wait, and a larger turn may replace it.
+A turn is a time at which a box reverses. If it may give the largest displacement of the box so far, by the hull of the
+step, the turn is stored, so that no lane has to wait. Stored turns are computed later for all lanes together
+(`find_turns`), unless a larger turn replaces them.
 """
 
 import math
@@ -31,15 +33,15 @@ from vibroimpact.exact.lanes.rows import (
 )
 from vibroimpact.system.state import IMPACT, STICK
 
-PIECE = 4  # spacings of the flow table, over which a box turns at most once, except for 1e-5 of its path
-STEPS = 4  # Newton steps to find a turn
+PIECE = 4  # length in spacings of the flow table; a box turns at most once in a piece, except for 1e-5 of its path
+STEPS = 4  # number of Newton steps to find a turn
 
 
 @compiled
 def accumulate_run(flow, squares, start, events, final, end, continued, statistics):
-    """Add the statistics of a finished run.
+    """Add the statistics of a finished run to `statistics` (STATISTICS,).
 
-    end: its duration and phase; continued: True if it continues another run.
+    end: duration and final phase of the run. continued: True if it continues another run.
     """
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), math.sin(phase), math.cos(phase))
@@ -52,10 +54,10 @@ def accumulate_run(flow, squares, start, events, final, end, continued, statisti
 
 @in_place
 def accumulate_statistics(flow, squares, departure, events, count, arrival, statistics):
-    """Add the statistics of a piece of a run to statistics (STATISTICS,), without the potentials at its ends.
+    """Add the statistics of a part of a run to `statistics` (STATISTICS,), without the potentials at its two ends.
 
-    departure: start of the piece (`variation.Departure`); events, count: its rows; arrival: boxes, time and phase at
-    its end.
+    departure: start of the part (`variation.Departure`). events, count: rows of its events and their number. arrival:
+    boxes, time and phase at its end.
     """
     leaving, (final, time, phase) = departure, arrival
     early, last = (math.sin(leaving.phase), math.cos(leaving.phase)), (math.sin(phase), math.cos(phase))
@@ -77,7 +79,7 @@ def accumulate_statistics(flow, squares, departure, events, count, arrival, stat
 
 @inlined
 def discount_rests(events, count, statistics):
-    """Subtract the sticks at the start of a run that continues another one, which counted them already."""
+    """Subtract the sticks at the start of a run that continues another run, which has counted them already."""
     for n in range(count):
         if rests_at_start(events, n):
             statistics[STICKS + int(events[n, contact.MODULE]) - 1] -= 1.0
@@ -85,7 +87,7 @@ def discount_rests(events, count, statistics):
 
 @inlined
 def open_or_close(flow, squares, motion, sign, statistics):
-    """Begin (sign -1) or end (+1) an observation: add the terms that depend on its ends alone."""
+    """Add the statistics that depend only on the start (sign -1) or the end (sign +1) of an observation."""
     boxes, q = motion.boxes, flow.coefficients
     add_potentials(squares, mode_of(motion.walls), boxes, motion.sine, motion.cosine, sign, statistics[INTEGRALS:])
     statistics[STORED] += sign * energy_stored(q.ground, -q.k12, q.epsilon, boxes, motion.balls)
@@ -95,9 +97,10 @@ def open_or_close(flow, squares, motion, sign, statistics):
 
 @inlined
 def _add_potential_drops(squares, before, after, forcing, sums):
-    """Add the decrease of the potentials in an instant to sums (k,); before, after: contact state and boxes.
+    """Add the decrease of the potentials at an event to sums (k,).
 
-    If the contact state stays the same, only the terms of the velocity change are computed: two products instead of 36.
+    before, after: contact state and boxes. If the contact state stays the same, only the terms with the changed
+    velocity are computed.
     """
     (mode, boxes), (later, others), (sine, cosine) = before, after, forcing
     if mode != later:
@@ -127,7 +130,7 @@ def _count(q, event, statistics):
 
 @inlined
 def _before(q, boxes, event):
-    """Return the boxes before an event, from the boxes after it."""
+    """Return the boxes just before an event, from `boxes` just after it."""
     if event[3] != IMPACT:
         return boxes
     i, approach = int(event[1]) - 1, event[contact.APPROACH]
@@ -136,7 +139,7 @@ def _before(q, boxes, event):
 
 @inlined_source
 def _watch(flow, squares, motion, end, length, statistics):
-    """Add the statistics of a flight, except for the potentials at its ends."""
+    """Add the statistics of a flight with the duration `length`, except for the potentials at its two ends."""
     mode = mode_of(motion.walls)
     for i in range(2):
         statistics[LARGEST + i] = max(statistics[LARGEST + i], abs(motion.boxes[i]), abs(end[i]))
@@ -158,7 +161,7 @@ def _watch(flow, squares, motion, end, length, statistics):
 
 @inlined
 def _add_piece(p, low, high, i, wall, statistics):
-    """Add the turn of box i, and the path of a ball that sticks to it, between two times of its polynomial p (8,)."""
+    """Add the turn of box i with the polynomial p (8,) between two times, and the path of a ball that sticks to it."""
     x, last, v, w = value(p, low), value(p, high), slope(p, low), slope(p, high)
     path = abs(last - x)
     if v * w < 0.0:
@@ -173,11 +176,12 @@ def _add_piece(p, low, high, i, wall, statistics):
 
 @inlined
 def observe(runs, c, work, integrals, flight, hits, early, arrival):
-    """Add the statistics of a flight and its impact.
+    """Add the statistics of a flight in each lane and of the impact at its end, if there is one.
 
-    flight: mask of the lanes with a flight, its last step, its time, and the error of Hermite's polynomial in that
-    step. hits: mask of the lanes with an impact, per module. early: boxes and forcing before the step. arrival:
-    positions of the boxes after it, their velocities before and after the impact, those of the balls, and the forcing.
+    flight: mask of the lanes with a flight; its last step; its duration; and five times the error of Hermite's
+    polynomial in this step. hits: for each module, the lanes with an impact. early: boxes and forcing before the last
+    step. arrival: positions of the boxes after this step, box velocities before and after the impact, ball velocities
+    before the impact, and forcing.
     """
     (there, t, time, wrong), (boxes, late, after, balls, forcing) = flight, arrival
     watched, third = (load(runs, rows.WATCHED) > 0.0) & there, t * (1 / 3)
@@ -209,18 +213,21 @@ def _add(runs, mask, place, value):
 
 @inlined
 def may_turn_beyond(record, x, v, later, v_later, third):
-    """Return True where a box turns in a step and a middle Bernstein coefficient exceeds a record."""
+    """Return True in lanes where a box turns in a step and a middle Bernstein coefficient exceeds the record.
+
+    record: largest displacement so far. x, v, later, v_later: box at both ends of the step. third: a third of the step.
+    """
     return (v * v_later < 0.0) & (most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > record)
 
 
 @inlined
 def keep_turns(runs, c, work, turns, wrong, early, late, step):
-    """Store turns of boxes in a step that may be their largest displacements.
+    """Store those turns in a step that may be the largest displacements of the boxes.
 
-    A stored turn is computed first if the larger of both is not certain.
+    If a lane has a stored turn already that may be larger than the new one, all stored turns are computed first.
 
-    early, late: boxes and forcing before and after the step. wrong: five times the error of Hermite's polynomial, whose
-    hull is close to it if the polynomial is split at the turn.
+    early, late: boxes and forcing before and after the step. wrong: five times the error of Hermite's polynomial. The
+    polynomial is split near its turn, where the hulls of both parts are close to it.
     """
     wrong = 0.2 * wrong
     for i in range(2):
@@ -248,7 +255,7 @@ def keep_turns(runs, c, work, turns, wrong, early, late, step):
 def find_turns(runs, c, work):
     """Compute the stored turns by Newton's method and a final parabola; update the largest displacements.
 
-    The first terms of the polynomials suffice for the time of a turn.
+    The time of a turn is computed with the first terms of the Taylor polynomials, the displacement with all terms.
     """
     for i in range(2):
         row, first = rows.TURNS_AT + rows.TURN * i, rows.SECOND * i
@@ -269,7 +276,7 @@ def find_turns(runs, c, work):
 
 @inlined
 def _slope(work, first, t):
-    """Return the derivative of a polynomial at t, from its first terms."""
+    """Return the derivative at t of the first terms of the polynomial from row `first` on."""
     total = 0.0 * t
     for m in range(rows.TERMS, 0, -1):
         total = fused(total, t, m * load(work, first + m))
@@ -278,7 +285,7 @@ def _slope(work, first, t):
 
 @inlined
 def _bend(work, first, t):
-    """Return the second derivative of a polynomial at t, from its first terms."""
+    """Return the second derivative at t of the first terms of the polynomial from row `first` on."""
     total = 0.0 * t
     for m in range(rows.TERMS, 1, -1):
         total = fused(total, t, m * (m - 1.0) * load(work, first + m))

@@ -1,16 +1,17 @@
 """Advance eight runs in parallel lanes through free flights and simple impacts; each lane has its own system.
 
-Between impacts each lane advances by its fixed step h, z' = exp(A h) z (`advance_lanes`); only the change of z is
-added, so that its rounding is small. The hull of a cubic polynomial proves that a step has no impact. The position w of
-a ball in its box and its rate r at both ends define Hermite's polynomial, which is bounded by its Bernstein
-coefficients w, w + h r / 3, w' - h r' / 3, w'. With a bound B on the fourth derivative, its error is at most B h^4 s^2
-(1 - s)^2 / 24 at the fraction s of the step; lowering the two middle coefficients by B h^4 / 72 covers more than that.
-B follows from the energy of the boxes, which grows no faster than by the work of the force.
+Between impacts each lane advances by its fixed step h, z' = exp(A h) z (`advance_lanes`). Only the change of z is
+computed and added, so that its rounding error is small. A step needs a proof that it has no impact. The position w of a
+ball in its box and the rate r of w, at both ends of the step, define Hermite's cubic polynomial. Its hull is given by
+the Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step. With a bound B on
+the fourth derivative, the error of the polynomial at the fraction s of the step is at most B h^4 s^2 (1 - s)^2 / 24.
+Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows from the energy
+of the boxes, which cannot grow by more than the work of the force.
 
-Lanes whose step is not proved wait until there are enough of them for a pass (`step_to_event`): the Taylor polynomials
-of both boxes give the time of an impact, and the same hull proves the flight until then. If a proof fails, it is tried
-again over half the time. All other cases (chatter to be completed, balls at rest, simultaneous events, any doubt) are
-left to the event loop.
+Lanes whose step is not proved wait until they are numerous enough for a pass (`step_to_event`). In a pass, the Taylor
+polynomials of both boxes give the time of an impact, and the same hull proves the flight until then. If the proof
+fails, the next pass tries half the time. All other cases (chatter to be completed, balls at rest, simultaneous events,
+any doubt) are left to the event loop.
 
 The impact law is that of `vibroimpact.system.restitution`, which names its other implementations.
 """
@@ -36,17 +37,20 @@ from vibroimpact.exact.lanes.rows import LARGEST, ORDER, SECOND, STATISTICS_AT, 
 from vibroimpact.exact.lanes.statistics import keep_turns, may_turn_beyond, observe
 
 NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
-"""Result of a pass in a lane; DOUBTFUL requires the event loop."""
+"""State of a lane before and after a pass.
 
-SHORTEST = 1 / 32  # smallest fraction of a step over which a proof is tried
-LONGEST = 6.0  # forcing angle [rad], below a full turn, after which its sine and cosine are computed again
-ROUNDED = 8.0 * 2.0**-52
-SAME_TIME = 2.0**-48
+NOTHING: the run goes on. DONE: the next step is not proved, so that the lane waits for a pass. STOPPED: the run has
+reached the end of a window. DOUBTFUL: the lane needs the event loop."""
+
+SHORTEST = 1 / 32  # if a proof over a smaller fraction of a step fails, the event loop takes over
+LONGEST = 6.0  # forcing angle [rad], below a full turn, after which sine and cosine are computed again from the phase
+ROUNDED = 8.0 * 2.0**-52  # relative bound on the rounding error of a few operations
+SAME_TIME = 2.0**-48  # a run stops if no more time than this is left
 
 
 @in_place
 def advance_lanes(runs, c, work, enough):
-    """Advance runs (STATES, 8) with constants (CONSTANTS, 8) until `enough` have an unproved step.
+    """Advance runs (STATES, 8) with constants c (CONSTANTS, 8) until the next step is not proved in `enough` lanes.
 
     Returns the number of steps.
     """
@@ -61,7 +65,7 @@ def advance_lanes(runs, c, work, enough):
     w1, w2, r1, r2 = x1 - fused(passed, u1, y1), x2 - fused(passed, u2, y2), v1 - u1, v2 - u2
     steps = 0
     while True:
-        # a step, and its proof
+        # compute a step and its proof
         a1, a2 = x1 + _change(c, 0, x1, x2, v1, v2, s, k), x2 + _change(c, 1, x1, x2, v1, v2, s, k)
         b1, b2 = v1 + _change(c, 2, x1, x2, v1, v2, s, k), v2 + _change(c, 3, x1, x2, v1, v2, s, k)
         later = passed + step
@@ -71,7 +75,7 @@ def advance_lanes(runs, c, work, enough):
         ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
         if count(alive & ~ok) >= enough:
             break
-        # turns of the boxes that may be their largest displacements
+        # store turns of the boxes that may be their largest displacements
         wrong, s_later, k_later = 1.0 - limit, s + fused(k, sa, s * ca), k + fused(k, ca, -s * sa)
         turns1 = ok & may_turn_beyond(most1 - wrong, x1, v1, a1, b1, third)
         turns2 = ok & may_turn_beyond(most2 - wrong, x2, v2, a2, b2, third)
@@ -79,7 +83,7 @@ def advance_lanes(runs, c, work, enough):
             early, late = (x1, x2, v1, v2, s, k), (a1, a2, b1, b2, s_later, k_later)
             keep_turns(runs, c, work, (turns1, turns2), wrong, early, late, step)
             most1, most2 = _records(runs)
-        # the lanes with a proof take the step
+        # take the step in the lanes with a proof
         s, k = where(ok, s_later, s), where(ok, k_later, k)
         x1, x2, v1, v2 = where(ok, a1, x1), where(ok, a2, x2), where(ok, b1, v1), where(ok, b2, v2)
         passed, limit = where(ok, later, passed), where(ok, limit - less, limit)
@@ -96,13 +100,13 @@ def advance_lanes(runs, c, work, enough):
 
 @inlined
 def _records(runs):
-    """Return the largest displacements of both boxes so far, or inf in lanes that are not observed."""
+    """Return the largest displacements of both boxes so far, each inf in lanes that are not observed."""
     watched, largest = load(runs, rows.WATCHED) > 0.0, load_rows(runs, STATISTICS_AT + LARGEST, 2)
     return where(watched, largest[0], math.inf), where(watched, largest[1], math.inf)
 
 
 class Bodies(NamedTuple):
-    """Positions and velocities of boxes (x, v) and balls (y, u)."""
+    """Positions and velocities of both boxes (x, v) and both balls (y, u)."""
 
     x1: Lanes
     x2: Lanes
@@ -115,10 +119,11 @@ class Bodies(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """End of a step in each lane: time from now, and whether a ball meets a wall then.
+    """End of a step in each lane, which may be an impact.
 
-    meets: one does; missed: one should, but its time is not found; first: the ball of module 1 is the one, else that of
-    module 2; walls: the wall ahead of each ball; at_once: the ball is on its wall already.
+    time: duration of the step. meets: a ball meets a wall at the end. missed: a ball should meet a wall in the step,
+    but the time is not found. first: this ball belongs to module 1, else to module 2. walls: the wall ahead of each
+    ball. at_once: the ball is on its wall at the start of the step.
     """
 
     time: Lanes
@@ -130,7 +135,7 @@ class Contact(NamedTuple):
 
 
 class Clock(NamedTuple):
-    """Forcing phase with its tail, full turns, sine and cosine, and the time left until the run stops."""
+    """Forcing phase with its tail, number of full turns, sine and cosine, and time left until the run stops."""
 
     phase: Lanes
     tail: Lanes
@@ -141,7 +146,10 @@ class Clock(NamedTuple):
 
 
 class Impact(NamedTuple):
-    """Wall of an impact, velocities of box and ball after it, and a mask of the lanes where nothing else happens."""
+    """Impact in each lane: wall, velocities of box and ball after the impact.
+
+    plain: the ball leaves the wall without a chatter that must be completed, so that the lane can go on.
+    """
 
     wall: Lanes
     box: Lanes
@@ -151,10 +159,10 @@ class Impact(NamedTuple):
 
 @in_place
 def step_to_event(runs, c, work, integrals):
-    """Advance pending runs over a step, to an impact or to the end of their flight.
+    """Advance runs that wait for a pass over a step, which ends at an impact, at the end of the flight or earlier.
 
-    Returns the number of runs that must leave the lanes. work (2 ORDER + 2, 8): workspace for polynomials; integrals:
-    number of observed integrals.
+    Returns the number of runs that need the event loop or stop. work (2 ORDER + 2, 8): workspace for polynomials.
+    integrals: number of observed integrals.
     """
     pending, leaves = load(runs, rows.OUTCOME) == DONE, load(runs, rows.TRIAL) < 0.0
     x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
@@ -204,7 +212,7 @@ def step_to_event(runs, c, work, integrals):
 
 @inlined
 def _locate(runs, c, work, now, leaves):
-    """Return the Contact at the end of a step: the time at which the first ball meets a wall, or the longest time."""
+    """Return the Contact at the end of a step: when the first ball meets a wall, or after the longest allowed time."""
     x1, x2, v1, v2, y1, y2, u1, u2 = now
     (touch1, touch2), (s, k) = load_rows(runs, rows.TOUCH1, 2), load_rows(runs, rows.SINE, 2)
     due, step = load(runs, rows.DUE), load(c, rows.STEP)
@@ -227,7 +235,10 @@ def _locate(runs, c, work, now, leaves):
 
 @inlined
 def _arrive(runs, work, t, elapsed):
-    """Return the Bodies after a step, and the remainders of the positions of the balls."""
+    """Return the Bodies after a step t, and the rounding remainders of the ball positions.
+
+    elapsed: time since the start of the flight.
+    """
     x1, v1 = evaluate(work, 0, t)
     x2, v2 = evaluate(work, SECOND, t)
     y1, y2, u1, u2 = load_rows(runs, rows.Y1, 4)
@@ -239,7 +250,7 @@ def _arrive(runs, work, t, elapsed):
 
 @inlined
 def _prove(now, then, end, limit, rounding):
-    """Return a mask of the lanes where no ball certainly meets a wall in a step, except at its end."""
+    """Return a mask of the lanes where it is proved that no ball meets a wall in a step, except at its end."""
     t, third = end.time, end.time * (1 / 3)
     meets1, meets2 = end.meets & end.first, end.meets & ~end.first
     w1, w2 = then.x1 - then.y1, then.x2 - then.y2
@@ -252,7 +263,7 @@ def _prove(now, then, end, limit, rounding):
 
 @inlined
 def _advance_clock(runs, c, elapsed):
-    """Return the Clock a time after the start of a flight."""
+    """Return the Clock at the time `elapsed` after the start of a flight."""
     phase, tail, turns = load_rows(runs, rows.PHASE, 3)
     phase, tail = advance_phase(phase, tail, load(c, rows.OMEGA), elapsed)
     full, (less, rest) = phase >= TWO_PI, reduced(phase, tail)
@@ -266,7 +277,10 @@ def _advance_clock(runs, c, elapsed):
 
 @inlined
 def _collide(c, then, end, clock, rounding):
-    """Return the Impact in the lanes where a ball meets a wall; it is plain unless its chatter would end soon."""
+    """Return the Impact for the lanes where a ball meets a wall.
+
+    The impact is not plain if its chatter would end soon, or if its relative velocities may be rounding errors.
+    """
     x1, x2, v1, v2, y1, y2, u1, u2 = then
     kappa, epsilon = load(c, rows.KAPPA), load(c, rows.EPSILON)
     ahead = where(end.first, end.walls[0], end.walls[1])
@@ -292,7 +306,7 @@ def _collide(c, then, end, clock, rounding):
 
 @inlined
 def _begin_flight(runs, c, done, start, clock):
-    """Write the start of the next flight of the lanes in a mask, and the bounds for its first step."""
+    """Write the start of the next flight, and the bounds for its first step, in the lanes of the mask `done`."""
     x1, x2, v1, v2, _, _, u1, u2 = start
     step, across = load(c, rows.STEP), x1 - x2
     energy = fused(x1, x1, load(c, rows.GROUND) * (x2 * x2))
@@ -309,7 +323,7 @@ def _begin_flight(runs, c, done, start, clock):
 
 @inlined
 def _limit(c, size, t, rounding):
-    """Return the limit for Bernstein coefficients over a time, given a bound on the energy of the boxes."""
+    """Return the limit for Bernstein coefficients over a time t; size: bound on the root of twice the boxes' energy."""
     square = t * t
     bend = fused(load(c, rows.BEND), size, load(c, rows.BEND_FORCE))
     return 1.0 - fused(bend, square * square, rounding)
@@ -317,16 +331,16 @@ def _limit(c, size, t, rounding):
 
 @inlined
 def _change(c, k, x1, x2, v1, v2, s, cosine):
-    """Return row k of exp(A h) - 1 times [X1, X2, X1', X2', sin, cos]: the change of one of them in a step."""
+    """Return the change of component k of [X1, X2, X1', X2'] in a step: row k of exp(A h) - 1 times the state."""
     low = _of_boxes(c, rows.LOW_PARTS + 4 * k, x1, x2, v1, v2)
     return _rough_change(c, k, x1, x2, v1, v2, s, cosine, low)
 
 
 @inlined
 def _rough_change(c, k, x1, x2, v1, v2, s, cosine, low=0.0):
-    """Return `_change` without the rounding errors of the constants.
+    """Return `_change` with constants rounded to one float each.
 
-    low: their contribution, if it is needed.
+    low: contribution of the remainders of the constants, which `_change` passes.
     """
     boxes = _of_boxes(c, 6 * k, x1, x2, v1, v2)
     return boxes + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
@@ -334,22 +348,25 @@ def _rough_change(c, k, x1, x2, v1, v2, s, cosine, low=0.0):
 
 @inlined
 def _of_boxes(c, k, x1, x2, v1, v2):
-    """Return the product of four constants, from row k on, with the boxes."""
+    """Return the scalar product of four constants, from row k on, with the state of the boxes."""
     return fused(load(c, k + 1), x2, load(c, k) * x1) + fused(load(c, k + 3), v2, load(c, k + 2) * v1)
 
 
 @inlined
 def _inside(limit, w, rate, later, rate_later, third):
-    """Return True where the middle Bernstein coefficients are within a limit.
+    """Return True in lanes where both middle Bernstein coefficients are at most `limit` in magnitude.
 
-    third: a third of the time.
+    w, rate, later, rate_later: position and its rate at both ends of the step. third: a third of the step.
     """
     return (abs(fused(third, rate, w)) <= limit) & (abs(fused(-third, rate_later, later)) <= limit)
 
 
 @inlined
 def _drifted(y, low, u, time):
-    """Return the position of a ball after a time as a pair of floats, since equal flights round in the same way."""
+    """Return the position of a ball after a time as a pair of floats, a sum and its rounding remainder.
+
+    Without the remainder, the rounding errors of equal flights would add up.
+    """
     way = fused(time, u, low)
     there = y + way
     part = there - y
@@ -358,15 +375,15 @@ def _drifted(y, low, u, time):
 
 @inlined
 def _rounding(c, size, u1, u2):
-    """Return a bound on the rounding of the gaps of a flight."""
+    """Return a bound on the rounding error of x_i - y_i in a flight; size: as for `_limit`."""
     return fused(load(c, rows.ROUNDING), size, load(c, rows.LEAST_ROUNDING)) + ROUNDED * (abs(u1) + abs(u2))
 
 
 @inlined
 def _about(work, first, leaves, wall, y, u, step):
-    """Return the approximate time at which a ball meets a wall: a quadratic and two Newton steps.
+    """Return the approximate time at which a ball meets a wall, from a quadratic equation and two Newton steps.
 
-    leaves: True if the ball is on the wall.
+    first: first row of the polynomial of the box. leaves: True if the ball has just left this wall.
     """
     c0 = where(leaves, 0.0, 1.0 - wall * (load(work, first) - y))
     c1, c2 = -wall * (load(work, first + 1) - u), -wall * load(work, first + 2)
@@ -383,10 +400,10 @@ def _about(work, first, leaves, wall, y, u, step):
 
 @inlined
 def _sharp(work, one, near, speed, t):
-    """Return (the zero of a relative position by two Newton steps from t, True if they converge).
+    """Return the time at which a ball meets its wall, by two Newton steps from t, and True if they converge.
 
-    one: of module 1; near, speed: the first two coefficients of the position. The first step uses fewer terms, since
-    the second corrects it.
+    one: True for module 1, else module 2. near, speed: position relative to the wall, and its rate, at time 0. The
+    first step uses fewer terms of the polynomial, since the second step corrects it.
     """
     t = t - _newton_step(work, one, near, speed, t, rows.TERMS + 2)
     change = _newton_step(work, one, near, speed, t, ORDER)
@@ -396,7 +413,7 @@ def _sharp(work, one, near, speed, t):
 
 @inlined
 def _newton_step(work, one, near, speed, t, order):
-    """Return the Newton step at t, with the terms up to an order."""
+    """Return the Newton step of `_sharp` at t, from the terms of the polynomial up to an order."""
     value, slope = where(one, load(work, order), load(work, SECOND + order)), 0.0 * t
     for m in range(order - 1, 1, -1):
         slope = fused(slope, t, value)
