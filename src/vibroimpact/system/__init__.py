@@ -1,4 +1,4 @@
-"""Parameters, matrices and the impact law, shared by theory and simulation."""
+"""Parameters, matrices and the impact law of the system, shared by theory and simulation."""
 
 from vibroimpact.system.parameters import System
 from vibroimpact.system.physical import PhysicalSystem

@@ -1,4 +1,4 @@
-"""Validate arguments: real numbers, integers and arrays; errors name the argument."""
+"""Validate arguments (real numbers, integers, arrays, instances), with error messages that name the argument."""
 
 import math
 import numbers
@@ -7,16 +7,16 @@ import numpy as np
 
 MOST_SEED = 2**32 - 1
 """Largest seed accepted for random numbers."""
-_LONGEST = 60  # characters of a value in an error message
+_LONGEST = 60  # largest number of characters of a value in an error message
 
 
 def instance(name: str, value, kind: type):
-    """Return the value if it is an instance of a class.
+    """Return the value if it is an instance of the class `kind`.
 
     Raises
     ------
     ValueError
-        If it is not; for a PhysicalSystem in place of a System, the message suggests `dimensionless()`.
+        If the value is no instance; for a PhysicalSystem in place of a System, the message suggests `dimensionless()`.
     """
     if not isinstance(value, kind):
         if kind.__name__ == "System" and hasattr(value, "dimensionless"):
@@ -27,7 +27,7 @@ def instance(name: str, value, kind: type):
 
 
 def real(name: str, value) -> float:
-    """Return a finite real number as a float; reject str and bool.
+    """Return a finite real number as a float; text and truth values are rejected.
 
     Raises
     ------
@@ -46,12 +46,12 @@ def real(name: str, value) -> float:
 
 
 def pair(name: str, values) -> tuple[float, float]:
-    """Return two finite real numbers from a list, a tuple or an array.
+    """Return two finite real numbers from a list, a tuple or an array as floats.
 
     Raises
     ------
     ValueError
-        If the value is not such a pair.
+        If the argument is not a pair of finite real numbers.
     """
     try:
         one, two = values
@@ -61,12 +61,12 @@ def pair(name: str, values) -> tuple[float, float]:
 
 
 def whole(name: str, value, least: int, most: int) -> int:
-    """Return an integer from least to most; accept a float with an integer value.
+    """Return a whole number from `least` to `most` as an int; a float with a whole value is accepted.
 
     Raises
     ------
     ValueError
-        If the value is not an integer, or out of range.
+        If the value is not a whole number, or out of range.
     """
     if not (_is_real(value) and least <= value <= most and int(value) == value):
         raise ValueError(f"{name}: {short_repr(value)} is not a whole number from {least} to {most}")

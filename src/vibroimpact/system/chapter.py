@@ -1,4 +1,4 @@
-"""Parameters of section 10.4: those common to all cases, and the forces of each case."""
+"""Parameters of section 10.4: PARAMETERS are common to all cases, CASES contains the forces of each case."""
 
 PARAMETERS = {
     "epsilon": 0.1,

@@ -1,10 +1,10 @@
-"""Check for optional dependencies."""
+"""Check that optional dependencies are installed."""
 
 from importlib.util import find_spec
 
 
 def need(extra: str, *packages: str) -> None:
-    """Raise an error that names the install command if packages of an extra are missing.
+    """Raise an error with the command to install an extra if one of its packages is missing.
 
     Raises
     ------

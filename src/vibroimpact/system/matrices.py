@@ -1,4 +1,7 @@
-"""Mass, damping and stiffness matrices of the boxes in (10.2), by contact state."""
+"""Compute the mass, damping and stiffness matrices of the boxes in (10.2) for each contact state.
+
+The contact state `stuck` contains, for each module, True while its ball sticks to a wall.
+"""
 
 import numpy as np
 
@@ -21,9 +24,9 @@ def masses(system, stuck=(False, False)) -> np.ndarray:
 
 
 def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
-    """Return K - Omega^2 M + i Omega C, shape (2, 2) complex.
+    """Return the dynamic stiffness K - Omega^2 M + i Omega C of the boxes, shape (2, 2) complex.
 
-    It maps the harmonic response to the forcing amplitude.
+    The matrix maps the complex amplitudes of a harmonic response to the forcing amplitudes.
     """
     omega = system.Omega
     dynamic = stiffness_matrix(system) + 1j * omega * damping_matrix(system)
@@ -34,8 +37,8 @@ def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
 def rate_matrix(system, stuck=(False, False)) -> np.ndarray:
     """Return the rate matrix A of (10.2), shape (6, 6).
 
-    A is that of d/dtau [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]. With the forcing phase as two states, the
-    flow is one matrix exponential for all parameters, also for repeated, defective, undamped and resonant spectra.
+    dz/dtau = A z for z = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]. Since z includes the forcing phase, the
+    flow is exp(A tau) for all parameters, also for undamped or resonant boxes and repeated or defective eigenvalues.
     """
     mass = masses(system, stuck)[:, None]
     omega = system.Omega

@@ -1,4 +1,4 @@
-"""Dimensionless parameters of the two-module system, (10.2) with the scaling (10.4)-(10.6)."""
+"""Dimensionless parameters of the system with two modules, (10.2), with the scaling (10.4)-(10.6)."""
 
 import math
 from dataclasses import dataclass, fields, replace
@@ -9,15 +9,15 @@ from vibroimpact.system.arguments import real
 from vibroimpact.system.matrices import dynamic_stiffness
 
 LARGEST = 1e15
-"""Largest magnitude of a parameter."""
+"""Largest magnitude allowed for a parameter."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class System:
     """Parameters of two coupled vibro-impact modules under forcing f_i sin(Omega tau).
 
-    All parameters are dimensionless. The hatted ones are those of (10.4), (10.5) and (10.6): the physical effect is
-    epsilon times the hatted value.
+    All parameters are dimensionless. The parameters with a hat are scaled as in (10.4)-(10.6): the coefficient in
+    (10.2) is epsilon times the value with the hat.
 
     Parameters
     ----------
@@ -32,9 +32,9 @@ class System:
     gamma12_hat : float
         Damping of the coupling, at least 0.
     sigma20_hat : float
-        Detuning of box 2.
+        Detuning of box 2: its stiffness to ground is 1 + epsilon sigma20_hat, above 0.
     sigma_e_hat : float
-        Detuning of the forcing frequency.
+        Detuning of the forcing frequency: Omega = 1 + epsilon sigma_e_hat, above 0.
     f10_hat, f20_hat : float
         Forcing amplitudes; a negative amplitude means forcing in antiphase.
 
@@ -128,26 +128,26 @@ class System:
 
     @property
     def modules(self) -> tuple[int, ...]:
-        """Numbers of the modules that take part, (1, 2), (1,) or (2,).
+        """Numbers of the active modules: (1, 2), (1,), (2,) or ().
 
-        A module takes part if a force drives it, or drives the module to which it is coupled.
+        A module is active if a force drives it, or drives the other module and both are coupled.
 
-        Analyses leave out a module without force and coupling; `simulate` still integrates it from its initial state.
-        A single machine has (1,), see `PhysicalSystem.single`.
+        Analyses leave out an inactive module; `simulate` still integrates it from its initial state. For a single
+        machine the result is (1,), see `PhysicalSystem.single`.
         """
         forced = [module for module, force in ((1, self.f10_hat), (2, self.f20_hat)) if force != 0]
         coupled = self.alpha12_hat != 0 or self.gamma12_hat != 0
         return (1, 2) if coupled and forced else tuple(forced)
 
     def with_idle_damped(self) -> "System":
-        """Return the system with damping at the box of a module that takes no part.
+        """Return the system with nonzero damping of the box in an inactive module.
 
-        The damping removes the resonance of that box, which stays at rest.
+        This box stays at rest; the damping removes its resonance, so that its equations have a unique solution.
 
         Returns
         -------
         System
-            A new System for a single machine, else this one.
+            A new System if exactly one module is active, else this one.
         """
         if len(self.modules) != 1:
             return self
@@ -183,7 +183,7 @@ class System:
     def _resonates(self) -> bool:
         """Return True if a force drives the undamped boxes at a resonance."""
         stiffness = dynamic_stiffness(self)
-        # Scale of the terms that cancel at a resonance; where both boxes resonate, all terms cancel.
+        # The scale is that of the single terms, which cancel at a resonance (all of them if both boxes resonate).
         springs = 1.0 + self.stiffness2 + 2.0 * self.alpha12
         dampers = self.gamma1 + self.gamma2 + 2.0 * self.gamma12
         rounding = 1e-12 * (springs + self.Omega * (dampers + 2.0 * self.Omega))

@@ -1,4 +1,4 @@
-"""Physical parameters of (10.1), and their scaling to (10.2) and back."""
+"""Physical parameters of (10.1), and their conversion to and from the dimensionless parameters of (10.2)."""
 
 import math
 from dataclasses import dataclass, fields
@@ -30,22 +30,20 @@ class PhysicalSystem:
     kappa : float
         Restitution coefficient.
     base, unbalance : float, default 0.0
-        Excitation of box 1 in place of a constant F10, which is then computed from the frequency: see `single`.
+        Excitation of box 1 by ground motion or by an unbalance, see `single`. F10 is then computed from omega1.
 
     Raises
     ------
     ValueError
-        If a parameter is not a finite number; if a mass, a stiffness to ground, a frequency or L is not above 0; or if
-        a damping or k12 is below 0.
-
         If a parameter is not a finite number; if a mass, a stiffness to ground, a frequency or L is not above 0; if a
         damping, k12, base or unbalance is below 0; or if base and unbalance are both given.
 
     Notes
     -----
     With omega10 = sqrt(k1 / M), the units of the dimensionless quantities are: time 1 / omega10, frequency omega10,
-    displacement L, velocity L omega10, force k1 L, energy k1 L^2. A linear absorber (`Tuning`) has the spring epsilon
-    k1 frequency^2 and the damper 2 epsilon M omega10 frequency damping.
+    displacement L, velocity L omega10, force k1 L, energy k1 L^2. A linear absorber (`Tuning`) with the attributes
+    `frequency` and `damping` has the spring epsilon k1 frequency^2 and the damper 2 epsilon M omega10 frequency
+    damping.
 
     Examples
     --------
@@ -84,7 +82,7 @@ class PhysicalSystem:
         object.__setattr__(self, "F10", float(self.force(self.omega1)))
 
     def force(self, omega):
-        """Return the amplitude of the force on box 1 at a circular frequency, or at an array of these."""
+        """Return the amplitude of the force on box 1 at a circular frequency omega (number or array)."""
         if self.base:
             return self.base * np.hypot(self.k1, self.c1 * omega)
         return self.unbalance * omega**2 if self.unbalance else self.F10
@@ -106,10 +104,10 @@ class PhysicalSystem:
     ) -> "PhysicalSystem":
         """Return the parameters of one machine with a ball in its box.
 
-        The equations have two modules. The second one is a copy of the machine that is neither coupled nor driven, so
-        that it takes no part (`System.modules`): fixed points, orbits, branches, proofs, attractors and exponents are
-        those of module 1. Arrays per module keep their shape, with NaN for module 2. There are 4 multipliers and
-        exponents and 2 slow eigenvalues; a state has zeros for module 2.
+        The equations have two modules. Module 2 is a copy of the machine that is neither coupled nor driven, so that
+        it is inactive (see `System.modules`): fixed points, orbits, branches, proofs, attractors and exponents are
+        those of module 1. Arrays with an entry per module keep their shape, with NaN for module 2. States have zeros
+        for module 2. There are 4 multipliers, 4 exponents and 2 slow eigenvalues.
 
         Parameters
         ----------
@@ -122,22 +120,22 @@ class PhysicalSystem:
         F : float, default 0.0
             Amplitude of a force that does not depend on the frequency [N].
         L : float, default 1.0
-            Half of the play of the ball [m].
+            Clearance, half of the play of the ball [m].
         kappa : float, default 0.65
             Restitution coefficient.
         omega : float, optional
             Circular frequency of the force [rad/s]; the natural frequency by default.
         base : float, default 0.0
-            In place of F: amplitude G of the motion of the ground below spring and damper [m], which gives the force
-            G sqrt(k^2 + c^2 omega^2).
+            Amplitude G of a motion of the ground below spring and damper [m], given in place of F. The force on the
+            box is G sqrt(k^2 + c^2 omega^2).
         unbalance : float, default 0.0
-            In place of F: mass of a rotor times its eccentricity, u [kg m], which gives the force u omega^2 (M includes
-            the rotor).
+            Mass of a rotor times its eccentricity, u [kg m], given in place of F. The force on the box is u omega^2;
+            M includes the rotor.
 
         Returns
         -------
         PhysicalSystem
-            Parameters with a second module that takes no part.
+            Parameters with an inactive second module.
 
         Raises
         ------
@@ -171,16 +169,16 @@ class PhysicalSystem:
 
     @property
     def omega10(self) -> float:
-        """Natural frequency sqrt(k1 / M) of the first box, the unit of frequency in section 10.2."""
+        """Natural circular frequency sqrt(k1 / M) of box 1, the unit of frequency in section 10.2."""
         return math.sqrt(self.k1 / self.M)
 
     def dimensionless(self) -> System:
-        """Return the dimensionless system by the definitions below (10.2) and by (10.4)-(10.6).
+        """Return the dimensionless system, by the definitions that follow (10.2) and by (10.4)-(10.6).
 
         Returns
         -------
         System
-            The System; its time is tau = omega10 t, and its lengths are in units of L.
+            The dimensionless system; its time is tau = omega10 t, and its lengths are in units of L.
 
         Raises
         ------
@@ -208,7 +206,7 @@ class PhysicalSystem:
 
     @classmethod
     def from_dimensionless(cls, system: System, *, M: float, k1: float, L: float) -> "PhysicalSystem":
-        """Return the physical system with box mass M, first stiffness k1 and clearance L.
+        """Return the physical system for a dimensionless system and the scales M, k1 and L.
 
         Parameters
         ----------
@@ -220,7 +218,7 @@ class PhysicalSystem:
         Returns
         -------
         PhysicalSystem
-            The system whose `dimensionless` is the given one, up to rounding.
+            The physical system; its method `dimensionless` returns the given system up to rounding.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Report the progress of long work on standard error, if it is a terminal."""
+"""Show the progress of long computations on standard error, if it is a terminal."""
 
 import sys
 from collections.abc import Iterator, Sequence
@@ -10,7 +10,7 @@ def wants_progress(progress: bool) -> bool:
 
 
 def track(things: Sequence, words: str, progress: bool = True) -> Iterator:
-    """Yield the things, and report how many are done after the words given."""
+    """Yield the things one by one, and show a line with the given words and the number of things done."""
     for number, one in enumerate(things, start=1):
         yield one
         if wants_progress(progress):
@@ -18,5 +18,5 @@ def track(things: Sequence, words: str, progress: bool = True) -> Iterator:
 
 
 def write_line(line: str, last: bool = False) -> None:
-    """Write a line over the previous one."""
+    """Write a line over the previous line; last: end it with a newline."""
     print(f"\r\033[K{line}", end="\n" if last else "", file=sys.stderr, flush=True)

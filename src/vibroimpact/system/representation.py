@@ -1,4 +1,4 @@
-"""Representation of results: one line in a console, a small table in a notebook."""
+"""Display results: one line in a console, a small table in a notebook."""
 
 from collections.abc import Iterable
 from html import escape
@@ -7,10 +7,10 @@ import numpy as np
 
 
 class Representation:
-    """Base class of results; `repr` and the HTML table show the texts of `_shown`."""
+    """Base class of results; its `repr` and its HTML table show the texts returned by `_shown`."""
 
     def _shown(self) -> dict[str, str]:
-        """Return short texts by attribute name."""
+        """Return a short text for each attribute to show, by attribute name."""
         raise NotImplementedError
 
     def __repr__(self) -> str:
@@ -22,7 +22,7 @@ class Representation:
 
 
 class Found(list):
-    """List of results that keeps the columns of its table when it is empty (see `to_frame`)."""
+    """List of results with the column names of its table, which `to_frame` needs if the list is empty."""
 
     def __init__(self, results: Iterable, columns: Iterable[str]):
         super().__init__(results)
@@ -30,7 +30,7 @@ class Found(list):
 
 
 def brief(numbers) -> str:
-    """Return a number or an array (n,) with four digits each."""
+    """Return a number or an array (n,) as text, with four digits per number."""
     if np.ndim(numbers) == 0:
         return f"{numbers:.4g}"
     return f"({', '.join(f'{number:.4g}' for number in numbers)})"

@@ -1,22 +1,23 @@
 """Impact law: Newton's restitution rule with conservation of momentum (section 10.2).
 
-Compiled code and other arithmetic need implementations of their own: `exact.engine.contact.impact` (runs),
+Compiled code and other arithmetic need separate implementations of this law: `exact.engine.contact.impact` (runs),
 `exact.lanes.steps` (ensembles), `integrators.rigid_contact` and `integrators.contact_laws` (other methods),
-`accuracy.reference.trajectory` (intervals) and `report/live/exact.js` (browser). Tests compare them.
+`accuracy.reference.trajectory` (intervals) and `report/live/exact.js` (browser). Tests compare all of them.
 """
 
 
 def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocity: float):
-    """Return the velocities (X', Y') just after an impact, from those just before, (10.2).
+    """Return the velocities (X', Y') just after an impact, from the velocities just before it, (10.2).
 
-    W'+ = -kappa W'- (Newton's rule), and X' + epsilon Y' is conserved. Arguments are floats or arrays.
+    The relative velocity changes from W'- to -kappa W'- (Newton's rule), and X' + epsilon Y' is conserved. The
+    arguments are floats or arrays.
     """
     impulse = (1.0 + kappa) / (1.0 + epsilon) * (box_velocity - ball_velocity)
     return box_velocity - epsilon * impulse, ball_velocity + impulse
 
 
 def energy_lost(epsilon: float, kappa: float, relative_velocity: float):
-    """Return the kinetic energy lost in an impact at relative velocity W'-.
+    """Return the kinetic energy lost in an impact with the relative velocity W'- just before it.
 
     The energy is in units of M L^2 omega_10^2 and never negative.
     """

@@ -1,4 +1,4 @@
-"""Conventions for states [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] and events."""
+"""Define the order of states [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] and the data type of events."""
 
 from collections.abc import Mapping
 
@@ -7,36 +7,36 @@ import numpy as np
 from vibroimpact.system.arguments import reals, short_repr
 
 NAMES = ("X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2")
-"""Names of the components, used for columns of tables; d is d/dtau."""
+"""Names of the components of a state, used as columns of tables; dX1 is d X1 / dtau."""
 
 BOXES = np.array([0, 2, 4, 6])
 """Indices of X1, X2, X1', X2' in the state."""
 BALLS = np.array([1, 3, 5, 7])
 """Indices of Y1, Y2, Y1', Y2' in the state."""
 MODULES = np.array([1, 1, 2, 2, 1, 1, 2, 2])
-"""Modules to which the components of the state belong."""
+"""Module of each component of the state."""
 
 IMPACT, STICK, RELEASE = 0, 1, 2
 KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}
-"""Kinds of events: a ball hits a wall, comes to rest on it, or leaves it."""
+"""Kinds of events: a ball hits a wall, comes to rest on a wall (stick), or leaves it (release)."""
 
 EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"), ("state", "f8", (8,))])
-"""Data type of an event: time, module 1 or 2, wall +1 or -1, kind, state just after it."""
+"""Data type of an event: time, module (1 or 2), wall (+1 or -1), kind (a key of KINDS), state just after the event."""
 
 _COMPONENTS = {name: k for k, name in enumerate(NAMES)} | {f"{name[1:]}'": k for k, name in enumerate(NAMES) if k > 3}
-"""Indices of the components, by NAMES and as X1', Y1', X2', Y2'."""
+"""Index of each component by its label: one of NAMES, or for velocities also X1', Y1', X2', Y2'."""
 
 
 def states_array(name: str, values) -> np.ndarray:
     """Return a new float array of states, with labelled components sorted into the order of NAMES.
 
-    Labelled are mappings, named tuples, structured arrays, and the rows and tables of pandas and similar libraries.
-    They may have further entries, as the tables of `to_frame` do. Unlabelled values are taken by position.
+    Mappings, named tuples, structured arrays, and rows and tables of pandas and similar libraries have labels. They
+    may have further entries, as in the tables of `to_frame`. Values without labels are taken by position.
 
     Raises
     ------
     ValueError
-        If the values are not an array of real numbers, or if their labels are not those of a state, each once.
+        If the values are not an array of real numbers, or if a label of a state is missing or occurs twice.
     """
     return reals(name, _ordered(name, values))
 
@@ -65,7 +65,7 @@ def _ordered(name, values):
 
 
 def _labels(values):
-    """Return the labels of the last axis, or None if entries are taken by position."""
+    """Return the labels of the components, or None if the values are taken by position."""
     if isinstance(values, Mapping):
         return [*values]
     if names := getattr(values, "_fields", None) or getattr(getattr(values, "dtype", None), "names", None):
@@ -80,13 +80,13 @@ def _labels(values):
 
 
 def takes_part(system) -> np.ndarray:
-    """Return True for each component of the state of a module that takes part (`System.modules`), shape (8,).
+    """Return a mask (8,) of the components of the state that belong to an active module (see `System.modules`).
 
-    If no module takes part, both decay freely, and the result is True for all.
+    If no module is active, both modules decay freely, and all entries are True.
     """
     return np.isin(MODULES, system.modules or (1, 2))
 
 
 def idle_at_rest(system, states) -> np.ndarray:
-    """Return states (..., 8) with modules that take no part at rest, whatever their given values."""
+    """Return states (..., 8) with the components of an inactive module set to 0."""
     return np.where(takes_part(system), states, 0.0)

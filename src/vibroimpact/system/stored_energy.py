@@ -1,17 +1,17 @@
-"""Stored energy of (10.2), in units of M L^2 omega_10^2."""
+"""Compute the stored (kinetic and elastic) energy of (10.2), in units of M L^2 omega_10^2."""
 
 from vibroimpact.system.state import BALLS, BOXES
 
 
 def stored(stiffness2, alpha12, epsilon, boxes, balls):
-    """Return the kinetic energy of boxes and balls plus the energy of the springs; numbers or arrays.
+    """Return the kinetic energy of boxes and balls plus the energy of the springs.
 
     Parameters
     ----------
     stiffness2, alpha12, epsilon
         Attributes of the System.
     boxes, balls
-        (X1, X2, X1', X2') and (Y1, Y2, Y1', Y2').
+        (X1, X2, X1', X2') and (Y1, Y2, Y1', Y2'), as numbers or arrays.
     """
     x1, x2, v1, v2 = boxes
     kinetic = v1 * v1 + v2 * v2 + epsilon * (balls[2] * balls[2] + balls[3] * balls[3])
@@ -19,7 +19,7 @@ def stored(stiffness2, alpha12, epsilon, boxes, balls):
 
 
 def stored_energy(system, states):
-    """Return the stored energy of states (..., 8), shape (...)."""
+    """Return the stored energy for states (..., 8), shape (...)."""
     boxes, balls = states[..., BOXES], states[..., BALLS]
     return stored(
         system.stiffness2,

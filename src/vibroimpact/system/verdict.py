@@ -1,12 +1,12 @@
-"""Verdicts on stability: stable, unstable or undecided."""
+"""Verdicts on stability, "stable", "unstable" or "undecided", from numbers with error bounds."""
 
 STABLE, UNSTABLE, UNDECIDED = "stable", "unstable", "undecided"
 
 
 def verdict(margin: float, error: float) -> str:
-    """Return "stable", "unstable" or "undecided" by the sign of the margin.
+    """Return "stable" for a positive margin, "unstable" for a negative one, or "undecided".
 
-    The verdict is "undecided" where the margin is within its error or not a number.
+    The verdict is "undecided" if the margin is not larger in magnitude than its error, or not a number.
 
     Parameters
     ----------
@@ -21,7 +21,7 @@ def verdict(margin: float, error: float) -> str:
 
 
 def all_stable(verdicts) -> str:
-    """Return "stable" if every verdict is, "unstable" if one of them is, else "undecided"."""
+    """Return "stable" if every verdict is "stable", "unstable" if one is "unstable", else "undecided"."""
     found = set(verdicts)
     if UNSTABLE in found:
         return UNSTABLE
