@@ -1,1 +1,1 @@
-"""Analytical approach of the chapter: saw-tooth, slow invariant manifold, slow flow, fixed points."""
+"""Analytical theory of the chapter: saw-tooth, slow invariant manifold, slow flow, fixed points."""

@@ -1,9 +1,9 @@
 """Apply stability criteria to a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
 
-Each returns "stable", "unstable" or "undecided" (the value is within its error bound of the threshold). Both modules
-must be stable; C of a module that takes no part is NaN and is ignored. The verdicts are named fast (Masri's analysis as
-derived in docs/stability.md), slow (the slow flow), theory (both together) and exact (the Floquet multipliers of the
-exact orbit).
+Each criterion gives "stable", "unstable" or "undecided" (the threshold is within the error bound of the value). A
+motion is stable if both modules are; C of an inactive module (see `System.modules`) is NaN and is ignored. The verdicts
+are named fast (Masri's analysis as derived in docs/stability.md), slow (the slow flow), theory (fast and slow together)
+and exact (the Floquet multipliers of the exact orbit).
 """
 
 from typing import NamedTuple
@@ -20,15 +20,15 @@ from vibroimpact.theory.slow_flow import MODULES, equations, linearisation
 FAST, SLOW, THEORY, EXACT = "fast", "slow", "theory", "exact"
 PRINTED = "printed_10_26"
 CRITERIA = (PRINTED, FAST, SLOW, THEORY)
-"""Verdicts of the theory, in the order of tables."""
+"""Names of the verdicts of the theory, in the order of table columns."""
 _STEP = 1e-6
 _ULPS = 16 * np.finfo(float).eps
 
 
 class Stability(NamedTuple):
-    """Verdicts on a motion, "stable", "unstable" or "undecided".
+    """Verdicts of the theory on a motion, each "stable", "unstable" or "undecided".
 
-    fast: impacts at constant B and phi; slow: the slow flow.
+    fast: verdict of Masri's analysis, for impacts at constant B and phi. slow: verdict of the slow flow.
     """
 
     fast: str
@@ -36,7 +36,7 @@ class Stability(NamedTuple):
 
     @property
     def theory(self) -> str:
-        """Verdict of both together."""
+        """Verdict of both analyses together."""
         return all_stable(self)
 
     def __str__(self) -> str:
@@ -44,28 +44,28 @@ class Stability(NamedTuple):
 
 
 def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
-    """Return the verdict of (10.26) as printed.
+    """Return the verdict of (10.26) as printed on a motion with the saw-tooth amplitudes C, shape (2,).
 
-    C of both modules, shape (2,), is known to within `error`.
+    error: bound on the errors of C.
     """
     limit = printed_limit(rho(kappa))
     return all_stable(verdict(c - limit, error + _ULPS * max(1.0, abs(c))) for c in C if not np.isnan(c))
 
 
 def masri_derived(C, kappa: float, error: float = 0.0) -> str:
-    """Return the verdict of Masri's analysis as derived in docs/stability.md.
+    """Return the verdict of Masri's analysis (docs/stability.md) on a motion with amplitudes C, shape (2,).
 
-    C of both modules, shape (2,), is known to within `error`.
+    error: bound on the errors of C.
     """
     return all_stable(masri.stable(c, kappa, error) for c in C if not np.isnan(c))
 
 
 def slow_flow(system, psi, C, error: float = 0.0) -> str:
-    """Return the verdict by the real parts of the slow flow's eigenvalues.
+    """Return the verdict from the real parts of the eigenvalues of the slow flow.
 
-    The phases psi [rad] and the amplitudes C, each (2,), are known to within `error`.
+    psi, C: phases [rad] and saw-tooth amplitudes, each (2,). error: bound on the errors of both.
 
-    The error of each eigenvalue is of first order: rounding and the error of psi and C, through the left and right
+    The errors of the eigenvalues due to rounding and to `error` are estimated to first order, with the left and right
     eigenvectors. At the fold of the manifold, where an eigenvalue is infinite, the verdict is "undecided".
     """
     values, errors = _eigenvalues(system, np.asarray(psi, dtype=float), np.asarray(C, dtype=float), error)
@@ -73,16 +73,16 @@ def slow_flow(system, psi, C, error: float = 0.0) -> str:
 
 
 def of_fixed_point(system, point) -> dict[str, str]:
-    """Return the verdict of each of CRITERIA on a fixed point of the slow flow."""
+    """Return the verdict on a fixed point of the slow flow for each criterion in CRITERIA, by name."""
     return _of(system, point.psi, point.C, fixed_point_error(system, point))
 
 
 def of_orbit(orbit) -> dict[str, str]:
-    """Return the verdict of each of CRITERIA on an exact orbit.
+    """Return the verdict on an exact orbit for each criterion in CRITERIA, by name.
 
-    The orbit's system, impact_phases, C, multipliers and residual are used.
+    The system, impact_phases, C, multipliers and residual of the orbit are used.
 
-    The criteria assume a symmetric motion; an asymmetric one is judged as `slow_variables` describes it.
+    The criteria assume a symmetric motion. An asymmetric orbit is replaced by its values from `slow_variables`.
     """
     psi, C = slow_variables(orbit)
     error = (orbit.residual + _ULPS) / np.min(np.abs(orbit.multipliers - 1))
@@ -92,8 +92,8 @@ def of_orbit(orbit) -> dict[str, str]:
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
     """Return (psi, C) of an exact orbit, each (2,).
 
-    C_i is the amplitude of its saw-tooth; psi_i follows by (10.17). If the flights from the two walls differ, the mean
-    of their impact phases is used.
+    C_i is the saw-tooth amplitude; psi_i follows from the impact phase by (10.17). The impact phase is the mean for
+    both walls, which matters only for an asymmetric orbit.
     """
     around = np.exp(2j * np.pi * orbit.impact_phases)
     phase = impact_phase(orbit.C, rho(orbit.system.kappa))
@@ -101,9 +101,9 @@ def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
 
 
 def fixed_point_error(system, point) -> float:
-    """Estimate the largest error of psi and C of a computed fixed point, from its Newton step and rounding.
+    """Return an estimate of the largest error of psi and C at a computed fixed point.
 
-    The error is infinite at a point where several fixed points coincide.
+    The estimate is the size of a Newton step including rounding, or infinite if several fixed points may coincide.
     """
     if point.multiple:
         return np.inf
@@ -120,7 +120,7 @@ def _of(system, psi, C, error):
 
 
 def _eigenvalues(system, psi, C, error):
-    """Return the eigenvalues of the slow flow and bounds on their errors, each (4,), or (2,) for a single machine."""
+    """Return the eigenvalues of the slow flow and their estimated errors, each (4,), or (2,) for a single machine."""
     J, M = linearisation(system, psi, C)
     values, left, right = eig(J, M, left=True, right=True)
     if not np.isfinite(values).all() or not np.isfinite(error):

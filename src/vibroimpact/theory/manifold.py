@@ -2,10 +2,10 @@
 
 B, C and rho, (10.15), are dimensionless numbers or arrays that broadcast; angles are in radians.
 
-The admissible C, for which the ball stays between the walls, |W_0| <= 1 with (10.10), are derived in docs/stability.md:
-at the time t after the impact with W = +1 and up to the next one, W_0 = cos t + C h(t) with h(t) = 1 - 2 t / pi - cos t
-+ rho sin t, linear in C. So the admissible C form one interval, from 0 to the C at which the ball, on its way to the
-other wall, first grazes the wall that it has left.
+A value of C is admissible if the ball stays between the walls, |W_0| <= 1 with (10.10). At the time t after the impact
+with W = +1 and before the next impact, W_0 = cos t + C h(t) with h(t) = 1 - 2 t / pi - cos t + rho sin t
+(docs/stability.md). W_0 is linear in C, so that the admissible C form one interval. It begins at 0 and ends at the C
+at which the ball, on its way to the other wall, just grazes the wall that it has left.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 def sawtooth(tau0, C, theta):
     """Return Z = (2 C / pi) arcsin cos(tau0 - theta), (10.11); arguments broadcast (dimensionless, radians).
 
-    It is computed as a triangle wave, since arcsin loses half of the digits at the peaks, where the impacts are.
+    Z is computed as a triangle wave, since arcsin loses half of the digits at the peaks, where the impacts are.
     """
     from_peak = np.abs(np.remainder(np.asarray(tau0) - theta + np.pi, 2 * np.pi) - np.pi)
     return C * (1 - 2 * from_peak / np.pi)
@@ -32,12 +32,12 @@ def B_of_C(C, rho):
 
 
 def slope(C, rho):
-    """Return dB/dC along the manifold: negative on the lower arm, 0 at the fold C_min, positive on the upper arm."""
+    """Return dB/dC along the manifold: negative on the lower arm, 0 at the fold, positive on the upper arm."""
     return ((1 + rho**2) * C - 1) / B_of_C(C, rho)
 
 
 def C_of_B(B, rho):
-    """Return the amplitudes C of the saw-tooth on the lower (C <= C_min) and the upper arm of the manifold, (10.15).
+    """Return the saw-tooth amplitudes C on the lower arm (C <= C_min) and on the upper arm of the manifold, (10.15).
 
     Raises
     ------
@@ -48,7 +48,7 @@ def C_of_B(B, rho):
     above = B - B_min(rho)
     if not np.all(above >= 0):
         raise ValueError(f"B: {np.min(B)} is below B_min = {B_min(rho)} for rho = {rho}")
-    # Both differences are factored: exact at the fold, no cancellation on the lower arm near C = 0.
+    # Differences of squares are written as products, to avoid cancellation at the fold and on the lower arm near C = 0.
     root = np.sqrt((1 + rho**2) * above * (B + B_min(rho)))
     return (1 - B) * (1 + B) / (1 + root), (1 + root) / (1 + rho**2)
 
@@ -66,29 +66,29 @@ def C_min(rho):
 def impact_phase(C, rho):
     """Return theta + phi in (-pi, pi], the phase of U at the impact with the wall W = +1.
 
-    There U = 1 - C, (10.12); the phase follows from (10.17).
+    At this impact U = 1 - C, (10.12); the phase follows from (10.17).
     """
     return np.arctan2(1 - C, rho * C)
 
 
 def overshoot(C, rho):
-    """Return the largest |W_0| - 1 over a cycle of (10.10) at a manifold point.
+    """Return the largest |W_0| - 1 over a cycle of (10.10) at a point of the manifold.
 
-    It is 0 where the ball stays between the walls.
+    The result is 0 if the ball stays between the walls.
 
-    W_0 is stationary where B cos(tau_0 + phi) = +-2 C / pi, so the maximum is found without sampling.
+    W_0 is stationary where B cos(tau_0 + phi) = +-2 C / pi, so that the maximum is found without sampling.
     """
     C = np.asarray(C, dtype=float)
     B = B_of_C(C, rho)
     turn = np.arccos(np.clip(2 * C / (np.pi * B), -1, 1))
-    # Time since the impact at W = +1 of the two stationary points of the flight that follows.
+    # Times of the two stationary points of a flight, measured from the impact at W = +1 that begins it.
     since = np.remainder(np.stack([turn, -turn]) - impact_phase(C, rho), 2 * np.pi)
     W = (1 - C) * np.cos(since) + rho * C * np.sin(since) + C * (1 - 2 * since / np.pi)
     return np.max(np.where(since <= np.pi, np.abs(W) - 1, 0), axis=0, initial=0)
 
 
 def grazing_time(kappa: float) -> float:
-    """Return the time t [rad] after an impact at which the ball grazes the same wall again when C = largest_C(kappa).
+    """Return the time t [rad] from an impact until the ball grazes the same wall again, for C = largest_C(kappa).
 
     t / 2 is the only root of p cot p = 1 / (1 + kappa), since p cot p falls from 1 to 0 on (0, pi/2).
 
@@ -99,22 +99,23 @@ def grazing_time(kappa: float) -> float:
     """
     if not 0 < kappa < 1:
         raise ValueError(f"kappa: {kappa} is not between 0 and 1 (both excluded)")
-    # tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3: p is at most sqrt(3 kappa), its unit here, and at most 1.17.
+    # tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3, so that p is at most sqrt(3 kappa), the unit of p in the search.
+    # As kappa is below 1, p is also at most 1.17.
     unit = np.sqrt(3 * kappa)
     return 2 * unit * brentq(lambda x: _tangent_excess(unit * x) - kappa, 0.6, min(1.1, 1.2 / unit), xtol=1e-15)
 
 
 def _tangent_excess(p):
-    """Return tan(p) / p - 1, by its series if the difference would lose digits."""
+    """Return tan(p) / p - 1, by its series for small p, where the difference would lose digits."""
     return p**2 / 3 + 2 * p**4 / 15 + 17 * p**6 / 315 if p < 0.01 else np.tan(p) / p - 1
 
 
 def largest_C(kappa: float) -> float:
     """Return the largest C at which |W_0| <= 1 at all times.
 
-    1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time / 2.
+    C is given by 1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time / 2.
 
-    It grows with kappa from 1 at kappa = 0.
+    C grows with kappa, from 1 at kappa = 0.
 
     Raises
     ------

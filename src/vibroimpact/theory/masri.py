@@ -1,12 +1,12 @@
-"""Masri's perturbation analysis of two impacts per cycle at constant B and phi: multipliers, limits, verdict.
+"""Masri's stability analysis of motions with two impacts per cycle at constant B and phi: multipliers, limits, verdict.
 
-The condition that the chapter prints, (10.26), differs: see `printed_limit`.
+The condition printed in the chapter, (10.26), differs from the result of this analysis: see `printed_limit`.
 
 The derivation is in docs/stability.md. A map takes perturbations of impact time and ball speed from one impact to the
-mirror image of the next; its determinant is kappa^2 and its trace 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C). A
-multiplier leaves the unit circle through +1 at C_min, where the two arms of the manifold merge, and through -1 at pi^2
-/ (pi^2 - 4), where two asymmetric motions branch off the symmetric one. There is no other case, since the determinant
-is below 1.
+mirror image of the next impact. Its determinant is kappa^2 and its trace is 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4
+C). A multiplier leaves the unit circle through +1 at C_min, where the two arms of the manifold merge, or through -1 at
+C = pi^2 / (pi^2 - 4), where two asymmetric motions branch off the symmetric motion. A pair of complex multipliers
+cannot leave the unit circle, since the determinant is below 1.
 """
 
 import numpy as np
@@ -15,16 +15,16 @@ from vibroimpact.system.verdict import verdict
 from vibroimpact.theory.manifold import C_min, rho
 
 ROUNDING = 16 * np.finfo(float).eps
-# Above this C symmetric motions lose stability to asymmetric ones, for every kappa (docs/stability.md).
+# At this C asymmetric motions branch off the symmetric motion, which is unstable above it (docs/stability.md).
 SYMMETRY_BREAKING_C = np.pi**2 / (np.pi**2 - 4)
 
 
 def impact_multipliers(C, kappa) -> np.ndarray:
     """Return the multipliers, shape (2,), of the map from one impact to the next at constant B and phi.
 
-    The map applies to perturbations of impact time and ball speed, mirrored from impact to impact. It is stable if both
-    moduli are below 1, that is for C_min < C < SYMMETRY_BREAKING_C. Their product is kappa^2, their sum
-    2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C).
+    The map takes perturbations of impact time and ball speed from an impact to the mirror image of the next impact. The
+    motion is stable if both moduli are below 1, that is for C_min < C < SYMMETRY_BREAKING_C. The product of the
+    multipliers is kappa^2, and their sum is 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C).
 
     Raises
     ------
@@ -43,8 +43,8 @@ def impact_multipliers(C, kappa) -> np.ndarray:
 def multipliers(C: float, kappa: float) -> np.ndarray:
     """Return the multipliers, shape (2,), of perturbations over one cycle (two impacts) at constant B and phi.
 
-    They are the squares of `impact_multipliers`, since a cycle is twice half a cycle with mirroring. Their product is
-    kappa^4.
+    They are the squares of `impact_multipliers`, since the map over a cycle applies the map between impacts twice.
+    Their product is kappa^4.
 
     Raises
     ------
@@ -55,20 +55,20 @@ def multipliers(C: float, kappa: float) -> np.ndarray:
 
 
 def lower_limit(kappa):
-    """Return the C below which a multiplier is above +1: the fold C_min of the manifold, (10.25)."""
+    """Return the value of C below which a multiplier is above +1: C_min at the fold of the manifold, (10.25)."""
     return C_min(rho(kappa))
 
 
 def upper_limit(kappa):
-    """Return the C above which a multiplier of the mirrored map is below -1.
+    """Return the value of C above which a multiplier from `impact_multipliers` is below -1.
 
-    It is pi^2 / (pi^2 - 4) for every kappa, in the shape of kappa.
+    The value is pi^2 / (pi^2 - 4) for every kappa; the result has the shape of kappa.
     """
     return np.full(np.shape(kappa), SYMMETRY_BREAKING_C)[()]
 
 
 def stable(C: float, kappa: float, error: float = 0.0) -> str:
-    """Return the verdict "stable", "unstable" or "undecided": stable if C is between both limits.
+    """Return "stable" if C is between both limits, "unstable" if it is outside, or "undecided".
 
     Parameters
     ----------
@@ -77,23 +77,23 @@ def stable(C: float, kappa: float, error: float = 0.0) -> str:
     kappa : float
         Restitution coefficient.
     error : float, default 0.0
-        Bound on the error of C; rounding is added to it.
+        Bound on the error of C, to which rounding is added. Within this error of a limit, the verdict is "undecided".
     """
     margin = min(C - lower_limit(kappa), upper_limit(kappa) - C)
     return verdict(margin, error + ROUNDING * max(1.0, abs(C)))
 
 
 def printed_limit(rho):
-    """Return the C above which a module's motion is stable according to (10.26), as printed.
+    """Return the value of C above which the motion of a module is stable according to (10.26) as printed.
 
-    It is 4 / (4 + pi rho), in the shape of rho.
+    The value is 4 / (4 + pi rho), in the shape of rho.
     """
     return 4 / (4 + np.pi * rho)
 
 
 def limit_with_squares(rho):
-    """Return the limit of (10.26) if its squares were lost in print.
+    """Return the limit of C according to (10.26) with two squares that may have been lost in print.
 
-    It is 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2)).
+    The value is 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2)), in the shape of rho.
     """
     return 4 / (4 + (np.pi * rho) ** 2)

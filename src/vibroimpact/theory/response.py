@@ -1,4 +1,4 @@
-"""Leading-order steady-state response of a fixed point, (10.9)-(10.10), and its power balance.
+"""Compute the leading-order steady-state response at a fixed point, (10.9)-(10.10), and its power balance.
 
 The power balance is derived in docs/derivation.md, section 6.
 """
@@ -13,14 +13,14 @@ from vibroimpact.theory.slow_flow import FIRST_HARMONIC
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """Coordinates of both modules over time, each shape (n, 2), dimensionless.
+    """Coordinates of both modules at n times, each (n, 2), dimensionless.
 
     Attributes
     ----------
     U, X : ndarray
-        Coordinate U_i = X_i + epsilon Y_i, and displacement of the boxes.
+        Coordinates U_i = X_i + epsilon Y_i, and displacements X_i of the boxes.
     W, Y : ndarray
-        Relative displacement W_i = X_i - Y_i, and displacement of the balls.
+        Relative displacements W_i = X_i - Y_i, and displacements Y_i of the balls.
     """
 
     U: np.ndarray
@@ -30,14 +30,14 @@ class Response:
 
 
 def leading_order(system, point, tau) -> Response:
-    """Return U_i0 and W_i0 of (10.9), (10.10) at a fixed point, and the corresponding X_i, Y_i.
+    """Return U_i0 and W_i0 of (10.9), (10.10) at a fixed point, and the corresponding X_i and Y_i.
 
-    All coordinates of a module that takes no part are 0.
+    All coordinates of an inactive module are 0.
 
     Parameters
     ----------
     point
-        A fixed point (its C, B, psi are used).
+        A fixed point, of which C, B and psi are used.
     tau
         Times, shape (n,), dimensionless; the forcing is f_i sin(Omega tau).
     """
@@ -54,12 +54,12 @@ def impact_times(system, point) -> np.ndarray:
 
     Each ball meets the wall W = -1 half a period later.
 
-    The time is NaN for a module that takes no part.
+    The time is NaN for an inactive module.
 
     Parameters
     ----------
     point
-        A fixed point (its C and psi are used).
+        A fixed point, of which C and psi are used.
     """
     phase = impact_phase(point.C, rho(system.kappa)) + point.psi
     return np.remainder(phase, 2 * np.pi) / system.Omega
@@ -67,13 +67,14 @@ def impact_times(system, point) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class MeanPower:
-    """Mean power balance over a cycle, per unit of tau and in units of M L^2 omega_10^2.
+    """Mean powers over a cycle, per unit of tau and in units of M L^2 omega_10^2.
 
-    Relative errors are of the order epsilon. The names are those of `Run.energy`, whose values are these times the
-    period.
+    Relative errors are of the order epsilon. `Run.energy` has the same names for energies over a cycle, which are these
+    powers times the period.
 
-    work: (2,), of the forces. ground: (2,), of the dampers to ground. coupling: of the damper between the boxes.
-    impacts: (2,). At a fixed point work = ground + coupling + impacts, all summed.
+    work (2,): power of the forces. ground (2,): dissipation of the dampers to ground. coupling: dissipation of the
+    damper between the boxes. impacts (2,): dissipation of the impacts. At a fixed point the sum of `work` is the sum of
+    all dissipation.
     """
 
     work: np.ndarray
@@ -83,22 +84,22 @@ class MeanPower:
 
     @property
     def impact_share(self) -> float:
-        """Share of the power of both forces that impacts dissipate."""
+        """Share of the total power of the forces that is dissipated by impacts."""
         return float(self.impacts.sum() / self.work.sum())
 
 
 def mean_power(system, point) -> MeanPower:
     """Return the power balance at a fixed point of (10.23).
 
-    It is the imaginary part of the complex balance times conj(b_i).
+    The powers are imaginary parts of the terms in the complex balance, each multiplied by conj(b_i).
 
-    A module that takes no part has no power.
+    The powers of an inactive module are 0.
 
     Parameters
     ----------
     point
         A FixedPoint of the system, or another object with the slow variables B, psi, C (2,) of a motion on the
-        manifold; power that is not dissipated is stored.
+        manifold. In a motion that is not steady, the power that is not dissipated is stored.
     """
     half = system.epsilon / 2
     B, psi, C = (np.where(np.isin([1, 2], system.modules), of, 0.0) for of in (point.B, point.psi, point.C))

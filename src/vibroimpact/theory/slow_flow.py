@@ -1,4 +1,4 @@
-"""Slow flow on the manifold, (10.22), and its linearisation, as derived in docs/derivation.md."""
+"""Compute the slow flow on the manifold, (10.22), and its linearisation, as derived in docs/derivation.md."""
 
 import numpy as np
 from scipy.linalg import eigvals
@@ -8,15 +8,15 @@ from vibroimpact.theory.manifold import B_of_C, rho, slope
 # Amplitude of the first harmonic of the saw-tooth with C = 1, (10.19).
 FIRST_HARMONIC = 8 / np.pi**2
 MODULES = np.array([1, 1, 2, 2])
-"""Modules of the slow variables (C_1, psi_1, C_2, psi_2) and of the equations of their rates."""
+"""Module of each slow variable (C_1, psi_1, C_2, psi_2), and of the equation for its rate."""
 _ONE = np.eye(2)
 
 
 def impedances(system) -> tuple[np.ndarray, complex]:
-    """Return the slow impedances (e_1, e_2), shape (2,), of the uncoupled boxes without balls, and K.
+    """Return the slow impedances: (e_1, e_2) of the boxes without coupling and balls, and K of the coupling.
 
-    K is the impedance of the coupling. With b_i = B_i exp(-i psi_i) the slow flow is 2i D_1 b_i = f_i - (e_i + N(C_i))
-    b_i - K (b_i - b_j), where N is the describing function of the ball.
+    With b_i = B_i exp(-i psi_i) the slow flow is 2i D_1 b_i = f_i - (e_i + N(C_i)) b_i - K (b_i - b_j), where N is the
+    describing function of the ball.
     """
     detuning = np.array([0, system.sigma20_hat]) - 2 * system.sigma_e_hat
     damping = np.array([system.gamma1_hat, system.gamma2_hat])
@@ -24,7 +24,7 @@ def impedances(system) -> tuple[np.ndarray, complex]:
 
 
 def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return (D_1 B_i, D_1 psi_i), each shape (2,), by (10.22); both vanish at a fixed point, (10.23).
+    """Return the rates D_1 B_i and D_1 psi_i, each (2,), by (10.22); both vanish at a fixed point, (10.23).
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
 def rates_from_phasors(system, B, cosine, sine, C):
     """Return `rates` as rational functions of B, cos psi, sin psi and C, each shape (2,).
 
-    This form is suitable for computer algebra.
+    This form, without trigonometric functions, is suitable for computer algebra.
     """
     forcing = np.array([system.f10_hat, system.f20_hat])
     damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat
@@ -55,9 +55,9 @@ def rates_from_phasors(system, B, cosine, sine, C):
 
 
 def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return D_1 of (B_1, psi_1, B_2, psi_2) on the manifold, (4,), and its derivative (4, 4).
+    """Return the rates D_1 (B_1, psi_1, B_2, psi_2) on the manifold, (4,), and their derivatives (4, 4).
 
-    The derivative is with respect to (C_1, psi_1, C_2, psi_2).
+    The derivatives are taken with respect to (C_1, psi_1, C_2, psi_2).
 
     For a single machine the shapes are (2,) and (2, 2).
 
@@ -72,16 +72,16 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return matrices (J, M), each (..., 4, 4): M d/dtau_1 = J for perturbations of (C_1, psi_1, C_2, psi_2).
+    """Return J and M, each (..., 4, 4): perturbations x of (C_1, psi_1, C_2, psi_2) satisfy M dx/dtau_1 = J x.
 
-    Both stay finite at the fold C_min, where M (the slope of the manifold) is singular because C cannot
-    follow B; the usual Jacobian in (B, psi) is infinite there. For a single machine both are (..., 2, 2).
+    J and M stay finite at the fold C_min, where the usual Jacobian in (B, psi) is infinite. There M, which contains the
+    slope dB/dC of the manifold, is singular. For a single machine both are (..., 2, 2).
 
     Parameters
     ----------
     psi, C
-        Phases [rad] and saw-tooth amplitudes on the manifold, each shape (..., 2); of a single machine those of the
-        other module have no effect.
+        Phases [rad] and saw-tooth amplitudes on the manifold, each shape (..., 2). Entries of an inactive module have
+        no effect.
     """
     r = rho(system.kappa)
     psi, C = (np.where(_taking_part(system)[::2], of, 0.0) for of in (psi, C))
@@ -92,9 +92,9 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
-    """Return `linearisation` for modules on any curve B(x), N(x) B(x) of a parameter x.
+    """Return J and M of `linearisation` for modules on any curve with B and N B given as functions of a parameter x.
 
-    The perturbations are those of (x_i, psi_i).
+    J and M apply to perturbations of (x_1, psi_1, x_2, psi_2).
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
     B, ball
         Amplitudes B_i and complex N_i B_i, each shape (..., 2).
     B_x, ball_x
-        Their derivatives by x_i.
+        Derivatives of B_i and of N_i B_i by x_i, each shape (..., 2).
     """
     e, K = impedances(system)
     forcing = np.array([system.f10_hat, system.f20_hat])
@@ -127,18 +127,18 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _taking_part(system):
-    """Return the rows (4,) of the modules that take part.
+    """Return a mask (4,) of the slow variables that belong to an active module (see `System.modules`).
 
-    For a system at rest these are all rows, since motions die out.
+    If no module is active, the mask includes both modules, whose motions die out.
     """
     part = system.modules or (1, 2)
     return np.array([module in part for module in MODULES])
 
 
 def jacobian(system, psi, C) -> np.ndarray:
-    """Return the Jacobian (4, 4) of (10.22) in (B_1, psi_1, B_2, psi_2).
+    """Return the Jacobian (4, 4) of the rates (10.22) with respect to (B_1, psi_1, B_2, psi_2).
 
-    C follows B on its arm of the manifold.
+    C depends on B along the arm of the manifold.
 
     Parameters
     ----------
@@ -158,9 +158,9 @@ def jacobian(system, psi, C) -> np.ndarray:
 
 
 def slow_eigenvalues(system, psi, C) -> np.ndarray:
-    """Return the complex eigenvalues, per unit of tau_1, by descending real part; infinite at the fold.
+    """Return the complex eigenvalues of the slow flow, per unit of tau_1, by descending real part.
 
-    There are two for each module that takes part.
+    There are two eigenvalues for each active module. At the fold of the manifold an eigenvalue is infinite.
 
     Parameters
     ----------
@@ -171,5 +171,5 @@ def slow_eigenvalues(system, psi, C) -> np.ndarray:
 
 
 def descending(values) -> np.ndarray:
-    """Return the eigenvalues by descending real part."""
+    """Return the values (n,) sorted by descending real part."""
     return values[np.argsort(-values.real, kind="stable")]

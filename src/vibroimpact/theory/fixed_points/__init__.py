@@ -1,1 +1,1 @@
-"""Find all fixed points of the slow flow: search, balance of harmonics, and its real zeros."""
+"""Find all fixed points of the slow flow: polynomials from the balance of harmonics, and their real zeros."""

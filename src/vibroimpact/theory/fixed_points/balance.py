@@ -1,8 +1,8 @@
-"""Fixed-point conditions (10.23) as polynomials in C_1 and C_2: the roots of (10.24) without its poles.
+"""Fixed-point conditions (10.23) as polynomials in C_1 and C_2, which have the roots of (10.24) but no poles.
 
 On the manifold b_i = B_i exp(-i psi_i) = z_i u_i with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. With this (10.23) is
 linear in the phasors u_i, and its coefficients are linear in C_i (docs/derivation.md, section 5):
-    q_i u_i + K (z_i u_i - z_j u_j) = f_i,    q_i = e_i z_i + mu C_i.
+    q_i u_i + K (z_i u_i - z_j u_j) = f_i,    q_i = e_i z_i + mu C_i,    mu = 8 / pi^2.
 This module also computes the singular points of (10.24) (docs/derivation.md, section 8).
 """
 
@@ -18,9 +18,10 @@ _ROUNDING = 100 * np.finfo(float).eps
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """Linear functions of C_i in the balance, constant first.
+    """Coefficients of the balance in the module docstring.
 
-    z: shape (2,). q: shape (2, 2). K: coupling. forcing: (2,).
+    z (2,): coefficients of z_i = z[0] + z[1] C_i, the same for both modules. q (2, 2): coefficients of q_i = q[i, 0] +
+    q[i, 1] C_i. K: impedance of the coupling. forcing (2,): f_1 and f_2.
     """
 
     z: np.ndarray
@@ -30,14 +31,14 @@ class Balance:
 
     @classmethod
     def of(cls, system) -> "Balance":
-        """Return the balance of a system."""
+        """Return the Balance of a system."""
         e, K = impedances(system)
         z = np.array([1, -1 - 1j * rho(system.kappa)])
         q = np.outer(e, z) + np.array([0, FIRST_HARMONIC])
         return cls(z=z, q=q, K=K, forcing=np.array([system.f10_hat, system.f20_hat]))
 
     def at(self, C) -> tuple[np.ndarray, np.ndarray]:
-        """Return z_i and q_i, each shape (2,), at C."""
+        """Return z_i and q_i, each shape (2,), at the amplitudes C (2,)."""
         C = np.asarray(C, dtype=float)
         return self.z[0] + self.z[1] * C, self.q[:, 0] + self.q[:, 1] * C
 
@@ -48,16 +49,16 @@ class Balance:
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
 
     def phases(self, C) -> np.ndarray:
-        """Return psi (2,) at a common zero C of the polynomials."""
+        """Return the phases psi (2,) at a common zero C (2,) of the polynomials."""
         numerators, denominator = self.solve(C)
         return -np.angle(self.at(C)[0] * numerators / denominator)
 
     def of_module(self, i) -> tuple[np.ndarray, np.ndarray, bool]:
-        """Return C (n,) and psi (n,) at which module i alone is balanced, and True if two are one to rounding.
+        """Return C (n,) and psi (n,) of the fixed points of the uncoupled module i (0 or 1), and a flag.
 
-        i is 0 or 1; the module is uncoupled.
+        The flag is True if two fixed points coincide within rounding; they are then returned as one.
 
-        |q_i|^2 = f_i^2 is quadratic in C_i: the line q_i in the complex plane meets a circle.
+        |q_i|^2 = f_i^2 is quadratic in C_i: the line of all q_i in the complex plane intersects the circle |q| = |f_i|.
         """
         (q0, q1), f = self.q[i], self.forcing[i]
         along = q0 * q1.conjugate() / abs(q1)
@@ -70,10 +71,11 @@ class Balance:
         return C, -np.angle((self.z[0] + self.z[1] * C) * f / (q0 + q1 * C)), bool(multiple)
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return two polynomials equivalent to (10.24), and the same with moduli, each (2, 3, 3).
+        """Return two polynomials equivalent to (10.24), and the sums of moduli in their coefficients, each (2, 3, 3).
 
-        The polynomials are |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2, that is |u_1| = |u_2| = 1 without denominators,
-        where u_i = n_i / Delta. n_1 depends on C_2 alone and n_2 on C_1 alone. Entry [:, j, k] belongs to C_1^j C_2^k.
+        The polynomials are |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2. They vanish where |u_1| = |u_2| = 1, since u_i =
+        n_i / Delta. n_1 depends on C_2 alone and n_2 on C_1 alone. Entry [:, j, k] is the coefficient of C_1^j C_2^k.
+        The sums are computed like the coefficients, but with the modulus of every term; rounding is relative to them.
         """
         parts = self.z, self.q, self.K, self.forcing
         delta, one, two = map(_modulus_squared, _solution(*parts))
@@ -82,16 +84,16 @@ class Balance:
 
 
 def _solution(z, q, K, forcing):
-    """Return the coefficients of Delta, n_1 and n_2 in C_1 (first axis) and C_2 (second axis)."""
+    """Return the polynomials Delta, n_1 and n_2 as coefficients of powers of C_1 (first axis) and C_2 (second axis)."""
     delta = np.outer(q[0], q[1]) + K * (np.outer(z, q[1]) + np.outer(q[0], z))
     total = forcing.sum() * K * z
     return delta, (forcing[0] * q[1] + total)[None, :], (forcing[1] * q[0] + total)[:, None]
 
 
 def _modulus_squared(polynomial):
-    """Return the coefficients (3, 3) of |polynomial|^2.
+    """Return the coefficients (3, 3) of |polynomial|^2 for a polynomial of degree 0 or 1 in each variable.
 
-    The polynomial has at most degree 1 in each variable.
+    The variables are real.
     """
     square = np.zeros((3, 3))
     for (j, k), value in np.ndenumerate(polynomial):
@@ -100,12 +102,12 @@ def _modulus_squared(polynomial):
 
 
 def determinant(system, C) -> float:
-    """Return Im(p_1 p_2 conj(z_1 z_2 K^2)), the common denominator of h_1 and h_2 in (10.24).
+    """Return the common denominator of h_1 and h_2 in (10.24), Im(p_1 p_2 conj(z_1 z_2 K^2)) with p_i = q_i + K z_i.
 
-    The factor 4 and factors free of f are left out. sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two equations
-    linear in cos and sin of psi_2 - psi_1; four times this value is their determinant. It vanishes for all C only if
-    the modules are uncoupled: as a quadratic in C_1 it vanishes identically only with p_2 = 0, which a dissipative ball
-    excludes.
+    Its factor 4 and factors without f are left out. The equation sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two
+    equations linear in cosine and sine of psi_2 - psi_1; their determinant is four times the returned value. It
+    vanishes for all C only if the modules are uncoupled: as a quadratic in C_1 it vanishes identically only for p_2 =
+    0, which is impossible since the ball dissipates energy.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)
@@ -113,20 +115,20 @@ def determinant(system, C) -> float:
 
 
 def singular_points(system, point, module) -> np.ndarray:
-    """Return the isolated points S of one module's manifold where h_1 and h_2 of (10.24) are singular.
+    """Return the isolated points S on the manifold of one module at which h_1 and h_2 of (10.24) are singular.
 
     Parameters
     ----------
     point
-        The fixed point at which the other module is held constant.
+        Fixed point from which the other module takes its constant C.
     module
-        1 or 2, the module of the plane.
+        The module on whose manifold the points lie, 1 or 2.
 
     Returns
     -------
     ndarray
-        (C, B) of each point with C >= 0, shape (n, 2), ascending in C; n is 0, 1 or 2. For uncoupled modules the
-        whole manifold is singular, so that no point is isolated.
+        (C, B) of each point with C >= 0, shape (n, 2), ascending in C; n is 0, 1 or 2. For uncoupled modules n is 0,
+        since the whole manifold is singular and no point is isolated.
 
     Raises
     ------
@@ -147,13 +149,13 @@ def singular_points(system, point, module) -> np.ndarray:
 
 
 def _real_roots(coefficients):
-    """Return the real roots of c + b x + a x^2; a pair equal within rounding counts as one."""
+    """Return the real roots of c + b x + a x^2 for coefficients (c, b, a); two roots within rounding count as one."""
     c, b, a = coefficients
     discriminant = b * b - 4 * a * c
     if abs(discriminant) <= 8 * np.finfo(float).eps * (b * b + abs(4 * a * c)):
         discriminant = 0.0
     if discriminant < 0:
         return np.empty(0)
-    # The larger of b +- root keeps its digits; the other root follows from the product c / a.
+    # Of b +- root, the value of larger magnitude is free of cancellation; the product c / a gives the second root.
     q = -(b + np.copysign(np.sqrt(discriminant), b)) / 2
     return np.array([top / bottom for top, bottom in ((q, a), (c, q)) if bottom != 0])

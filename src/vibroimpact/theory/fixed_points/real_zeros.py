@@ -1,42 +1,42 @@
-"""Find all real common zeros, in a square, of two polynomials of degree 2 in each of two variables.
+"""Find all real common zeros, in a square, of two polynomials of degree 2 in each of the variables x and y.
 
-The resultant eliminates y and has degree 8 in x. Its roots are starts for Newton's method in both variables, so that
-digits lost in forming it do not matter. Zeros that are equal within rounding are returned as one, marked multiple.
-(Resultants: Cox, Little and O'Shea 2015, Ideals, Varieties, and Algorithms, section 3.6.)
+The resultant eliminates y and has degree 8 in x. Its roots are only starts for Newton's method in both variables, so
+that rounding errors in the resultant do not matter. Zeros that are equal within rounding are returned as one zero,
+marked as multiple. (Resultants: Cox, Little and O'Shea 2015, Ideals, Varieties, and Algorithms, section 3.6.)
 """
 
 import numpy as np
 from numpy.polynomial import polynomial as poly
 
 _ROUNDING = 100 * np.finfo(float).eps
-"""Bound on the rounding of a value, relative to the sum of the moduli of its terms (about 20 operations)."""
+"""Bound on the rounding error of a polynomial, relative to the sum of the moduli of its terms (about 20 operations)."""
 _RESOLUTION = 1e-8
 _BOXES = _RESOLUTION, 1e-6, 1e-4
-"""Half-widths, relative to max(1, |zero|), of boxes in which to test if Newton's method contracts about a simple
-zero."""
+"""Half-widths of the boxes in which Newton's method is tested to contract about a simple zero, relative to max(1,
+|zero|)."""
 _NEARLY_REAL = 1e-2
-"""Largest imaginary part, relative to the modulus, of a root treated as real."""
+"""Largest imaginary part, relative to the modulus, of a root of the resultant that is treated as real."""
 _CLOSE = 0.03
 """Largest value of a polynomial at a start, relative to the sum of the moduli of its terms."""
 _STEPS = 30
 _SAME = 1e-5
-"""Distance, relative to max(1, |zero|), within which multiple zeros count as one."""
+"""Distance within which multiple zeros count as one, relative to max(1, |zero|)."""
 
 
 def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray]:
-    """Return the common zeros in [-radius, radius]^2.
+    """Return the common zeros of two polynomials in [-radius, radius]^2.
 
     Parameters
     ----------
     coefficients
-        Shape (2, 3, 3), of x^j y^k.
+        Coefficients of x^j y^k in each polynomial, shape (2, 3, 3).
     magnitudes
-        Shape (2, 3, 3), the coefficients computed with moduli: the scale of their rounding.
+        Sums of the moduli of the terms that form each coefficient, shape (2, 3, 3); the scale of rounding errors.
 
     Returns
     -------
     tuple[ndarray, ndarray]
-        Zeros, shape (n, 2), in ascending order of x, and flags for multiple zeros, shape (n,), bool.
+        Zeros, shape (n, 2), in ascending order of x; and a mask of the multiple zeros, shape (n,).
 
     Raises
     ------
@@ -59,9 +59,9 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 
 
 def _starts(pair, size):
-    """Return points (n, 2) near all real zeros.
+    """Return starts (n, 2) for Newton's method, at least one near every real zero.
 
-    x is the real part of a root of the resultant; y follows from both polynomials.
+    For each x from a nearly real root of the resultant, y is a root of either polynomial at this x.
 
     Raises
     ------
@@ -80,9 +80,10 @@ def _starts(pair, size):
 
 
 def _resultant(one, other, sign=-1):
-    """Return the coefficients (9,) in x of the resultant in y of two polynomials, rows (3,) in x by the power of y.
+    """Return the coefficients (9,) of the resultant of two polynomials, which eliminates y.
 
-    sign: 1 for the sum of the moduli of all terms, from the moduli of the coefficients.
+    one, other: coefficients (3, 3) with the power of y on the first axis. sign: 1 to get the sums of the moduli of all
+    terms, if the moduli of the coefficients are given.
     """
 
     def minor(j, k):
@@ -92,7 +93,7 @@ def _resultant(one, other, sign=-1):
 
 
 def _roots(coefficients):
-    """Return the real parts of the nearly real roots; for a nearly real pair, both sides of its middle."""
+    """Return the nearly real roots as real numbers: for a nearly real pair a +- b i, return a + b and a - b."""
     nonzero = np.flatnonzero(np.abs(coefficients) > np.finfo(float).tiny)
     roots = poly.polyroots(coefficients[: nonzero[-1] + 1])
     roots = roots[np.abs(roots.imag) <= _NEARLY_REAL * np.abs(roots) + _RESOLUTION]
@@ -100,7 +101,7 @@ def _roots(coefficients):
 
 
 def _quadratic(polynomial, x):
-    """Return the real parts of both roots y of a polynomial at each x, (2 n,)."""
+    """Return both roots y of a polynomial at each x (n,), shape (2 n,); for complex roots, real numbers near them."""
     c, b, a = (poly.polyval(x, column) for column in polynomial.T)
     root = np.sqrt(np.maximum(b * b - 4 * a * c, 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -109,9 +110,9 @@ def _quadratic(polynomial, x):
 
 
 def _newton(pair, size, points):
-    """Return the points to which Newton's method converges from points (n, 2).
+    """Return the zeros to which Newton's method converges from the starts `points` (n, 2), with repetitions.
 
-    Both polynomials vanish there within rounding.
+    It has converged where both polynomials vanish within rounding.
     """
     found = [np.empty((0, 2))]
     for _ in range(_STEPS):
@@ -119,7 +120,7 @@ def _newton(pair, size, points):
         with np.errstate(all="ignore"):
             step = (_adjugate(gradient) @ value[..., None])[..., 0] / np.linalg.det(gradient)[:, None]
         there, later = (np.abs(value) <= noise).all(axis=1), points - np.nan_to_num(step)
-        last = np.abs(step).max(axis=1) < np.sqrt(_ROUNDING)  # the last step of a simple zero reaches the last digits
+        last = np.abs(step).max(axis=1) < np.sqrt(_ROUNDING)  # for a simple zero, one more step gives the last digits
         found.append(np.where(last[:, None], later, points)[there])
         points = later[~there & (np.abs(later) < 2).all(axis=1)]
         if not len(points):
@@ -128,18 +129,21 @@ def _newton(pair, size, points):
 
 
 def _expanded(pair, size, points):
-    """Return values (n, 2) and Jacobians (n, 2, 2) of the pair at points (n, 2), and the rounding of the values."""
+    """Return values (n, 2) and Jacobians (n, 2, 2) of a pair of polynomials at points, and the rounding of the values.
+
+    size: sums of the moduli that form the coefficients, as `magnitudes` of `real_zeros`. points: (n, 2).
+    """
     value, by_x, by_y = (_at(points, one) for one in (pair, *_derivatives(pair)))
     return value, np.stack([by_x, by_y], -1), _ROUNDING * _at(np.abs(points), size)
 
 
 def _at(points, polynomials):
-    """Return the values (n, 2) of two polynomials, (2, 3, 3) or less, at points (n, 2)."""
+    """Return the values (n, 2) of two polynomials with coefficients (2, j, k) at points (n, 2)."""
     return poly.polyval2d(*points.T, polynomials.transpose(1, 2, 0)).T
 
 
 def _derivatives(pair):
-    """Return the coefficients of the derivatives of the pair by x and by y."""
+    """Return the coefficients of the derivatives by x and by y for a pair of polynomials."""
     return poly.polyder(pair, axis=1), poly.polyder(pair, axis=2)
 
 
@@ -149,10 +153,10 @@ def _adjugate(matrix):
 
 
 def _contract(pair, size, points):
-    """Return True (n,) for each point about which Newton's method contracts in one of the boxes: a simple zero.
+    """Return a mask (n,) of the points that are simple zeros: Newton's method contracts in a box about the point.
 
-    By Kantorovich's theorem: the shift of the zero by rounding, and the change of the Newton step over the box by twice
-    its second derivatives, stay within the box.
+    The condition follows Kantorovich's theorem. The shift of the zero due to rounding, plus the change of the Newton
+    step over the box with twice the second derivatives, must be smaller than the half-width of the box.
     """
     _, gradient, noise = _expanded(pair, size, points)
     by_x, by_y = _derivatives(pair)
@@ -166,7 +170,7 @@ def _contract(pair, size, points):
 
 
 def _distinct(points, apart):
-    """Return the first point of each group of points within a distance."""
+    """Return the first point of each group of points that are within a relative distance `apart`."""
     found = []
     for point in points:
         if not any(_near(point, known, apart) for known in found):

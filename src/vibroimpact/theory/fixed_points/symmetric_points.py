@@ -1,9 +1,9 @@
-"""Find all fixed points of the slow flow, the real solutions of (10.16), (10.23).
+"""Find all fixed points of the slow flow, the real solutions of (10.16) and (10.23).
 
-The zeros of the polynomials in C_1, C_2 are refined in amplitudes and phases together, which restores the digits lost
-by squaring. Without dissipation the slow flow is reversible: each fixed point has a partner with the same C and
-mirrored phases, and Delta of the balance vanishes there. Close to this limit, two well separated fixed points have
-amplitudes that are equal within rounding; their phases distinguish them.
+The zeros of the polynomials in C_1 and C_2 are refined by Newton's method for amplitudes and phases together, which
+restores the digits lost by squaring. Without dissipation the slow flow is reversible: each fixed point has a partner
+with the same C and mirrored phases, and Delta of the balance vanishes at both. Close to this limit, two well separated
+fixed points have amplitudes that are equal within rounding; their phases distinguish them.
 """
 
 from dataclasses import dataclass, replace
@@ -23,21 +23,21 @@ from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, equations, slow_eigenvalues
 
 _STEPS = 30
-_SETTLED = 1e-12  # after such a Newton step the state is exact to rounding
+_SETTLED = 1e-12  # after so small a Newton step the fixed point is exact to rounding
 _SAME = 1e-9
-_NEAR = 1e-3  # a fixed point farther from the result of the search belongs to another zero
-_OPEN = 1e-3  # fraction of its perimeter by which a triangle stays open near a zero that is due to rounding
-_REGULAR = 1e5  # condition number up to which Newton's method proves a fixed point to be a simple one
+_NEAR = 1e-3  # if Newton's method moves a zero of the polynomials farther, it has reached another fixed point
+_OPEN = 1e-3  # sides form no triangle if the gap that they leave is a larger fraction of their sum
+_REGULAR = 1e5  # largest condition number of the Jacobian at a fixed point that counts as simple
 _AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
 COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
-"""Columns of a table of fixed points."""
+"""Columns of the table of fixed points."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FixedPoint(Representation):
-    """A periodic response with two impacts per cycle and module, (10.23).
+    """A fixed point of the slow flow, (10.23): a periodic response with two impacts per cycle and module.
 
-    For a single machine (`PhysicalSystem.single`), C, B and psi of the other module, which stays at rest, are NaN.
+    For a single machine (`PhysicalSystem.single`), C, B and psi of the second module, which stays at rest, are NaN.
 
     Attributes
     ----------
@@ -48,13 +48,13 @@ class FixedPoint(Representation):
     psi : ndarray
         Phases [rad] behind the forcing, in (-pi, pi], shape (2,); U_i0 = B_i sin(Omega tau - psi_i).
     slow_eigenvalues : ndarray
-        Eigenvalues of the slow flow, per unit of tau_1, complex, shape (4,), or (2,) for a single machine; infinite at
-        a fold of the manifold.
+        Complex eigenvalues of the slow flow, per unit of tau_1, shape (4,), or (2,) for a single machine. At a fold of
+        the manifold an eigenvalue is infinite.
     multiple : bool
         True if several fixed points may coincide within rounding (a fold or branch point in the parameters). C and psi
-        are then known to about the square root of rounding.
+        are then known only to about the square root of rounding.
     label : str
-        "a", "b", ... as in the figures (see `labels`); "" outside a list of all fixed points with C >= 0.
+        "a", "b", ... as in the figures (see `labels`); "" for a point that does not come from `fixed_points`.
 
     Examples
     --------
@@ -73,12 +73,12 @@ class FixedPoint(Representation):
 
     @property
     def stability(self) -> Stability:
-        """Verdicts of the theory: fast (Masri's analysis), slow (the slow flow), and both together (theory)."""
+        """Verdicts of the theory: fast (Masri's analysis), slow (the slow flow) and theory (both together)."""
         verdicts = of_fixed_point(self.system, self)
         return Stability(verdicts[FAST], verdicts[SLOW])
 
     def row(self) -> dict:
-        """Return the numbers and verdicts by column name of `to_frame`."""
+        """Return the row of `to_frame` for this fixed point, as numbers and verdicts by column name."""
         numbers = np.ravel([self.C, self.B, self.psi]).tolist()
         fast, slow = stability = self.stability
         growth = float(self.slow_eigenvalues.real.max())
@@ -92,9 +92,9 @@ class FixedPoint(Representation):
 
 
 class FixedPointSearch(NamedTuple):
-    """All real solutions.
+    """All fixed points of a system, including inadmissible ones.
 
-    points: those with C_1, C_2 >= 0; outside: those with some C_i < 0. Both ascend in C_1.
+    points: fixed points with C_1, C_2 >= 0. outside: fixed points with some C_i < 0. Both are sorted by C_1.
     """
 
     points: list[FixedPoint]
@@ -112,8 +112,8 @@ def fixed_points(system: System) -> list[FixedPoint]:
     Returns
     -------
     list of FixedPoint
-        Fixed points, ascending in C_1 (for a single machine, in the C of its module); this is not the order of their
-        labels.
+        Fixed points in ascending order of C_1, or of C of the active module for a single machine. The labels have
+        another order.
 
     Raises
     ------
@@ -134,7 +134,7 @@ def search(system: System) -> FixedPointSearch:
     ------
     ValueError
         If system is not a System, or if its undamped slow flow without balls is at a resonance that the forces do not
-        excite. A free motion of any phase may then touch the walls, and fixed points need not be isolated.
+        excite. Free motions of any phase may then touch the walls, so that fixed points need not be isolated.
     """
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
@@ -152,12 +152,12 @@ def search(system: System) -> FixedPointSearch:
 
 
 def search_radius(system) -> float:
-    """Return a bound on sqrt(C_1^2 + C_2^2) at every fixed point.
+    """Return an upper bound on sqrt(C_1^2 + C_2^2) for all fixed points.
 
-    It depends on f and rho alone (docs/derivation.md, section 6).
+    The bound depends only on f and rho (docs/derivation.md, section 6).
 
-    The dissipation of the balls, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed the supply by the forces,
-    |f_1| B_1 + |f_2| B_2, where B_i <= 1 + sqrt(1 + rho^2) |C_i|.
+    The power dissipated by impacts, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed the power of the forces,
+    which is at most |f_1| B_1 + |f_2| B_2, where B_i <= 1 + sqrt(1 + rho^2) |C_i|.
     """
     r = rho(system.kappa)
     f = np.abs([system.f10_hat, system.f20_hat])
@@ -167,13 +167,13 @@ def search_radius(system) -> float:
 
 
 def labels(system, points) -> list[str]:
-    """Return a label (a), (b), (c), ... per fixed point, ordered from the least stable on.
+    """Return the label "a", "b", "c", ... of each fixed point; "a" is the least stable point.
 
-    The chapter gives the labels in its figures only.
+    The chapter gives labels in its figures, but no rule for them.
 
-    Points that are unstable by (10.26) come first; then the order is by descending growth rate of the slow flow
-    (largest real part of its eigenvalues). Of the plausible orders, most sentences of section 10.4 hold under this one,
-    including that on Figs. 10.7 and 10.8; docs/errata.md lists them.
+    Points that are unstable by (10.26) come first. Both groups are sorted by descending growth rate of the slow flow,
+    the largest real part of its eigenvalues. Of the plausible orders, this one agrees with the most sentences of
+    section 10.4, among them the sentence on Figs. 10.7 and 10.8 (list in docs/errata.md).
     """
     limit = printed_limit(rho(system.kappa))
     keys = [(bool(np.nanmin(point.C) > limit), -point.slow_eigenvalues.real.max()) for point in points]
@@ -201,30 +201,31 @@ def _fixed_point(system, C, psi, multiple):
 
 
 def _of_one_module(balance, i):
-    """Return (C, psi, multiple) of every fixed point of module i, 0 or 1, alone; NaN for the other."""
+    """Return (C, psi, multiple) for each fixed point of a single module i (0 or 1); entries of the other are NaN."""
     C, psi, multiple = balance.of_module(i)
     alone = np.where(np.arange(2) == i, 1.0, np.nan)
     return [(alone * one, alone * phase, multiple) for one, phase in zip(C, psi, strict=True)]
 
 
 def _solutions(system, balance, zeros, multiple):
-    """Return (C, psi, multiple) of every fixed point."""
+    """Return (C, psi, multiple) for each fixed point, from the zeros of the polynomials and their flags `multiple`."""
     simple = [(C, balance.phases(C)) for C in zeros[~multiple]]
     simple = [_refined(system, *solution) or solution for solution in simple]
     unresolved = []
     for C in zeros[multiple]:
         pair = _mirrored_pair(system, balance, C)
-        # Two zeros that are equal within rounding can lead to the same pair.
+        # Two zeros that are equal within rounding can lead to the same pair of fixed points.
         simple += [solution for solution in pair if not any(_same(solution, known) for known in simple)]
         unresolved += [(C, balance.phases(C))] if not pair and _may_close(balance, C) else []
     return [(*solution, False) for solution in simple] + [(*solution, True) for solution in unresolved]
 
 
 def _mirrored_pair(system, balance, C):
-    """Return (C, psi) of the two regular fixed points with amplitudes close to C, or an empty list.
+    """Return (C, psi) for the two simple fixed points with amplitudes close to C, or [] if there are not two.
 
-    C: a zero of the polynomials, known at best to the square root of rounding. The starts are both pairs of unit
-    phasors with p_1 u_1 - K z_2 u_2 = f_1, if the sides form a triangle.
+    C: a multiple zero of the polynomials, known at best to the square root of rounding. In the complex plane, p_1 u_1,
+    K z_2 u_2 and f_1 form a triangle, since p_1 u_1 - K z_2 u_2 = f_1. Newton's method starts from the phases of the
+    two triangles with these sides.
     """
     z, q = balance.at(C)
     p, k, f = q[0] + balance.K * z[0], balance.K * z[1], balance.forcing[0]
@@ -239,10 +240,10 @@ def _mirrored_pair(system, balance, C):
 
 
 def _may_close(balance, C):
-    """Return False if no phases balance the forces near C, so that the zero is due to the squaring alone.
+    """Return False if no phases balance the forces near C, so that the zero of the polynomials is spurious.
 
-    Without dissipation Delta, n_1 and n_2 vanish at once at such a place. Phases need f_i = p_i u_i - K z_j u_j, a
-    triangle with the sides |f_i|, |p_i|, |K z_j|, of both modules.
+    Squaring can cause such a zero: without dissipation Delta, n_1 and n_2 can vanish at the same C. Phases exist only
+    if f_i = p_i u_i - K z_j u_j, that is if |f_i|, |p_i| and |K z_j| are the sides of a triangle, for both modules.
     """
     z, q = balance.at(C)
     sides = np.abs([balance.forcing, q + balance.K * z, balance.K * z[::-1]])
@@ -250,7 +251,7 @@ def _may_close(balance, C):
 
 
 def _refined(system, C, psi):
-    """Return (C, psi) after Newton's method in both, or None unless it ends at a regular fixed point near C."""
+    """Refine (C, psi) by Newton's method; return None unless the method converges to a simple fixed point near C."""
     state = np.column_stack([C, psi])
     for _ in range(_STEPS):
         residual, J = equations(system, state[:, 1], state[:, 0])

@@ -1,4 +1,4 @@
-"""Tabulate fixed points, one row per point: label, C1, C2, B1, B2, psi1, psi2, multiple."""
+"""Write fixed points to tables, one row per point (columns COLUMNS), and read them from tables."""
 
 from dataclasses import dataclass
 
@@ -19,9 +19,9 @@ COLUMNS = ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2", "multiple"]
 
 @dataclass(frozen=True, eq=False)
 class LabelledPoint:
-    """A fixed point of the slow flow with its label.
+    """A fixed point of the slow flow with its label, as read from a table.
 
-    C, B and psi [rad] have shape (2,); multiple is as in FixedPoint.
+    C, B and psi [rad] have shape (2,); `multiple` is as in FixedPoint.
     """
 
     label: str
@@ -32,9 +32,9 @@ class LabelledPoint:
 
 
 def fixed_point_table(case: str, system) -> pd.DataFrame:
-    """Return all fixed points of a system, one row each, by label.
+    """Return a table of all fixed points of a system, one row per point, sorted by label.
 
-    The columns are COLUMNS; `case` is the name in the first one.
+    The columns are COLUMNS; the first column contains the name `case`.
     """
     points = fixed_points(system)
     rows = [
@@ -45,7 +45,7 @@ def fixed_point_table(case: str, system) -> pd.DataFrame:
 
 
 def labelled_points(table: pd.DataFrame) -> list[LabelledPoint]:
-    """Return the points of a table in order."""
+    """Return the fixed points in a table, in the order of its rows."""
     return [
         LabelledPoint(
             row["label"],
@@ -57,12 +57,12 @@ def labelled_points(table: pd.DataFrame) -> list[LabelledPoint]:
 
 
 def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
-    """Return the point of a table with a given label.
+    """Return the fixed point with a given label from a table.
 
     Raises
     ------
     ValueError
-        If the table has no such point.
+        If the table has no point with this label.
     """
     points = {point.label: point for point in labelled_points(table)}
     if label not in points:
@@ -73,10 +73,10 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
 
 
 def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
-    """Return the position of each fixed point on the manifold, one row per point and module that takes part.
+    """Return the position of each fixed point on the manifold, one row per point and active module.
 
-    Columns label, module, C, B, arm ("left" or "right" of C_min, (10.25)), branch ("stable" or "unstable", (10.26)),
-    overshoot (distance by which W leaves the walls at leading order, 0 if |W| <= 1).
+    The columns are label, module, C, B, arm ("left" or "right" of C_min, (10.25)), branch ("stable" or "unstable" by
+    (10.26)) and overshoot (largest |W| - 1 at leading order, or 0 if |W| <= 1).
     """
     r = rho(system.kappa)
     rows = [
@@ -97,8 +97,8 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def verdicts(places: pd.DataFrame) -> pd.Series:
-    """Return the chapter's verdict on each fixed point, by label.
+    """Return the verdict of the chapter on each fixed point, by label.
 
-    A point is stable where both projections are on the stable branch.
+    A fixed point is stable if its positions on the manifolds of both modules are on the stable branch.
     """
     return places.groupby("label")["branch"].agg(all_stable).rename("verdict")
