@@ -82,7 +82,7 @@ def of_orbit(orbit) -> dict[str, str]:
 
     The system, impact_phases, C, multipliers and residual of the orbit are used.
 
-    The criteria assume a symmetric motion. An asymmetric orbit is replaced by its values from `slow_variables`.
+    The criteria assume a symmetric motion. An asymmetric orbit is described by psi and C from `slow_variables`.
     """
     psi, C = slow_variables(orbit)
     error = (orbit.residual + _ULPS) / np.min(np.abs(orbit.multipliers - 1))

@@ -141,7 +141,7 @@ def ensemble(
 
 
 def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
-    """Return the final states (n, 8) of one system after some cycles, from initial states (n, 8) at tau = 0.
+    """Return the final states (n, 8) of one system after `cycles` cycles, from initial states (n, 8) at tau = 0.
 
     Raises
     ------

@@ -51,8 +51,8 @@ from 0: exp(A h) - 1 for a step h, four rows of six
 LOW_PARTS: rounding remainders of its columns for the boxes, four rows of four, since every step would repeat this error
 SCALARS_AT: scalars of `flow.numbers_of`, in their order
 CA, SA: cos - 1 and sin of Omega h; STEP: h
-BEND, BEND_FORCE: B / 72 for a bound B on the fourth derivative: factor of the root of twice the energy, and constant
-ROUNDING, LEAST_ROUNDING: bound on rounding errors, factor and constant in the same way
+BEND, BEND_FORCE: a bound on the fourth derivative over 72 is BEND times the root of twice the energy, plus BEND_FORCE
+ROUNDING, LEAST_ROUNDING: a bound on rounding errors, as factor and constant in the same way
 LOSS: energy loss of an impact over its squared relative velocity
 FIRST, FIRST_TAIL: phase at the start of the run, and its remainder
 DRIFTS: drift of each integral

@@ -3,9 +3,9 @@
 In the lanes, statistics are added up flight by flight (`observe`); in the event loop, event by event
 (`accumulate_statistics`).
 
-A turn is a time at which a box reverses. If it may give the largest displacement of the box so far, by the hull of the
-step, the turn is stored, so that no lane has to wait. Stored turns are computed later for all lanes together
-(`find_turns`), unless a larger turn replaces them.
+A turn is a point at which a box reverses. If the hull of a step shows that a turn may be the largest displacement of
+the box so far, the turn is stored, but not yet computed. Stored turns are computed later for all lanes together
+(`find_turns`), so that no lane has to wait, unless a larger turn replaces them.
 """
 
 import math

@@ -83,7 +83,8 @@ class AsymmetricConditions:
     def _linear(self, times):
         """Return the coefficients (n, 6, 2) of I_1, I_2 in the equations, and responses of the boxes to unit impacts.
 
-        The responses are velocities and accelerations before impact m, per unit change of ball velocity at impact k.
+        Entry [:, m, k] of a response is a velocity or acceleration before impact m, per unit change of ball velocity at
+        impact k.
         """
         system = self.system
         x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 import numpy as np
 
 _STEPS = 30
-_SETTLED, _STALLED = 1e-12, 1e-8  # step sizes of convergence: to a simple root; near a double root, after all steps
+_SETTLED, _STALLED = 1e-12, 1e-8  # relative steps that count as converged: in general; in the last step (double roots)
 
 
 def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:

@@ -62,7 +62,7 @@ class Orbit(Representation):
         True if the orbit is a motion of the system: all speeds are positive, so that every ball meets its wall from
         inside, and |W_i| <= 1 at all times.
     residual : float
-        Largest error over one period: of |W_i| = 1 at the impacts and of state(T) = state(0).
+        Largest error over one period in two conditions: |W_i| = 1 at the impacts, and state(T) = state(0).
     proof : OrbitProof, optional
         Proof of the orbit, set by `with_proof`; None otherwise.
 
@@ -160,7 +160,7 @@ class OrbitSearch:
     orbits : list of Orbit
         The orbits. The list of symmetric orbits is complete up to rounding (see `exact.orbits.symmetric`).
     starts : int
-        Number of Newton starts in the search for asymmetric orbits, of which some may be missed.
+        Number of Newton starts in the search for asymmetric orbits, which may miss some of them.
     fewest_hits : int
         Number of starts that led to the asymmetric orbit that was found least often (mirror images count as one), or 0
         if none was found. A small number is a warning that other orbits may have been missed.
@@ -253,9 +253,9 @@ def prove(orbit: Orbit):
 
 
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:
-    """Return the multipliers of the map over half a period, followed by the mirroring state -> -state.
+    """Return the multipliers of a symmetric orbit for half a period followed by the mirroring state -> -state.
 
-    Their squares are the multipliers of the orbit, which must be symmetric.
+    Their squares are the multipliers of the orbit.
 
     They distinguish a fold (multiplier +1) from symmetry breaking (multiplier -1).
 

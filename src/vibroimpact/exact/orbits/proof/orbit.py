@@ -21,8 +21,10 @@ _BITS = 128
 _WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths to try
 _TIGHT = 2.0**-90
 _SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
-"""Tolerances for the distance between listed and proved states and multipliers, relative to values larger than 1. A
-larger distance means that the listed values belong to another orbit. Rounding shifts double multipliers by its root."""
+"""Tolerances for the difference between listed and proved states, and multipliers, relative to values larger than 1.
+
+A larger difference means that the listed values belong to another orbit. The tolerance for multipliers is larger,
+since rounding changes a double multiplier by the square root of the rounding error."""
 _STEPS = 20  # largest number of steps to narrow a box; convergence soon becomes quadratic
 
 
