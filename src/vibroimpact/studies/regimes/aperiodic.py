@@ -1,4 +1,4 @@
-"""Classify motions that do not repeat by Lyapunov exponent, time in resonance, and recurrence."""
+"""Name the regime of a motion that does not repeat, from its Lyapunov exponent, resonance and recurrence."""
 
 import numpy as np
 
@@ -14,11 +14,11 @@ RESOLVED = 0.02
 RECURRENT = 0.1
 """A motion recurs if it returns to its start within this fraction of its extent, in every coordinate."""
 RESONANT = (0.1, 0.9)
-"""Fractions of the time in bursts below which a module is never, and above which it is always, in resonance."""
+"""Shares of time in bursts: below the first a module is never in resonance, above the second it is always."""
 DISCARDED = 1
-"""Number of blocks of the transient."""
+"""Number of blocks left out first, in which the perturbation turns to the direction of largest growth."""
 LONGER = 10
-"""Factor by which the second estimate of an exponent is longer, where the first leaves its sign open."""
+"""Length of the second estimate of an exponent, relative to the first; it is made unless the first is positive."""
 
 POSITIVE, ZERO, OPEN = "positive", "zero", "open"
 NEVER, AT_TIMES, ALWAYS = "never", "at times", "always"
@@ -31,16 +31,16 @@ NAMES = {
     (ZERO, ALWAYS): QUASI_PERIODIC,
     (ZERO, NEVER): QUASI_PERIODIC,
 }
-"""Name by (sign of the largest exponent, resonance); combinations that are not listed are unsettled."""
+"""Regime by (sign of the largest exponent, resonance); any other combination is unsettled."""
 
 
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
-    """Return the name of a motion that does not repeat, from a run over whole cycles and its continuation.
+    """Return the regime of a motion that does not repeat, from a run over whole cycles and its continuation.
 
     Parameters
     ----------
     blocks, block : int
-        Number of blocks of the exponent, and cycles per block.
+        Number of blocks for the estimate of the exponent, and forcing cycles per block.
     """
 
     def of_length(cycles):
@@ -55,9 +55,9 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
 
 
 def sign(exponent: Measured) -> str:
-    """Return POSITIVE or ZERO where the error allows it, else OPEN.
+    """Return the sign of an exponent: POSITIVE, ZERO, or OPEN if the error allows neither.
 
-    OPEN also stands for a periodic motion that is not reached yet.
+    A negative exponent is OPEN too: the motion still approaches a periodic one.
     """
     if exponent.mean > CERTAIN * exponent.error:
         return POSITIVE
@@ -65,9 +65,9 @@ def sign(exponent: Measured) -> str:
 
 
 def resonance(shares) -> str:
-    """Return NEVER, AT_TIMES or ALWAYS, from the part of the time that each module is in resonance, shape (2,).
+    """Return NEVER, AT_TIMES or ALWAYS, from the share of time that each module is in resonance, shape (2,).
 
-    A module that comes and goes decides.
+    The result is AT_TIMES if a module enters and leaves resonance, else ALWAYS if a module stays in resonance.
     """
     low, high = RESONANT
     shares = np.asarray(shares)
@@ -77,13 +77,13 @@ def resonance(shares) -> str:
 
 
 def resonant_shares(run: Run) -> np.ndarray:
-    """Return the part of the time that each module is in bursts of resonance, shape (2,)."""
+    """Return the share of time that each module spends in bursts of resonance, shape (2,)."""
     resonant = np.array([np.diff(bursts_in(run, module)).sum() for module in (1, 2)])
     return resonant / (run.cycles * run.system.period)
 
 
 def recurs(system, state, cycles: int) -> bool:
-    """Return True if a motion comes near its start in the second half of some cycles; a decaying one does not."""
+    """Return True if a motion returns near its start in the second half of `cycles` cycles; decay gives False."""
     states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
     extent = np.ptp(states, axis=0)
     away = np.abs(states[cycles // 2 :] - states[0]) / np.where(extent > 0, extent, 1.0)

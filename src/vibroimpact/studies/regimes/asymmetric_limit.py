@@ -1,7 +1,7 @@
-"""Exact asymmetric orbits followed to small epsilon, and the fixed points of the slow flow that they lead to.
+"""Follow exact asymmetric orbits to small epsilon, and find the fixed points of the slow flow that they approach.
 
-Places are compared in C, in v^2 and in the phase half-way between both impacts, [rad], of each module: unlike v and the
-impact phases themselves these stay smooth in epsilon where a pair is born from a symmetric orbit, v = 0.
+Orbits and fixed points are compared in C, v^2 and the phase half-way between both impacts [rad] of each module. Unlike
+v and the impact phases, these are smooth in epsilon where two orbits emanate from a symmetric one (v = 0).
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from vibroimpact.studies.regimes.epsilon_limit import Comparison, paired
 from vibroimpact.studies.regimes.families import AsymmetricOrbits, flight_fractions
 from vibroimpact.system.matrices import dynamic_stiffness
 
-_BORN = 1e-6  # v^2 below which an orbit is symmetric to Newton's accuracy
+_BORN = 1e-6  # v^2 below which an orbit is symmetric within the accuracy of Newton's method
 _NEAR = 0.01
 _THROUGH = 6
 
@@ -30,14 +30,14 @@ class Station:
 
     @property
     def place(self) -> np.ndarray:
-        """C_1, C_2, v_1^2, v_2^2 and both middle phases [rad], shape (6,)."""
+        """C_1, C_2, v_1^2, v_2^2 and, for both modules, the phase half-way between the impacts [rad], shape (6,)."""
         u = flight_fractions(self.system, self.root)
         middle = self.system.Omega * (self.root[:4:2] + u * self.system.period / 2)
         return np.concatenate([AsymmetricOrbits.amplitudes(self.system, self.root), (1 - 2 * u) ** 2, middle])
 
     @property
     def box_amplitudes(self) -> np.ndarray:
-        """B_1, B_2 of the first harmonic of U_i = X_i + epsilon Y_i, shape (2,): forces and kicks through the boxes."""
+        """Amplitudes B_1, B_2 of the first harmonic of U_i = X_i + epsilon Y_i, shape (2,), from forces and impacts."""
         system, turns = self.system, np.exp(-1j * self.system.Omega * self.root[:4].reshape(2, 2))
         kicks = 2j / system.period * self.root[4:] * (turns[:, 0] - turns[:, 1])
         boxes = np.linalg.solve(dynamic_stiffness(system), system.forcing - system.epsilon * kicks)
@@ -45,11 +45,10 @@ class Station:
 
 
 def follow(system, root, values) -> list[Station]:
-    """Return the orbit of a root (6,) of the asymmetric equations at each epsilon of `values`.
+    """Return the orbits of a branch: that of `root`, then one for each epsilon of `values`.
 
-    The values descend from the epsilon of the system.
-
-    The way ends early where the orbit merges with a symmetric one or Newton's method loses it.
+    `root` (6,) solves the asymmetric equations of the system; `values` descend from the epsilon of the system. The list
+    ends early where the branch meets a symmetric orbit or Newton's method loses it.
     """
     root = np.asarray(root, dtype=float)
     stations = [Station(system, root)]
@@ -62,7 +61,7 @@ def follow(system, root, values) -> list[Station]:
 
 
 def offset(station, point) -> np.ndarray:
-    """Return the orbit minus fixed point, shape (6,), of a single machine (3,)."""
+    """Return `station.place` minus the same quantities of a fixed point, shape (6,), or (3,) for a single machine."""
     difference = station.place - np.concatenate([point.C, point.squared, point.middle + point.psi])
     difference[4:] = np.angle(np.exp(1j * difference[4:]))
     return difference[np.isfinite(difference)]
@@ -71,9 +70,8 @@ def offset(station, point) -> np.ndarray:
 def leads_to(stations, points):
     """Return the fixed point that an orbit approaches at epsilon = 0, or None.
 
-    The last two roots are extrapolated linearly.
-
-    It leads nowhere if the orbit turns round at a fold, or if there are no two stations.
+    The last two stations are extrapolated linearly to epsilon = 0. The result is None if no fixed point is near, as for
+    an orbit that turns back at a fold, or if there are fewer than two stations.
     """
     if len(stations) < 2:
         return None
@@ -84,10 +82,10 @@ def leads_to(stations, points):
 
 
 def onset(stations) -> float:
-    """Return the epsilon at which an orbit whose v^2 falls to 0 is born, else 0.
+    """Return the epsilon at which the orbit emanates from a symmetric one (v^2 = 0), or 0 if it does not.
 
-    Epsilon at v^2 = 0 of the polynomial in v^2 through the last stations, `_THROUGH` of them at most. A line through
-    two has three right digits where stations are a fifth apart.
+    Epsilon is a polynomial in v^2 through the last stations, at most `_THROUGH`, evaluated at v^2 = 0. (A line through
+    two stations has only three correct digits if their epsilons differ by a fifth.)
     """
     last = stations[-_THROUGH:]
     epsilon, skew = (
@@ -98,7 +96,7 @@ def onset(stations) -> float:
 
 
 def distance_to_limit(station, point) -> Comparison:
-    """Return the places and multipliers of an orbit against those of a fixed point."""
+    """Compare the place and the multipliers of an orbit with those of a fixed point."""
     system = station.system
     exact = asymmetric_orbit(system, station.root).multipliers
     return paired(system, offset(station, point), exact, point.slow_eigenvalues, point.fast(system.kappa))

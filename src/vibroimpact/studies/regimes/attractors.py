@@ -16,27 +16,27 @@ from vibroimpact.system.state import NAMES, states_array, takes_part
 OPEN = -1
 """Label of an initial state that has not settled, as in Attractors.jl."""
 _SAME, _SAME_IDLE = 1e-6, 1e-4
-"""Largest difference of displacements of equal motions; the second if a ball is at rest, where decay limits
-accuracy."""
+"""Largest difference of displacements between equal motions; the second value applies if a ball is at rest, where
+remaining decay limits accuracy."""
 
 _PLACES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
-"""Coordinates of initial states, and their indices in the state; W_i = X_i - Y_i moves ball i."""
+"""Indices in the state by name of a coordinate; for W_i = X_i - Y_i those of X_i and Y_i (ball i is moved)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Attractor:
-    """An attractor.
+    """An attractor: its regime and its stroboscopic section.
 
     Attributes
     ----------
     regime : str
         One of `vibroimpact.studies.regimes.classification.REGIMES`.
     cycles : int or None
-        Forcing periods after which it repeats, or None.
+        Forcing periods after which the motion repeats, or None if it does not.
     states : ndarray
-        Stroboscopic section, shape (k, 8): all `cycles` points or, if it does not repeat, those of a window.
+        Stroboscopic section, shape (k, 8): `cycles` points or, if the motion does not repeat, those of a window.
     orbit : PeriodicOrbit or None
-        Multipliers, impacts and amplitudes of a motion whose regime is periodic; else None.
+        The motion with its multipliers, impacts and amplitudes if the regime is periodic, else None.
     """
 
     regime: str
@@ -47,17 +47,17 @@ class Attractor:
 
 @dataclass(frozen=True, eq=False)
 class Basins:
-    """Attractors, and the label of the attractor of each initial state.
+    """Attractors, and for each initial state the label of its attractor.
 
     Attributes
     ----------
     labels : ndarray
-        Integers in the shape of the initial states, from 1 in the order in which attractors are met; -1 for a state
-        that has not settled (as in Attractors.jl).
+        Labels in the shape of the initial states: integers from 1, in the order in which attractors are found, or -1
+        for a state that has not settled (as in Attractors.jl).
     attractors : dict of int to Attractor
         Attractor by label: .regime, .cycles, .states (k, 8), its stroboscopic section.
     shares : dict of int to float
-        Fraction of the initial states by label; the sum is 1.
+        Fraction of the initial states with each label; the sum is 1.
     axes : dict of str to ndarray
         Values of the varied coordinates by name; empty if the states were listed.
     """
@@ -68,12 +68,12 @@ class Basins:
     axes: dict[str, np.ndarray]
 
     def rows(self, number: int = 0) -> list[dict]:
-        """Return a row per initial state: its varied coordinates, or its number, its label and the regime.
+        """Return one row per initial state: varied coordinates (or number in the list), label and regime.
 
         Parameters
         ----------
         number : int, default 0
-            Ignored; `to_frame` passes the position in a list.
+            Ignored; `to_frame` passes the position of the object in a list.
 
         Returns
         -------
@@ -91,7 +91,7 @@ class Basins:
 def attractors(system: System, states, observation: Observation | None = None, progress: bool = True) -> Basins:
     """Return the attractors of a list of initial states, with labels and shares.
 
-    Periodic motions are the same attractor if their displacements agree after a shift by whole periods; mirror images
+    Two periodic motions are one attractor if their displacements agree after a shift by whole periods. Mirror images
     are two attractors. Motions that do not repeat are distinguished only by their regime. The position of a ball at
     rest is ignored.
 
@@ -100,7 +100,7 @@ def attractors(system: System, states, observation: Observation | None = None, p
     system : System
         Dimensionless parameters.
     states : array_like
-        Initial states at tau = 0, shape (n, 8). A module that takes no part (`PhysicalSystem.single`) is put at rest.
+        Initial states at tau = 0, shape (n, 8). An inactive module (as in `PhysicalSystem.single`) is put at rest.
     observation : Observation, optional
         Length of the runs, see `Observation`: up to `rounds` times `cycles` forcing periods, until a motion repeats. At
         equal forces most motions still change after 400 cycles, none after 2000. A ball at rest may never meet a wall
@@ -152,7 +152,7 @@ def basins(
         Values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2, where
         W_i = X_i - Y_i places ball i between its walls, -1 < W_i < 1.
     state : array_like, optional
-        State at tau = 0 with the other coordinates, shape (8,); at rest by default.
+        State at tau = 0 that gives the other coordinates, shape (8,); at rest by default.
     observation, progress
         As for `attractors`.
 
@@ -223,7 +223,7 @@ def _attractor(regime):
 
 
 def _same(one, other):
-    """Return True if two regimes are one attractor."""
+    """Return True if two observed motions are the same attractor."""
     moving = _moving(one)
     if (one.name, one.repeats) != (other.name, other.repeats) or not np.array_equal(moving, _moving(other)):
         return False
@@ -236,6 +236,6 @@ def _same(one, other):
 
 
 def _moving(regime):
-    """Return the displacements of modules that take part, without those of balls at rest."""
+    """Return the indices of the displacements of active modules, without those of balls at rest."""
     samples, moves = regime.run.samples, takes_part(regime.run.system)
     return np.array([k for k in range(4) if moves[k] and (k in (0, 2) or samples[:, 4 + k].any())])

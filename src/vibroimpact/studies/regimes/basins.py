@@ -1,4 +1,4 @@
-"""Compute basins of coexisting regimes on the plane of the positions of both balls."""
+"""Compute basins of coexisting regimes in the plane of both ball positions."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ MIRRORED = "asymmetric, mirrored"
 def stable_response(system):
     """Return the stable asymmetric orbit with the longest flight from wall +1, or None.
 
-    The flight is that of the first ball that takes part.
+    The flight is that of the ball in the first active module.
     """
     stable = [o for o in orbits(system) if o.admissible and not o.symmetric and abs(o.multipliers[0]) < 1]
     first = system.modules[0] - 1 if stable else None
@@ -21,11 +21,10 @@ def stable_response(system):
 
 
 def plane(state, points: int) -> np.ndarray:
-    """Return initial states (points^2, 8) on a plane of ball positions.
+    """Return initial states (points^2, 8) on a grid of ball positions between the walls.
 
-    Boxes and all velocities are those of `state` (8,); the balls are anywhere between their walls.
-
-    W_1 = X_1 - Y_1 and W_2 are the midpoints of `points` equal parts of (-1, 1), W_2 fastest.
+    Boxes and all velocities are those of `state` (8,). W_1 = X_1 - Y_1 and W_2 = X_2 - Y_2 are the midpoints of
+    `points` equal cells of (-1, 1); W_2 varies fastest.
     """
     W1, W2 = (W.ravel() for W in np.meshgrid(*[centres((-1.0, 1.0), points)] * 2, indexing="ij"))
     states = np.tile(np.asarray(state, dtype=float), (points**2, 1))
@@ -34,6 +33,6 @@ def plane(state, points: int) -> np.ndarray:
 
 
 def ends(system, states, observation: Observation) -> list[str]:
-    """Return the regime that each start ends in; MIRRORED is an asymmetric response with negative flight asymmetry."""
+    """Return the regime that each initial state ends in; MIRRORED has negative flight asymmetry."""
     regimes = settle(system, states, observation)
     return [MIRRORED if one.name == ASYMMETRIC and one.flight_asymmetry < 0 else one.name for one in regimes]

@@ -1,8 +1,9 @@
 """Continue folds and symmetry breaking of 1:1 responses in the plane of two parameters.
 
-Along such a curve the equations of a response hold, and one function more vanishes: at a fold the determinant of their
-Jacobian; where the symmetry of an orbit breaks, that of the part of the asymmetric equations' Jacobian which maps
-antisymmetric changes of the impact times; by the theory, the distance of C_i from its upper limit (Masri).
+On such a curve the equations of a response hold and one more function vanishes. At a fold this is the determinant of
+their Jacobian. At the symmetry breaking of an exact orbit it is the determinant of one part of the Jacobian of the
+asymmetric equations, the part for antisymmetric changes of the impact times. At the symmetry breaking of a fixed point
+it is the distance of C_i from its upper limit (Masri).
 """
 
 from collections.abc import Callable
@@ -30,19 +31,19 @@ _DIFFERENCE = 1e-6
 
 @dataclass(frozen=True)
 class Plane:
-    """Two parameters of System, within a rectangle: names (2,), and limits (2, 2), each (low, high)."""
+    """A rectangle in the plane of two parameters of System: their names, and limits (2, 2), (low, high) for each."""
 
     system: object
     names: tuple[str, str]
     limits: np.ndarray
 
     def __call__(self, p: float, q: float):
-        """Return the system at a point.
+        """Return the system at the point (p, q).
 
         Raises
         ------
         Lost
-            If there is no valid system.
+            If the point does not give a valid system.
         """
         try:
             return self.system.with_(**dict(zip(self.names, (float(p), float(q)), strict=True)))
@@ -50,7 +51,7 @@ class Plane:
             raise Lost(str(error)) from None
 
     def margin(self, z) -> float:
-        """Return the distance of z = (..., p, q) from the edge over the width of the rectangle, below 0 outside."""
+        """Return the distance of z = (..., p, q) from the nearest edge, relative to the width; negative outside."""
         low, high = self.limits.T
         return float(np.minimum((z[-2:] - low) / (high - low), (high - z[-2:]) / (high - low)).min())
 
@@ -59,9 +60,9 @@ class Plane:
 class BifurcationCurve(Representation):
     """A curve of special points of one family of responses.
 
-    family, kind: of the response; "fold" or "symmetry breaking", of the theory with its module. names: of both
-    parameters. points: (n, 2), their values, in order along the curve. amplitudes: (n, 2), C_1, C_2 there. x: (n, d),
-    roots of the family's equations.
+    family: family of the responses. kind: "fold" or "symmetry breaking", by the theory with the number of the module.
+    names: names of both parameters. points: (n, 2), values of the parameters in order along the curve. amplitudes:
+    (n, 2), C_1, C_2 at the points. x: (n, d), roots of the family's equations at the points.
     """
 
     family: object
@@ -77,7 +78,7 @@ class BifurcationCurve(Representation):
         return named | {"points": f"{len(self.points)}, {ends}"}
 
     def rows(self, number: int = 0) -> list[dict]:
-        """Return a row per point: family, curve, special, both parameters, C1, C2."""
+        """Return one row per point with the columns family, curve, special, both parameters, C1, C2."""
         of = {"family": self.family.name, "curve": number, "special": self.kind}
         return [
             {**of, **dict(zip(self.names, point, strict=True)), "C1": C1, "C2": C2}
@@ -88,16 +89,16 @@ class BifurcationCurve(Representation):
 def bifurcation_curves(
     plane: Plane, branches: list[tuple[float, Branch]], longest: float, report: Callable = lambda p, q: None
 ) -> list[BifurcationCurve]:
-    """Return the curves through the folds and symmetry breakings of some branches, within the rectangle.
+    """Return the curves in the rectangle through the folds and symmetry breakings of the given branches.
 
     Parameters
     ----------
     branches : list[tuple[float, Branch]]
-        Pairs of a value of the second parameter, and a Branch along the first one there.
+        Pairs of a value of the second parameter and a Branch along the first parameter at this value.
     longest : float
         Longest step along a curve.
     report : callable, optional
-        Called at each point, for a report of progress.
+        Called with both parameters at each point, to report progress.
     """
     found, passed = [], []
     for q, branch in branches:
@@ -120,10 +121,9 @@ def bifurcation_curves(
 def symmetry_breaking(system, x) -> float:
     """Return the determinant that vanishes where the symmetry of an orbit breaks.
 
-    The orbit is given by its root (tau_1, tau_2, C_1, C_2).
-
-    Antisymmetric changes move the impacts at both walls oppositely; the sums of the conditions of restitution at both
-    walls are what they change.
+    `x` is the root (tau_1, tau_2, C_1, C_2) of the orbit. An antisymmetric change moves the impacts of a module at its
+    two walls in opposite directions. It changes only the sum of the conditions of restitution at both walls. The
+    result is the determinant of the derivatives of these sums.
     """
     jacobian = AsymmetricConditions(system)(asymmetric_root(system, x)[None])[1][0]
     opposite = np.array([[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0]]) @ jacobian[:, :4] @ _OPPOSITE
@@ -144,11 +144,11 @@ TESTS = {
     FixedPoints.name: _fold(FixedPoints)
     | {f"{SYMMETRY_BREAKING}, module {i + 1}": lambda system, x, i=i: SYMMETRY_BREAKING_C - x[2 * i] for i in range(2)},
 }
-"""Functions of a system and a root that vanish at special points, by family and kind."""
+"""Functions of (system, root) that vanish at special points, by family and by kind of the point."""
 
 
 def _curve(plane, family, kind):
-    """Return the roots (x, p, q) of the equations of a family at which a function of a kind vanishes."""
+    """Return the Curve of (x, p, q) on which the equations of a family hold and the test for `kind` vanishes."""
     test, of_family = TESTS[family.name][kind], equations(family, plane)
 
     def extended(y, q):
@@ -172,7 +172,7 @@ def _curve(plane, family, kind):
 
 
 def _half(plane, family, curve, longest, report, start):
-    """Return the points and places on one side of the start, to where a ball speed vanishes or the rectangle ends."""
+    """Return points and places on one side of the start, up to the edge of the rectangle or a ball speed of 0."""
 
     def margin(z):
         return min(plane.margin(z), family.speed(z[:-2]))

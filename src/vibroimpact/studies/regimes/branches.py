@@ -23,7 +23,7 @@ from vibroimpact.studies.regimes.families import (
 )
 from vibroimpact.system.representation import Representation, brief
 
-_EQUAL = 1e-6  # smallest difference of unequal flights; distance from the end of the interval at which a branch ends
+_EQUAL = 1e-6  # flights that differ by less are equal; a value of p this close to an end of the interval is the end
 _APART = 1e-3  # closer branch points count as the same
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
@@ -31,7 +31,7 @@ COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", 
 
 @dataclass(frozen=True)
 class Path:
-    """Line through the parameters: the named ones have the value p, the others those of the system."""
+    """A line in parameter space: the named parameters have the value p, the others keep their values in `system`."""
 
     system: object
     names: tuple[str, ...]
@@ -45,8 +45,8 @@ class Path:
 class Node:
     """A point of a branch.
 
-    p, x: parameter and root. amplitudes: C_1, C_2, shape (2,). kind: what is special about it, or "".
-    stable, admissible: of the member there, None at a special point.
+    p, x: parameter and root. amplitudes: C_1, C_2, shape (2,). kind: type of special point, or "".
+    stable, admissible: properties of the motion at this point; None at a special point.
     """
 
     p: float
@@ -59,9 +59,9 @@ class Node:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch(Representation):
-    """A piece of a solution curve: its nodes in their order along it, of a closed one the first also last.
+    """A piece of a solution curve, with its nodes in order along the curve; if it is closed, the first is also last.
 
-    places: of the nodes that are not special, and where a ball speed has vanished.
+    places: points of the curve with tangents, at all nodes that are not special and at some ends.
     """
 
     family: object
@@ -77,13 +77,13 @@ class Branch(Representation):
 
     @property
     def special(self) -> list[Node]:
-        """The special points."""
+        """Nodes that are special points."""
         return [node for node in self.nodes if node.kind]
 
     def pieces(self) -> list[tuple[Node, list[Node]]]:
-        """Return the pieces between special points, both ends included.
+        """Return the pieces between special points, each as (inner node, all nodes with both ends).
 
-        Each piece has an inner node, whose stability is that of the piece.
+        The stability at the inner node is the stability of the piece.
         """
         cuts = [k for k, node in enumerate(self.nodes) if node.kind]
         found, inner = [], None
@@ -95,7 +95,7 @@ class Branch(Representation):
         return found
 
     def rows(self, number: int = 0) -> list[dict]:
-        """Return a row per node, along the pieces between special points, which belong to the pieces they join."""
+        """Return one row per node of each piece; a special point has a row in both pieces that it joins."""
         return [
             {
                 "family": self.family.name,
@@ -123,24 +123,25 @@ def branches(
     report: Callable = lambda p: None,
     symmetric: Iterable[Branch] = (),
 ) -> list[Branch]:
-    """Return all branches of a family within an interval of p that pass one of the seeds (values of p), or leave these.
+    """Return the branches of a family in an interval of p that pass a seed (a value of p) or leave such a branch.
 
-    A branch ends at the ends of the interval, where a ball speed vanishes, where it is lost, and, for asymmetric
-    orbits, where it meets its mirror image on a symmetric one; of two mirror images one is followed. A branch that
-    neither passes a seed nor leaves another branch is missed. A seed without roots is skipped with a warning.
+    A branch ends at the ends of the interval, where a ball speed vanishes, or where it is lost. A branch of asymmetric
+    orbits also ends at a symmetric orbit, where it meets its mirror image; one of the two mirror images is followed. A
+    branch that neither passes a seed nor leaves another branch is missed. A seed at which the search for roots fails is
+    skipped with a warning.
 
     Parameters
     ----------
     family
-        One of `families.FAMILIES`.
+        One of `families.FAMILIES`, or a `families.PeriodicOrbits`.
     path : Path
-        Gives the system at p.
+        Function that returns the system at p.
     longest : float
         Longest step along the curve.
     report : callable, optional
-        Called with p at each seed and node, for a report of progress.
+        Called with p at each seed and node, to report progress.
     symmetric : iterable of Branch, default ()
-        Branches of symmetric orbits, which asymmetric ones leave.
+        Branches of symmetric orbits, from which branches of asymmetric orbits start.
     """
 
     def same(z, near):
@@ -161,7 +162,7 @@ def branches(
         if new and not any(curve.passes(branch.places, z) for branch in found):
             try:
                 nodes, places = curve.both_ways(z, half)
-            except Lost as error:  # for example, if other modules take part next to it
+            except Lost as error:  # for example, if a module is inactive here but active close by
                 at = f"{family.name} at {' = '.join(path.names)} = {z[-1]:.6g}"
                 warnings.warn(f"{at} not followed: {error}", stacklevel=3)
                 continue
@@ -175,7 +176,7 @@ def branches(
 
 
 def equations(family, path: Callable) -> Callable:
-    """Return the residual and Jacobian of a family at x and parameters p."""
+    """Return a function that computes residual and Jacobian of a family's equations at x and parameters p."""
 
     def at(x, *p):
         try:
@@ -189,7 +190,7 @@ def equations(family, path: Callable) -> Callable:
 def images(family, system, x, near) -> list[np.ndarray]:
     """Return the roots of the same motion and of its mirror image.
 
-    Angles are within half a turn of those of another root.
+    The angles differ by at most half a turn from those of the root `near`.
     """
     found, turn = family.images(system, x.copy()), family.turn(system)
     for image in found:
@@ -198,7 +199,7 @@ def images(family, system, x, near) -> list[np.ndarray]:
 
 
 def _seeds(family, path, seeds, report):
-    """Yield the roots z = (x, p) at the seeds."""
+    """Yield the roots z = (x, p) at each seed."""
     for p in seeds:
         report(p)
         try:
@@ -210,7 +211,7 @@ def _seeds(family, path, seeds, report):
 
 
 def _half(family, path, interval, curve, longest, report, start):
-    """Return the nodes and places on one side of the start."""
+    """Return the nodes and places of a branch on one side of the start."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
@@ -231,7 +232,7 @@ def _half(family, path, interval, curve, longest, report, start):
             return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
         tests = family.tests(system, member)
-        if before is not None and not kind:  # on both sides of a branch point all that changes is there
+        if before is not None and not kind:  # a test that changes sign across a branch point does so at that point
             nodes += _special(family, path, curve, before, tests_before, place, tests)
         nodes.append(_node(family, path, z, member=member))
         kind = ""
@@ -256,15 +257,12 @@ def _node(family, path, z, kind="", member=None):
 
 
 def _symmetric(family, system, x):
-    """Return True for a root of the asymmetric equations with equal flights.
-
-    There a branch meets its mirror image.
-    """
+    """Return True for a root of the asymmetric equations with equal flights: a branch meets its mirror image."""
     return family is AsymmetricOrbits and bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
 
 def _special(family, path, curve, before, tests, after, values):
-    """Return the special points between two neighbouring places of the curve, in their order."""
+    """Return the special points between two neighbouring places, in order along the curve."""
 
     def test(z, kind):
         if kind == FOLD:

@@ -1,4 +1,4 @@
-"""Recognise regimes that repeat, from displacements and impacts over a window."""
+"""Recognise the regime of a motion that repeats, from displacements and impacts over a window."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,25 +21,24 @@ PERIODIC = (SYMMETRIC, ASYMMETRIC, OTHER)
 CHAOS = (STRONGLY_MODULATED, CHAOTIC, HOPPING)
 APERIODIC = (*CHAOS, QUASI_PERIODIC)
 REGIMES = (*PERIODIC, *APERIODIC, IDLE, NO_IMPACTS, UNSETTLED)
-"""All names; docs/studies/regimes.md states the test of each."""
+"""Names of all regimes; docs/studies/regimes.md states the test for each."""
 
 _PER_CYCLE = 2
 _MOST_STARTS = 1_000_000
 _SHRUNK, _LONGEST = 1e-6, 10_000
-"""A run that approaches a periodic motion is followed until the multipliers shrink its distance by the factor _SHRUNK,
-for at most _LONGEST cycles."""
-_REPEATED, _MIRRORED = (
-    1e-8,
-    1e-6,
-)  # the first for a periodic motion known to rounding; near symmetry breaking the asymmetry grows like a square root
+"""A run near a periodic motion is continued until the largest multiplier predicts that their distance has shrunk by the
+factor _SHRUNK, for at most _LONGEST cycles."""
+_REPEATED, _MIRRORED = 1e-8, 1e-6
+"""Tolerances for the repetition and for the symmetry of a periodic motion that is known to rounding. Near symmetry
+breaking the asymmetry grows like the square root of the distance in a parameter."""
 
 
 @dataclass(frozen=True, eq=False)
 class Regime:
     """A motion observed over a window of whole cycles.
 
-    run: the window, with samples every half period. name: one of REGIMES. repeats: cycles after which it repeats, or
-    None.
+    run: run over the window, with samples every half period. name: one of REGIMES. repeats: number of cycles after
+    which the motion repeats, or None.
     """
 
     run: Run
@@ -48,18 +47,18 @@ class Regime:
 
     @cached_property
     def impacts(self) -> np.ndarray:
-        """The impacts of the window."""
+        """Events of the window that are impacts."""
         return self.run.events[self.run.events["kind"] == IMPACT]
 
     @property
     def mean_amplitudes(self) -> np.ndarray:
-        """C_i of half of each ball's mean path per cycle, shape (2,): on a 1:1 response that of its saw-tooth."""
+        """Amplitudes C_i from half of each ball's mean path per cycle, (2,); on a 1:1 response the saw-tooth's."""
         path = np.array([self._path(ball) for ball in (1, 3)])
         return sawtooth_amplitude(self.run.system.epsilon, path / (2 * self.run.cycles))
 
     @property
     def flight_asymmetry(self) -> float:
-        """Difference of the mean times that the balls fly from wall +1 and from wall -1, over the period, summed.
+        """Mean flight time from wall +1 minus mean flight time from wall -1, over the period, summed over balls.
 
         Its sign distinguishes the mirror images of an asymmetric response.
         """
@@ -77,12 +76,12 @@ class Regime:
 
 
 def classify_after(system, state, window: int, nearness: float) -> Regime:
-    """Return the regime of a motion with `state` (8,) at the start of a forcing cycle, from a window of cycles.
+    """Return the regime of the motion from `state` (8,), at the start of a forcing cycle, over a window of cycles.
 
-    Where no displacement changes by more than `nearness` after some number of cycles, Newton's method goes from there
-    to the periodic motion itself, if an attracting one is that near and the run approaches it (`_approaches`); the
-    window is then on that motion. This distinguishes a slow spiral into a 1:1 response from a modulated motion before
-    the spiral ends. A motion that does not repeat is unsettled here (see `settling`).
+    If the displacements repeat within `nearness`, Newton's method computes the periodic motion itself. If this motion
+    is near and attracting, and the run approaches it (`_approaches`), a window of this motion is classified
+    instead. Thus a slow spiral into a 1:1 response is distinguished from a modulated motion before the spiral ends. A
+    motion that does not repeat is unsettled here (see `settling`).
     """
     run = _window(system, state, window)
     if not _at_rest(run).any():
@@ -96,7 +95,7 @@ def classify_after(system, state, window: int, nearness: float) -> Regime:
 
 
 def _attracting(system, state, cycles, reach):
-    """Return the attracting motion that repeats after some cycles within `reach` of a state, or None."""
+    """Return the attracting motion within `reach` of a state that repeats after `cycles` cycles, or None."""
     try:
         orbit = refined(system, state, cycles)
     except ValueError:
@@ -106,12 +105,13 @@ def _attracting(system, state, cycles, reach):
 
 
 def _approaches(run, motion, repeats, multiplier):
-    """Return True if a run has reached an attracting periodic motion, or approaches it from its end on.
+    """Return True if a run has reached an attracting periodic motion, or approaches it when it is continued.
 
-    Chaos may repeat within `nearness` next to a motion whose basin is narrower yet. So the run is followed until the
-    largest multiplier has shrunk the distance to _SHRUNK of itself: it has to shrink at half of this rate at least.
+    A chaotic run may repeat within `nearness` close to a periodic motion, but outside the basin of this motion. So the
+    run is continued until the largest multiplier predicts a distance shrunk by the factor _SHRUNK. The distance has to
+    shrink at least at half of the predicted exponential rate.
 
-    motion: a window on the periodic motion, which repeats after `repeats` cycles; it starts where the run ends.
+    motion: a window of the periodic motion, which repeats after `repeats` cycles; it starts where the run ends.
     """
     size = len(run.samples)
     before = _distance(run, motion.samples[(np.arange(size) - size + 1) % (_PER_CYCLE * repeats)])
@@ -125,18 +125,18 @@ def _approaches(run, motion, repeats, multiplier):
 
 
 def _distance(run, samples):
-    """Return the largest difference of the displacements of a run from others (n, 8) at its samples."""
+    """Return the largest difference between the displacements of a run's samples and of other samples (n, 8)."""
     return np.abs(run.samples - samples)[:, :4].max()
 
 
 def classify(run: Run) -> tuple[str, int | None]:
-    """Return the name of a settled regime and the number of cycles after which it repeats, or None.
+    """Return the name of a settled regime, and the number of cycles after which it repeats (or None).
 
-    run: samples every half period, both ends included.
+    run: has samples every half period, both ends included.
 
-    A ball is idle if it is at rest throughout: one that drifts, however slowly, will meet a wall. With all at rest
-    there will be no impacts once the boxes repeat. 1:1 responses repeat every cycle with one impact at each wall of
-    each module; their symmetry is that of state to minus state, half a period later. Only modules that take part count.
+    A ball is idle if it is at rest throughout; a ball that drifts, however slowly, will meet a wall. If all balls are
+    at rest and the boxes repeat, there are no impacts. A 1:1 response repeats every cycle, with one impact at each wall
+    of each module. It is symmetric if all displacements change sign after half a period. Only active modules count.
     """
     displacements = run.samples[:, :4]
     repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)
@@ -159,12 +159,12 @@ def _window(system, state, cycles):
 
 
 def _at_rest(run):
-    """Return True for each ball that is at rest at all samples, of the n modules that take part, shape (n,)."""
+    """Return True for each ball that is at rest at all samples, shape (n,) for n active modules."""
     return ~run.samples[:, _of_modules(run.system, (5, 7))].any(axis=0)
 
 
 def _of_modules(system, places):
-    """Return those of the given indices of the state that belong to modules that take part."""
+    """Return the given indices of the state without those of inactive modules (not in `System.modules`)."""
     moves = takes_part(system)
     return [place for place in places if moves[place]]
 
@@ -208,7 +208,7 @@ def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
 
 
 def _two_impacts(run):
-    """Return True if each ball meets each wall once a cycle, ignoring an impact at the edge of the window."""
+    """Return True if all events are impacts, one per cycle at each wall (one more or one less in the window)."""
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
     return len(impacts) == len(run.events) and bool(np.all(np.abs(np.array(counts) - run.cycles) <= 1))

@@ -1,13 +1,14 @@
-"""Pseudo-arclength continuation of the roots of F(x, p) = 0, one parameter p (Keller 1977).
+"""Follow the roots of F(x, p) = 0 over one parameter p by pseudo-arclength continuation (Keller 1977).
 
-A point z = (x, p) is stepped along the tangent and brought back at the p reached, or, where the tangent has little of
-p, within the plane across the tangent, so that folds in p are passed like any other point. A special point is a sign
-change of a function along the curve, found by Brent's method in the arclength; every evaluation is a root of F to
-rounding, so the zero is as sharp as the function itself.
+A step goes from a point z = (x, p) along the tangent; then Newton's method corrects x at constant p. Where the tangent
+has only a small component along p, the correction is in the plane normal to the tangent instead, so that folds in p are
+passed like any other point. A special point is a sign change of a function along the curve. It is found by Brent's
+method in the arclength. Every evaluation is at a root of F accurate to rounding, so the zero is as accurate as the
+function itself.
 
 Branches cross where the determinant of [[dF/dz], [tangent]] changes sign. Newton's method is ill-conditioned there, so
-a branch point is bracketed by bisection in the arclength to a length, and stepped over. The branches that leave it are
-the zeros, on a small circle in the plane of both null vectors, of the part of F that this plane cannot balance
+a branch point is bracketed by bisection in the arclength and stepped over. The branches through it are found on a small
+circle in the plane of both null vectors: they pass where the component of F along the left null vector vanishes
 (Lyapunov and Schmidt).
 """
 
@@ -19,28 +20,28 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-_DIFFERENCE = 1e-6  # step in p; these differences then tell dF/dp to about 1e-10
+_DIFFERENCE = 1e-6  # step in p, relative to 1 + |p|; dF/dp is then accurate to about 1e-10
 _STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
 _STEPS, _FEET = 12, 4
-_SETTLED, _STALLED = 1e-13, 1e-7  # the second for steps that shrink no more: rounding, near a singular Jacobian
+_SETTLED, _STALLED = 1e-13, 1e-7  # the second once steps no longer shrink (rounding near a singular Jacobian)
 _REFINED = 1e-10
-_STEEP = 0.2  # part of p in the tangent from which on p is kept: a new p costs more than a new x
+_STEEP = 0.2  # p is constant if the tangent has a larger component along p; a new p costs more than a new x
 _TURN = 0.15  # radians by which the tangent may turn in one step
-_SHORTEST = 1e-7  # step, before the curve is given up
-_RESOLVED = 1e-6  # arclength to which bisection goes: Newton's method then keeps 10 digits beside a branch point
-_SINGULAR = 1e-5  # relative size of a singular value that rounding may leave of 0
-_CORNER = 1e-5  # step past a corner
+_SHORTEST = 1e-7  # shortest step; the curve is lost where a shorter one is needed
+_RESOLVED = 1e-6  # arclength at which bisection ends; this far from a branch point Newton's method keeps 10 digits
+_SINGULAR = 1e-5  # relative size up to which a singular value is 0 within rounding
+_CORNER = 1e-5  # length of a step past a corner
 _CIRCLE, _ANGLES = 1e-4, np.linspace(0.0, 2 * np.pi, 97)
 
 
 class Lost(ArithmeticError):
-    """The corrector found no root near its guess."""
+    """Raised if Newton's method finds no root near its guess, or if F is not defined at a point."""
 
 
 class Place(NamedTuple):
     """A point z = (x, p) of the curve and its unit tangent, both (d + 1,).
 
-    determinant: of [[dF/dz], [tangent]]; 0 at a branch point. closing: True for the start of a closed curve, met again.
+    determinant: of [[dF/dz], [tangent]]; 0 at a branch point. closing: True if a closed curve is back at its start.
     """
 
     z: np.ndarray
@@ -49,7 +50,7 @@ class Place(NamedTuple):
     closing: bool = False
 
     def reversed(self) -> "Place":
-        """Return the same point, passed the other way."""
+        """Return the same point with the tangent reversed."""
         return Place(self.z, -self.tangent, -self.determinant)
 
 
@@ -57,32 +58,32 @@ class Place(NamedTuple):
 class Curve:
     """The solution set of F(x, p) = 0.
 
-    equations(x, p) returns the residual (d,) and its Jacobian (d, d) by x. images(z, near): the points that are the
-    same as z, angles within half a turn of those of another point.
+    equations(x, p) returns the residual (d,) and its Jacobian (d, d) by x. images(z, near) returns the points that are
+    equivalent to z, with angles within half a turn of those of `near`.
     """
 
     equations: Callable
     images: Callable = lambda z, near: [z]
 
     def place(self, z: np.ndarray, ahead: np.ndarray) -> Place:
-        """Return a point of the curve with its tangent, on the side of `ahead`, (d + 1,)."""
+        """Return the Place at a point z of the curve; the vector `ahead`, (d + 1,), selects the sign of the tangent."""
         by_z = self._by_z(z)
         tangent = np.linalg.svd(by_z)[2][-1]
         tangent = np.copysign(1.0, tangent @ ahead) * tangent
         return Place(z, tangent, float(np.linalg.det(np.vstack([by_z, tangent]))))
 
     def singular(self, z: np.ndarray) -> bool:
-        """Return True if dF/dz has not full rank at a point, to rounding, so that there is no one tangent."""
+        """Return True if dF/dz is singular at z within rounding, so that the tangent is not unique."""
         sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
         return bool(sizes[-1] <= _SINGULAR * (1 + sizes[0]))
 
     def step(self, place: Place, length: float) -> np.ndarray:
-        """Return the point z of the curve next to a step of this length along the tangent.
+        """Return the point z of the curve near the end of a step of a given length along the tangent.
 
         Raises
         ------
         Lost
-            If Newton's method does not settle.
+            If Newton's method does not converge.
         """
         guess = place.z + length * place.tangent
         steep = abs(place.tangent[-1]) > _STEEP
@@ -99,15 +100,15 @@ class Curve:
         raise Lost(f"no root of the equations near {guess}")
 
     def trace(self, start: Place, longest: float, inside: Callable, points: int = 2000) -> Iterator[Place]:
-        """Yield the places along the curve from a start, branch points among them.
+        """Yield the places along the curve from `start`, including branch points.
 
-        Ends with the first point z for which inside(z) is False, where the curve closes, after so many points, or where
-        the curve is lost.
+        The last place is the first one for which inside(z) is False. The curve ends earlier where it closes, where it
+        is lost, or after `points` steps.
 
         Parameters
         ----------
         longest : float
-            Longest step.
+            Longest step, in arclength.
         """
         place, length = start, longest / 4
         yield place
@@ -131,19 +132,20 @@ class Curve:
                 return
 
     def zero(self, function: Callable, place: Place, end: np.ndarray) -> np.ndarray:
-        """Return the point between a place and z = end, a later point of the curve, at which function(z) vanishes."""
+        """Return the zero of function(z) on the curve between a place and the later point z = `end`."""
         steep = abs(place.tangent[-1]) > _STEEP
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
         try:
             return self.step(place, brentq(lambda s: function(self.step(place, s)), 0.0, reach, xtol=1e-15, rtol=1e-14))
-        except (Lost, ValueError):  # beside a branch point, or across a corner
+        except (Lost, ValueError):  # near a branch point, or across a corner
             after, sign = self.place(end, place.tangent), np.sign(function(place.z))
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
-        """Return the points and places of the curve through a root z, in their order; of a closed curve once round.
+        """Return the points and places of the curve through a root z, in order; a closed curve is passed once.
 
-        half(start) returns those on one side of a place. A multiple root, known to half the digits, is first refined.
+        half(start) returns the points and places on one side of a start. The root is refined first, since a multiple
+        root is known to half of the digits only.
         """
         for _ in range(_STEPS):
             change = np.linalg.lstsq(self._by_z(z), self.equations(z[:-1], z[-1])[0])[0]
@@ -158,18 +160,18 @@ class Curve:
         return back[:0:-1] + points, [place.reversed() for place in behind[:0:-1]] + places
 
     def passes(self, places: list[Place], z: np.ndarray) -> bool:
-        """Return True if a root z lies on the curve through some places."""
+        """Return True if a root z lies on the curve through the given places."""
         return any(self.held(*pair, z) is not None for pair in pairwise(places))
 
     def held(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
-        """Return the image of a root z that lies on the curve between two neighbouring places, if one does."""
+        """Return the image of a root z that lies on the curve between two neighbouring places, or None."""
         chord = after.z - place.z
         length = np.linalg.norm(chord)
         for image in self.images(z, place.z):
             along = chord @ (image - place.z) / length
             aside = np.linalg.norm(image - place.z - along / length * chord)
             if -_RESOLVED < along < length + _RESOLVED and aside < _TURN * length + _RESOLVED:
-                # Beside a branch point a long step may end on the other branch.
+                # Near a branch point a long step may end on the other branch.
                 found = self._foot(place, image) or self._bisected(
                     place, after, lambda at, z=image: at.tangent @ (z - at.z) > 0
                 )
@@ -178,12 +180,12 @@ class Curve:
         return None
 
     def arms(self, z: np.ndarray) -> list[np.ndarray]:
-        """Return the points near a branch point z, one on each of the branches that leave it."""
+        """Return points on a small circle around a branch point z, one on each branch that leaves it."""
         left, _, right = np.linalg.svd(self._by_z(z))
         unbalanced, plane = left[:, -1:], right[-2:]
 
         def at(angle):
-            """Return the point on the circle where F is a multiple of `unbalanced`, and that multiple."""
+            """Return the point y at an angle of the circle with F(y) + part * unbalanced = 0, and the number `part`."""
             guess = z + _CIRCLE * np.array([np.cos(angle), np.sin(angle)]) @ plane
             y, part = guess, 0.0
             for _ in range(_STEPS // 4):
@@ -197,11 +199,11 @@ class Curve:
             signs = [np.sign(at(angle)[1]) for angle in _ANGLES]
             turns = [_ANGLES[k : k + 2] for k in np.flatnonzero(np.diff(signs))]
             return [at(brentq(lambda angle: at(angle)[1], *ends, xtol=1e-9))[0] for ends in turns]
-        except Lost:  # F ends here
+        except Lost:  # F is not defined all around z
             return []
 
     def _by_p(self, z):
-        """Return dF/dp, shape (d,), at z; one-sided where F ends."""
+        """Return dF/dp, shape (d,), at z, by one-sided differences at the edge of the domain of F."""
         x, p = z[:-1], z[-1]
         h = _DIFFERENCE * (1 + abs(p))
         for stencil in _STENCILS:
@@ -216,10 +218,10 @@ class Curve:
         return np.column_stack([self.equations(z[:-1], z[-1])[1], self._by_p(z)])
 
     def _ahead(self, place, length):
-        """Return the place a step ahead, last; [] if the curve turns too much or is lost.
+        """Return the places of one step, the end of the step last; [] if the curve turns too much or is lost.
 
-        Before it a branch point, if there is one, between two places beside it. A change of sign without a branch point
-        is a step to another curve.
+        If the step passes a branch point, the list also has that point, between a place just before and one just after.
+        If the determinant changes sign without a branch point, the step has met another curve, and the result is [].
         """
         after = self._next(place, length)
         if after is None or after.determinant * place.determinant > 0:
@@ -237,7 +239,7 @@ class Curve:
         ]
 
     def _next(self, place, length):
-        """Return the place a step ahead; None if it is not found or the curve turns too much."""
+        """Return the place after one step, or None if it is not found or the curve turns too much."""
         try:
             after = self.place(self.step(place, length), place.tangent)
         except Lost:
@@ -245,9 +247,9 @@ class Curve:
         return after if place.tangent @ after.tangent > np.cos(_TURN) else None
 
     def _foot(self, place, z):
-        """Return, as a list, the point of the curve that lies across the tangent next to a given point.
+        """Return a list of the place on the curve that coincides with z, or [] if there is none.
 
-        The list is empty if the curve has no such point.
+        Every step along the tangent goes to the foot of the perpendicular from z.
         """
         for _ in range(_FEET):
             place = self._next(place, place.tangent @ (z - place.z))
@@ -258,9 +260,9 @@ class Curve:
         return []
 
     def _round(self, place):
-        """Return a place beyond a corner just ahead, where F has a kink, as a list; [] if there is no corner.
+        """Return a list of one place beyond a corner of the curve just ahead, or [] if there is no corner.
 
-        There dF/dz jumps, as for orbits where impacts of both modules change places.
+        At a corner dF/dz jumps, as for orbits where the impacts of both modules change their order.
         """
         try:
             across = self.place(place.z + _CORNER * place.tangent, place.tangent)
@@ -270,11 +272,11 @@ class Curve:
         return [one for one in after if one and abs(place.tangent @ one.tangent) < np.cos(_TURN)][:1]
 
     def _bisected(self, place, after, before: Callable):
-        """Return two points between two others that are one to rounding.
+        """Bisect the curve between two places until they are less than _RESOLVED apart, and return both.
 
-        The result is None if the curve does not join them.
+        The result is None if the curve does not join the two places.
 
-        before(place): True on the side of the first.
+        before(place): True on the side of the first place.
         """
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
@@ -288,7 +290,7 @@ class Curve:
 
 
 def _solve(blocks, right):
-    """Return the solution of a bordered system."""
+    """Return the solution of a bordered linear system given by its blocks."""
     try:
         return np.linalg.solve(np.vstack([np.hstack(row) for row in blocks]), right)
     except np.linalg.LinAlgError:

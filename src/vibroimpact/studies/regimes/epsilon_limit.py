@@ -1,4 +1,4 @@
-"""Theory against the exact orbit as epsilon tends to 0: distance, slow and fast multipliers."""
+"""Compare the theory with exact orbits as epsilon tends to 0: distance, slow and fast multipliers."""
 
 from dataclasses import dataclass
 
@@ -13,15 +13,15 @@ from vibroimpact.theory.masri import impact_multipliers
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """A fixed point and the symmetric orbit next to it, at one epsilon.
+    """A fixed point and the exact orbit next to it, at one epsilon.
 
-    offset: orbit minus fixed point in what places them, C and impact phases [rad] of both modules, (4,), for symmetric
-    ones; distance: its norm.
-    multipliers, predicted_multipliers: (8,) complex, exact and by slow flow (first four) and impact map (last four),
-    paired so that they are nearest together.
-    rates, predicted: log(mu) / (epsilon 2 pi / Omega) of the first four, exact and by the slow flow.
+    offset: coordinates of the orbit minus those of the fixed point; for a symmetric orbit C and impact phases [rad] of
+    both modules, (4,). distance: norm of the offset.
+    multipliers, predicted_multipliers: (8,) complex, exact, and predicted by slow flow (first four) and impact map
+    (last four). Exact and predicted multipliers are paired to be as close as possible.
+    rates, predicted: log(mu) / (epsilon 2 pi / Omega) of the first four multipliers, exact and by the slow flow.
 
-    Of a single machine all have half as many numbers.
+    For a single machine all arrays have half as many entries.
     """
 
     epsilon: float
@@ -33,7 +33,7 @@ class Comparison:
 
     @property
     def distance(self) -> float:
-        """Euclidean distance of fixed point and orbit."""
+        """Euclidean distance between fixed point and orbit."""
         return float(np.linalg.norm(self.offset))
 
 
@@ -51,10 +51,10 @@ def distance_to_orbit(system, point) -> Comparison:
 
 
 def paired(system, offset, exact, slow, fast) -> Comparison:
-    """Return the Comparison of exact multipliers with slow eigenvalues and fast multipliers, each half as many."""
+    """Compare the exact multipliers with slow eigenvalues (for half of them) and fast multipliers (for the rest)."""
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
-    # Slow multipliers are predicted to second order in epsilon, fast ones to first: weighed so that both count alike.
+    # Errors are of second order in epsilon for slow multipliers, of first for fast ones; weights make them comparable.
     weights = np.repeat([1 / slow_time, 1.0], len(slow))
     pairs = linear_sum_assignment(weights[:, None] * np.abs(np.log(predicted[:, None] / exact)))[1]
     return Comparison(
@@ -75,7 +75,7 @@ def order(epsilon, errors) -> tuple[float, float]:
     Raises
     ------
     ValueError
-        If fewer than 2 points.
+        If there are fewer than 2 points.
     """
     if len(epsilon) < 2:
         raise ValueError(f"epsilon: an order needs at least 2 points, got {len(epsilon)}")
@@ -87,7 +87,7 @@ def order(epsilon, errors) -> tuple[float, float]:
 
 
 def _nearest(system, point):
-    """Return the root of the symmetric orbit nearest to a fixed point, and its offset from it."""
+    """Return the root of the symmetric orbit nearest to a fixed point, and the offset of the orbit."""
     roots = symmetric_solutions(system)
     if not len(roots):
         raise NoOrbit("system: it has no symmetric 1:1 orbit")

@@ -1,13 +1,13 @@
-"""Families of 1:1 responses as continuation sees them: equations, members, functions whose zeros are special points.
+"""Families of motions for continuation: equations, members, and test functions that vanish at special points.
 
-The functions are polynomials in the entries of a monodromy matrix, written in its multipliers, so that they pass
-through their zeros: prod (1 + mu) at a period doubling, prod (1 - mu_i mu_j), i < j, where a pair meets the unit circle
-(Neimark-Sacker, if the pair is complex). On symmetric orbits mu are the multipliers of half a period and mirroring, and
--1 breaks the symmetry. They cannot double their period otherwise (Swift and Wiesenfeld 1984). Folds and branch points,
-mu = 1, are those of the curve.
+The test functions are symmetric polynomials in the multipliers mu of a monodromy matrix, so that they change sign at
+their zeros. prod (1 + mu) vanishes at a period doubling, and prod (1 - mu_i mu_j), i < j, where a pair meets the unit
+circle (Neimark-Sacker if the pair is complex). For a symmetric orbit mu are the multipliers over half a period followed
+by mirroring, and mu = -1 breaks the symmetry. A symmetric orbit cannot double its period otherwise (Swift and
+Wiesenfeld 1984). Folds and branch points (mu = 1) are found by the continuation instead.
 
-The unknowns of a module that takes no part are held at the constants `rest`: its angles at 0 and its size, C_i or I_i,
-at 1, so that a size of 0 always means a ball without speed. Its amplitude is NaN.
+The unknowns of an inactive module (not in `System.modules`) are held at the constants `rest`: angles at 0; sizes, C_i
+or I_i, at 1, so that a size of 0 always means a ball without speed. The amplitude of such a module is NaN.
 """
 
 from itertools import combinations
@@ -47,7 +47,7 @@ class SymmetricOrbits:
 
     @staticmethod
     def turn(system) -> float:
-        """Return a full turn of the angles among the unknowns."""
+        """Return the value of a full turn of the unknown impact times, a forcing period."""
         return system.period
 
     @classmethod
@@ -57,7 +57,7 @@ class SymmetricOrbits:
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
-        """Return the roots that are the same motion or its mirror image."""
+        """Return the roots of the same motion and of its mirror image: x alone, since both are equal."""
         return [x]
 
     @classmethod
@@ -67,7 +67,7 @@ class SymmetricOrbits:
         Raises
         ------
         Lost
-            If both modules take part in the system, and x is a response of one.
+            If both modules are active, and x is a response of one module.
         """
         _refuse_one_of_two(cls, system, x)
         residual, jacobian = cls._conditions(system)(x[None])
@@ -75,23 +75,23 @@ class SymmetricOrbits:
 
     @classmethod
     def speed(cls, x) -> float:
-        """Return the smallest C_i, or I_i, which vanishes with the least ball speed."""
+        """Return the smaller C_i (I_i for asymmetric orbits), which vanishes if a ball speed vanishes."""
         return x[cls.angles.stop :].min()
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
-        """Return C_i, shape (2,)."""
+        """Return the amplitudes C_i, shape (2,)."""
         return _of_modules(system, x[2:])
 
     @classmethod
     def member(cls, system, x):
-        """Return the Orbit of a root, its impact times brought into the first period."""
+        """Return the Orbit of a root, with impact times moved into the first period."""
         times = cls.angles.stop
         return cls._orbit(system, np.concatenate([wrapped(x[:times], system.period), x[times:]]))
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Return the functions that vanish at special points, by name."""
+        """Return the values of the test functions, by kind of special point."""
         return _tests(half_period_multipliers(orbit), SYMMETRY_BREAKING) | {GRAZING: 1 - orbit.excursion}
 
     @staticmethod
@@ -106,7 +106,7 @@ class SymmetricOrbits:
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Return True if a zero is of the kind of its name: a pair on the unit circle must be complex."""
+        """Return True if a zero of a test is a special point of its kind: a Neimark-Sacker pair must be complex."""
         mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
 
@@ -120,29 +120,29 @@ class AsymmetricOrbits(SymmetricOrbits):
 
     @classmethod
     def roots(cls, system) -> np.ndarray:
-        """Return the roots found, shape (n, 6)."""
+        """Return the roots found, shape (n, 6); some may be missed."""
         return np.where(_idle(cls, system), cls.rest, asymmetric_solutions(system)[0])
 
     @classmethod
     def images(cls, system, x) -> list[np.ndarray]:
-        """Return the roots that are the same motion or its mirror image."""
+        """Return the roots of the same motion and of its mirror image."""
         image = np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])
         return [x, np.where(_idle(cls, system), x, image)]
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
-        """Return C_i, shape (2,)."""
+        """Return the amplitudes C_i, shape (2,)."""
         u = flight_fractions(system, x)
         return _of_modules(system, sawtooth_amplitude(system.epsilon, x[4:] * u * (1 - u) * system.period))
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Return the functions that vanish at special points, by name."""
+        """Return the values of the test functions, by kind of special point."""
         return _tests(orbit.multipliers, PERIOD_DOUBLING) | {GRAZING: 1 - orbit.excursion}
 
 
 class PeriodicOrbits(AsymmetricOrbits):
-    """Motions of any period near a PeriodicOrbit: x = state at its stroboscopic instant, between two events."""
+    """Motions of any period near a PeriodicOrbit: x = state (8,) at its stroboscopic instant, between events."""
 
     angles, modules, rest = slice(0, 0), MODULES, np.zeros(8)
 
@@ -155,7 +155,7 @@ class PeriodicOrbits(AsymmetricOrbits):
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
-        """Return the root alone, without its mirror image and its shifts by forcing periods."""
+        """Return x alone; its mirror image and shifts by forcing periods are left out."""
         return [x]
 
     def equations(self, system, x):
@@ -164,7 +164,7 @@ class PeriodicOrbits(AsymmetricOrbits):
         Raises
         ------
         Lost
-            If both modules take part in the system, and x is a response of one.
+            If both modules are active, and x is a response of one module.
         """
         _refuse_one_of_two(self, system, x)
         run, idle = self._run(system, x), _idle(self, system)
@@ -172,16 +172,16 @@ class PeriodicOrbits(AsymmetricOrbits):
 
     @staticmethod
     def speed(x) -> float:
-        """Return 1: no unknown vanishes with a ball speed."""
+        """Return 1, since no unknown vanishes if a ball speed vanishes."""
         return 1.0
 
     def amplitudes(self, system, x) -> np.ndarray:
-        """Return C_i of half of each ball's mean path per cycle, shape (2,)."""
+        """Return the amplitudes C_i from half of each ball's mean path per cycle, shape (2,)."""
         return _of_modules(system, Regime(self._run(system, x), OTHER, None).mean_amplitudes)
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Return the functions that vanish at special points, by name; where a ball grazes, the branch is lost."""
+        """Return the values of the test functions, by kind; there is none for grazing, where the branch is lost."""
         return _tests(orbit.multipliers, PERIOD_DOUBLING)
 
     def member(self, system, x):
@@ -201,7 +201,7 @@ class FixedPoints:
 
     @staticmethod
     def turn(system) -> float:
-        """Return a full turn of the angles among the unknowns."""
+        """Return the value of a full turn of the unknown phases [rad]."""
         return 2 * np.pi
 
     @classmethod
@@ -212,7 +212,7 @@ class FixedPoints:
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
-        """Return the roots that are the same motion or its mirror image."""
+        """Return the roots of the same motion and of its mirror image: x alone, since both are equal."""
         return [x]
 
     @classmethod
@@ -222,7 +222,7 @@ class FixedPoints:
         Raises
         ------
         Lost
-            If both modules take part in the system, and x is a response of one.
+            If both modules are active, and x is a response of one module.
         """
         _refuse_one_of_two(cls, system, x)
         residual, jacobian, part = x - cls.rest, np.eye(4), ~_idle(cls, system)
@@ -231,12 +231,12 @@ class FixedPoints:
 
     @staticmethod
     def speed(x) -> float:
-        """Return the smallest C_i, or I_i, which vanishes with the least ball speed."""
+        """Return the smaller C_i, which vanishes if a ball speed vanishes."""
         return x[0::2].min()
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
-        """Return C_i, shape (2,)."""
+        """Return the amplitudes C_i, shape (2,)."""
         return _of_modules(system, x[0::2])
 
     @staticmethod
@@ -248,9 +248,9 @@ class FixedPoints:
 
     @staticmethod
     def tests(system, point) -> dict[str, float]:
-        """Return the functions that vanish at special points, by name.
+        """Return the values of the test functions, by kind of special point.
 
-        Where the manifold folds, one eigenvalue of the slow flow is infinite; its pole is multiplied away.
+        At a fold of the manifold one eigenvalue of the slow flow is infinite; a power of det M removes this pole.
         """
         r = rho(system.kappa)
         M = linearisation(system, point.psi, point.C)[1]
@@ -264,18 +264,18 @@ class FixedPoints:
 
     @staticmethod
     def stable(system, point) -> bool:
-        """Return True if slow flow and impact map are both stable."""
+        """Return True if the point is stable by slow flow and impact map."""
         beyond = (C_min(rho(system.kappa)) >= point.C) | (point.C >= SYMMETRY_BREAKING_C)
         return bool(not beyond.any() and (point.slow_eigenvalues.real < 0).all())
 
     @staticmethod
     def admissible(point) -> bool:
-        """Return True: all fixed points are shown."""
+        """Return True, since all fixed points are shown."""
         return True
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Return True if a zero is of the kind of its name: a pair on the imaginary axis must be complex."""
+        """Return True if a zero of a test is a special point of its kind: a Hopf pair must be complex."""
         values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
 
@@ -286,32 +286,30 @@ FAMILIES = {family.name: family for family in (SymmetricOrbits, AsymmetricOrbits
 def flight_fractions(system, x) -> np.ndarray:
     """Return the time from wall +1 to wall -1 over the period, for each module, shape (2,).
 
-    The argument is a root of the asymmetric equations.
-
-    It is 1/2 of a module that takes no part.
+    x is a root (6,) of the asymmetric equations. The fraction of an inactive module is 1/2.
     """
     u = wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
     return np.where(np.isin([1, 2], system.modules), u, 0.5)
 
 
 def _idle(family, system):
-    """Return True (d,) for the unknowns of a module that takes no part."""
+    """Return True for each unknown of an inactive module, shape (d,)."""
     part = system.modules
     return np.array([module not in part for module in family.modules])
 
 
 def _of_modules(system, values):
-    """Return the numbers of both modules, (2,), NaN of one that takes no part."""
+    """Return the values of both modules, (2,), with NaN for an inactive one."""
     return np.where(np.isin([1, 2], system.modules), values, np.nan)
 
 
 def _refuse_one_of_two(family, system, x):
-    """Refuse a response of one module where both take part.
+    """Raise Lost if x is a response of one module, although both modules are active.
 
     Raises
     ------
     Lost
-        If x is one.
+        If x is such a response.
     """
     held = np.abs(x - family.rest) < _HELD
     if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
@@ -319,13 +317,13 @@ def _refuse_one_of_two(family, system, x):
 
 
 def asymmetric_root(system, x) -> np.ndarray:
-    """Return a symmetric orbit's root (tau_1, tau_2, C_1, C_2) as one of the asymmetric equations, (6,)."""
+    """Convert the root (tau_1, tau_2, C_1, C_2) of a symmetric orbit to a root (6,) of the asymmetric equations."""
     times = np.stack([x[:2], x[:2] + system.period / 2], axis=1).ravel()
     root = np.append(times, 4 * path_of(system.epsilon, x[2:]) / system.period)
     return np.where(_idle(AsymmetricOrbits, system), AsymmetricOrbits.rest, root)
 
 
 def _tests(mu, at_minus_one):
-    """Return functions of an orbit's multipliers mu; `at_minus_one` names the special point at mu = -1."""
+    """Return the test functions of multipliers mu, by kind; `at_minus_one` is the kind at mu = -1."""
     found = {at_minus_one: 1 + mu, NEIMARK_SACKER: np.array([1 - a * b for a, b in combinations(mu, 2)])}
     return {name: float(np.prod(factors).real) for name, factors in found.items()}

@@ -1,4 +1,4 @@
-"""Follow stable asymmetric orbits as a parameter moves from value to value."""
+"""Follow stable asymmetric orbits through a list of values of a parameter."""
 
 import warnings
 from collections.abc import Iterator
@@ -11,20 +11,18 @@ from vibroimpact.studies.regimes.branches import images
 from vibroimpact.studies.regimes.families import AsymmetricOrbits
 
 SEARCHED = (0.25, 0.5, 0.75)
-"""Orbits are sought at the values these parts of the way along the list."""
+"""Positions in the list of values at which orbits are searched, as fractions of its length."""
 NEAR = 0.1
-"""Within this of the root at the last value is that at the next: the same branch, by steps as short as a slider's."""
+"""Largest change of a root from one value to the next on the same branch, for steps as short as those of a slider."""
 SAME = 1e-6
 
 
 def followed(systems: dict) -> Iterator[tuple[float, object]]:
-    """Yield the value and Orbit of each motion on the branches of the stable asymmetric orbits.
+    """Yield (value, Orbit) for each orbit on the branches of stable asymmetric orbits.
 
-    Only one of two mirror images is followed.
-
-    What is sought at a few values is followed to both sides by Newton's method, to where a branch folds, the orbit
-    leaves the walls or becomes symmetric. Branches without a stable orbit at one of those values are missed; a value at
-    a resonance of undamped boxes is skipped, with a warning if it is one of those.
+    Stable orbits are searched at a few of the values, and followed to both sides by Newton's method until the branch
+    folds, or the orbit is inadmissible or symmetric. Of two mirror images one is followed. Branches without a stable
+    orbit at the searched values are missed. A resonance of undamped boxes ends a branch; it warns at a searched value.
 
     Parameters
     ----------
@@ -45,7 +43,7 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
 
 
 def _stable(system):
-    """Return the roots of motions that are stable, one of two mirror images."""
+    """Return the roots of stable admissible orbits, one for each pair of mirror images."""
     stable = []
     try:
         roots = AsymmetricOrbits.roots(system)
@@ -60,13 +58,13 @@ def _stable(system):
 
 
 def _known(x, roots, system):
-    """Return True if a root or its mirror image is among others."""
+    """Return True if a root or its mirror image is in a list of roots."""
     near = (image - root for root in roots for image in images(AsymmetricOrbits, system, x, root))
     return any(np.abs(gap).max() < SAME for gap in near)
 
 
 def _along(values, systems, x):
-    """Yield the value, root and Orbit at each of some values in turn, next to the one before, while it is a motion."""
+    """Follow a root through the values; yield value, root and Orbit as long as the orbit is admissible."""
     for value, root in follow(lambda value: AsymmetricConditions(systems[value]), x, values, NEAR):
         orbit = AsymmetricOrbits.member(systems[value], root)
         if not orbit.admissible:

@@ -2,12 +2,12 @@
 
 The Jacobian of every cycle, saltation matrices included (Müller 1995), propagates a frame of perturbations, which is
 orthonormalised by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990). The logarithms of the diagonal of R
-are the growth of that cycle. The initial time is not perturbed: the flow in the extended phase space has one more
-exponent, 0, and its attractor one more dimension.
+are the growth in this cycle. The initial time is not perturbed: the flow in phase space extended by time has one more
+exponent, 0, and its attractor has one more dimension.
 
-A ball that sticks loses two directions; two balls that stick at once lose four. If that happens with a positive
-frequency, almost every point of the attractor has it in its past: four exponents are -inf, and the dimension is at most
-4. `Spectrum.without_double_sticks` excludes such cycles.
+If a ball sticks, two directions are lost; if both balls stick at the same time, four. If such double sticks have a
+positive frequency, almost every point of the attractor has one in its past. Four exponents are then -inf, and the
+dimension is at most 4. `Spectrum.without_double_sticks` excludes these cycles.
 """
 
 from dataclasses import dataclass
@@ -25,8 +25,8 @@ from vibroimpact.system.state import idle_at_rest, takes_part
 
 BOTH = 2
 AT_ONCE = 1000
-"""Cycles that are simulated at a time."""
-_OTHERS = np.random.default_rng(1).normal(size=(8, 7))  # a frame with a pattern may span too little
+"""Number of forcing cycles that are simulated in one run."""
+_OTHERS = np.random.default_rng(1).normal(size=(8, 7))  # random, since a regular frame may miss a direction
 _VECTORS = np.column_stack([np.ones(8), _OTHERS])
 _MOST = 10_000_000
 _MOST_RESAMPLES = 1_000_000
@@ -35,9 +35,9 @@ _MOST_RESAMPLES = 1_000_000
 class Exponent(NamedTuple):
     """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
-    The error is the root of the sum of two squares: of the standard error from block means, and of ln(t1 / t0) / (t1 -
-    t0), the apparent rate between the ends t0 and t1 of the blocks of a perturbation that grows linearly in time. The
-    true exponent of such a perturbation, for example of a ball at rest, is 0.
+    The error is the root of the sum of squares of the standard error from block means and of ln(t1 / t0) / (t1 - t0).
+    The latter is the apparent rate, over the blocks from t0 to t1, of a perturbation that grows linearly in time. The
+    true exponent of such a perturbation, for example for a ball at rest, is 0.
     """
 
     mean: float
@@ -57,7 +57,7 @@ def largest_lyapunov(
 
     An exponent above about three errors indicates chaos. For a periodic motion it is the logarithm of the modulus of
     the largest Floquet multiplier, over the period. It is computed from the exact Jacobian through impacts, chatter and
-    sticking, for the modules that take part.
+    sticking, for the active modules.
 
     Parameters
     ----------
@@ -68,12 +68,12 @@ def largest_lyapunov(
     cycles : int, default 2000
         Forcing periods to average over, a multiple of `blocks`.
     settle : int, default 1000
-        Forcing periods of the transient. Increase it for slow transients. With several attractors the initial state
-        decides (`basins`).
+        Forcing periods of the transient. Increase it for slow transients. If there are several attractors, the
+        initial state selects one (`basins`).
     blocks : int, default 20
-        Number of blocks of `cycles`, at least 2, whose scatter gives the error.
+        Number of blocks into which `cycles` are divided, at least 2; their scatter gives the error.
     discarded : int, default 10
-        Blocks before those, for the perturbation to turn to the direction of largest growth.
+        Number of earlier blocks, in which the perturbation turns to the direction of largest growth.
 
     Returns
     -------
@@ -122,12 +122,13 @@ class Spectrum:
     Attributes
     ----------
     growth : ndarray
-        Growth of the eight directions in each of n cycles, (n, 8), or (n, 4) if one module takes part. A ball that
-        sticks loses the memory of how it came to its wall: two growths are -inf, or four if both balls stick at once.
+        Logarithm of the growth in eight directions in each of n cycles, (n, 8), or (n, 4) if one module is active. A
+        ball that sticks loses the memory of how it came to its wall: two of the values are -inf, or four if both balls
+        stick at the same time.
     contraction : ndarray
-        Contraction of volume in each cycle in closed form, (n,), the sum of the growths.
+        Logarithm of the contraction of volume in each cycle, in closed form, (n,); the sum of `growth`.
     stuck : ndarray
-        Largest number of balls that stick at one time in each cycle, (n,).
+        Largest number of balls that stick at the same time in each cycle, (n,).
     """
 
     growth: np.ndarray
@@ -136,13 +137,13 @@ class Spectrum:
 
     @property
     def double_sticks(self) -> int:
-        """Number of cycles in which both balls stick at once."""
+        """Number of cycles in which both balls stick at the same time."""
         return int(np.count_nonzero(self.stuck == BOTH))
 
     def without_double_sticks(self) -> "Spectrum":
-        """Return the spectrum over the cycles in which the balls do not both stick at once.
+        """Return the spectrum over the cycles in which the balls do not stick at the same time.
 
-        It depends little on the number of such cycles in a run. Four of its directions start again after each of them
+        The result depends little on the number of excluded cycles. After each of these, four directions start again
         and align within about ten cycles, which are included.
         """
         others = self.stuck < BOTH
@@ -150,7 +151,7 @@ class Spectrum:
 
     @property
     def exponents(self) -> np.ndarray:
-        """Lyapunov exponents, (8,), or (4,) if one module takes part, per forcing period, in nats."""
+        """Lyapunov exponents, (8,), or (4,) if one module is active, per forcing period, in nats."""
         return self.growth.mean(axis=0)
 
     @property
@@ -194,9 +195,9 @@ class Spectrum:
 def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000, discarded: int = 100) -> Spectrum:
     """Return all Lyapunov exponents of the motion reached from an initial state, in nats per period.
 
-    They are the exponents of the map from one forcing period to the next; the exponent 0 of the time itself is not
+    The exponents are those of the map from one forcing period to the next; the exponent 0 of a shift in time is not
     included. A ball that sticks loses two directions, whose exponents are -inf. A perturbation that grows linearly in
-    time t, as for a ball at rest, has the apparent exponent ln(t) / t, which no error covers.
+    time t, as for a ball at rest, has the apparent exponent ln(t) / t, which the errors do not include.
 
     Parameters
     ----------
@@ -205,12 +206,12 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     state, cycles, settle
         As for `largest_lyapunov`.
     discarded : int, default 100
-        Forcing periods before those, for the perturbations to turn to their directions.
+        Number of earlier forcing periods, in which the perturbations turn to their directions.
 
     Returns
     -------
     Spectrum
-        .exponents, largest first, shape (8,), or (4,) if one module takes part (`PhysicalSystem.single`);
+        .exponents, largest first, shape (8,), or (4,) if one module is active (`PhysicalSystem.single`);
         .errors(block); .dimension (Kaplan-Yorke); .without_double_sticks().
 
     Raises
@@ -233,7 +234,7 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
         rates = np.log(factors)
-    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # rounding in floats
+    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # floats give rounding errors instead
     return Spectrum(_largest_first(rates), contraction(system, impacts, stuck), stuck)
 
 
@@ -242,10 +243,10 @@ def _largest_first(rates):
 
 
 def contraction(system, impacts, stuck) -> np.ndarray:
-    """Return the logarithm of the contraction of volumes of states in each cycle, shape (n,).
+    """Return the logarithm of the contraction of volume in state space in each cycle, shape (n,).
 
-    A flight contracts volumes by exp(-tr D t), D being the damping matrix of the modules that take part. An impact
-    contracts them by kappa^2: in the coordinates gap, rate of the gap and motion of the centre of mass, its saltation
+    A flight of time t contracts volume by exp(-tr(D) t), with the damping matrix D of the active modules. An impact
+    contracts it by kappa^2: in the coordinates gap, rate of the gap and motion of the centre of mass, the saltation
     matrix is triangular, with -kappa for the gap and -kappa for the rate. A ball that sticks leaves no volume: -inf.
     """
     damping = np.diag(damping_matrix(system))[takes_part(system)[[0, 2]]].sum()
@@ -256,9 +257,8 @@ def contraction(system, impacts, stuck) -> np.ndarray:
 def kaplan_yorke(exponents) -> float:
     """Return the Kaplan-Yorke dimension (1979) of exponents (n,), largest first.
 
-    It is the dimension at which volumes neither grow nor shrink.
-
-    The sum of the largest exponents, interpolated linearly in their number, is 0 there; 0 if all are negative.
+    In this dimension volumes neither grow nor shrink: it is the number of largest exponents, interpolated linearly, at
+    which their sum is 0. If all exponents are negative, the dimension is 0.
     """
     exponents = np.asarray(exponents)
     sums = np.cumsum(exponents)
@@ -269,7 +269,7 @@ def kaplan_yorke(exponents) -> float:
 
 
 def _frame_growth(system, state, runs, directions):
-    """Yield, for each of several consecutive runs with given cycles, the growth of a tangent frame."""
+    """Simulate consecutive runs of given numbers of cycles; yield for each the growth of a tangent frame."""
     places = np.flatnonzero(takes_part(system))
     frame, state = np.zeros((8, directions)), idle_at_rest(system, state)
     frame[places] = np.linalg.qr(_VECTORS[: len(places), : len(places)])[0][:, :directions]

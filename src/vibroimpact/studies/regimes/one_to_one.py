@@ -1,4 +1,4 @@
-"""Largest displacements and impact shares of the symmetric 1:1 responses: by the theory, and exact."""
+"""Compute largest displacements and impact shares of symmetric 1:1 responses, by the theory and exactly."""
 
 from dataclasses import dataclass
 
@@ -10,15 +10,15 @@ from vibroimpact.theory.fixed_points.symmetric_points import search
 from vibroimpact.theory.response import leading_order, mean_power
 
 SAMPLES = 512
-"""Samples in half a period: a maximum between two of them is larger by 5e-6 of itself at most."""
+"""Number of samples in half a period; their maximum is below the true maximum by at most 5e-6 of its value."""
 
 
 @dataclass(frozen=True, eq=False)
 class Amounts:
     """Summary of a response.
 
-    largest: (2,), the largest |X_i|. impact_share: part of the work of the forces that impacts dissipate.
-    stable: by slow flow and impact map, or by all multipliers.
+    largest: (2,), the largest |X_i|. impact_share: share of the work of the forces that impacts dissipate.
+    stable: by slow flow and impact map for the theory, by all multipliers for an exact orbit.
     """
 
     largest: np.ndarray
@@ -27,7 +27,7 @@ class Amounts:
 
 
 def by_theory(system) -> list[Amounts]:
-    """Return the responses to leading order, (10.9), (10.10), at every fixed point of (10.23)."""
+    """Return the Amounts for each fixed point of (10.23), to leading order, (10.9), (10.10)."""
     tau = np.linspace(0.0, system.period / 2, SAMPLES)
     return [
         Amounts(
@@ -40,7 +40,7 @@ def by_theory(system) -> list[Amounts]:
 
 
 def by_exact_orbits(system) -> list[Amounts]:
-    """Return the on every symmetric orbit that is a motion of the system, from the closed form of one period.
+    """Return the Amounts for each admissible symmetric orbit, from an exact run over one period.
 
     Raises
     ------

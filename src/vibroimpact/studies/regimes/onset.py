@@ -1,4 +1,4 @@
-"""Find forces along a path at which the response is modulated: predicted by the slow flow, and simulated."""
+"""Find the forces along a path at which the response is modulated, by the slow flow and by simulation."""
 
 import numpy as np
 
@@ -9,20 +9,20 @@ FORCES = {"f10_hat", "f20_hat"}
 COLUMNS = ["path", "source", "first", "last", "uncertainty", "agreement"]
 SLOW_FLOW, SIMULATION = "slow flow", "simulation"
 _FOLLOWED = 300, 300
-"""Cycles of the window and of the transient, in which a ball may leave resonance forever."""
+"""Forcing cycles of the window and of the transient before it, in which a ball may leave resonance for good."""
 
 
 def predicted(path, values) -> np.ndarray:
-    """Return True, shape (n,), where the slow flow predicts relaxation oscillations.
+    """Return True for each value, shape (n,), at which the slow flow predicts relaxation oscillations.
 
-    There a ball enters and leaves resonance forever, see `theory.relaxation`.
+    In these a ball enters and leaves resonance again and again, see `theory.relaxation`.
 
     Parameters
     ----------
     path
-        Value -> system, along forces alone.
+        Function from a value to the system; only forces vary.
     values
-        (n,).
+        Values of the parameter of the path, shape (n,).
     """
     forces = [(system.f10_hat, system.f20_hat) for system in map(path, values)]
     share = relax(path.system, *_FOLLOWED, forces=forces).share
@@ -30,13 +30,13 @@ def predicted(path, values) -> np.ndarray:
 
 
 def observed(values, p, names) -> np.ndarray:
-    """Return True, shape (n,), where an initial state ends in a modulated or chaotic response."""
+    """Return True for each of `values`, (n,), at which an initial state ends in a modulated or chaotic response."""
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
 
 
 def longest_range(values, flags) -> tuple[float, float]:
-    """Return the first and last of the longest unbroken sequence of values (n,) with a flag; nan if none has one."""
+    """Return the first and last value of the longest unbroken range of values (n,) with a True flag, or nan."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
     if not len(edges):
         return np.nan, np.nan
@@ -50,12 +50,12 @@ def onsets(path, values, p, names) -> list[tuple]:
     Parameters
     ----------
     path, values
-        As for `predicted`, values evenly spaced.
+        As for `predicted`; the values are evenly spaced.
     p, names
-        Where starts are, and what they end in.
+        Value of the parameter at each initial state, and the regime that the state ends in.
 
-    Returns two rows of COLUMNS: names of the path, source, ends of the longest range, spacing, agreement; none if
-    something else than forces changes along the path.
+    Returns two rows with COLUMNS: names of the path, source, both ends of the longest range, spacing of the values,
+    agreement. The list is empty if other parameters than forces vary along the path.
     """
     if not set(path.names) <= FORCES:
         return []

@@ -34,15 +34,15 @@ class Observation:
     Parameters
     ----------
     cycles, rounds : int
-        Each initial state runs for up to `rounds` times `cycles` forcing periods, until it repeats.
+        Each initial state runs for up to `rounds` times `cycles` forcing periods, until the motion repeats.
     window : int
         Forcing periods in which a repetition is searched, see `classify_after`.
     nearness : float
-        Tolerance of displacements, see `classify_after`.
+        Largest difference of displacements in a repetition, see `classify_after`.
     blocks, block : int
         Number of blocks and forcing periods per block for the Lyapunov exponent of a motion that does not repeat.
     retest : int
-        Forcing periods of the test of such a motion.
+        Forcing periods of a longer run that tests the classification of such a motion.
 
     Raises
     ------
@@ -72,16 +72,16 @@ class Observation:
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
     """Return the regime that each initial state ends in, in order.
 
-    The classification of a motion that does not repeat is tested: one of the initial states with this name, the
-    witness, continues for `retest` cycles; up to MOST_WITNESSES do if another one has become periodic, since chaos may
-    be transient. If all witnesses keep a name of this kind, all members get the name of a longer run. If a witness ends
-    elsewhere, all members continue for as long; those that have not settled by then are unsettled. Unsettled ones
-    continue as well.
+    Classifications of motions that do not repeat are tested, one name after another. One initial state with this name,
+    the witness, continues for `retest` cycles. If any initial state has become periodic, there are up to MOST_WITNESSES,
+    since chaos may be transient. If all witnesses keep a name of the same kind, all members get the name that the last
+    witness has then. Otherwise all members continue for `retest` cycles, and those still of this kind are unsettled.
+    Motions that cannot be classified also continue for `retest` cycles.
 
     Parameters
     ----------
     states
-        Initial states (n, 8) at tau = 0; a module that takes no part is put at rest.
+        Initial states (n, 8) at tau = 0; an inactive module is put at rest.
     observation : Observation
         Lengths of the runs.
     progress : bool, default False
@@ -90,7 +90,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     first = _rounds(system, idle_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        now = first if name in CHAOS else regimes  # replaced by what chaos has turned into
+        now = first if name in CHAOS else regimes  # the latter include motions that chaos has turned into
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
             _try(system, regimes, members, observation, progress)
@@ -98,9 +98,9 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
 
 
 def _rounds(system, states, observation, progress):
-    """Return the regimes after the rounds.
+    """Return the regime of each initial state after all rounds.
 
-    Motions that do not repeat are classified, and continue if that fails.
+    Motions that do not repeat are classified after the last round, and continue if the classification fails.
     """
     found: list[Regime | None] = [None] * len(states)
     waiting, now = np.arange(len(states)), states
@@ -119,7 +119,7 @@ def _rounds(system, states, observation, progress):
 
 
 def named(run, observation: Observation) -> Regime:
-    """Return the regime at the end of a run, with a classification of motions that do not repeat."""
+    """Return the regime at the end of a run, also for a motion that does not repeat."""
     regime = classify_after(run.system, run.final, observation.window, observation.nearness)
     if regime.name == UNSETTLED:
         return replace(regime, name=name_aperiodic(run, observation.blocks, observation.block))
@@ -136,7 +136,7 @@ def _later(system, regime, observation):
 
 
 def _try(system, regimes, members, observation, progress):
-    """Rename, in place, the members of one name by the ends of their witnesses."""
+    """Test the regime that `members` share by longer runs, and update `regimes` in place (see `settle`)."""
     before = regimes[members[-1]].name
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
@@ -157,5 +157,5 @@ def _run_on(system, regimes, places, observation, progress):
 
 
 def _same_kind(before, after):
-    """Return True if a motion is still of the same kind; the degree of resonance of chaos may change."""
+    """Return True if two names are of the same kind; all names of chaos are of one kind."""
     return before == after or (before in CHAOS and after in CHAOS)

@@ -1,4 +1,4 @@
-"""Lyapunov spectra of motions, as rows of a table."""
+"""Compute Lyapunov spectra of motions, and the rows of their table."""
 
 from typing import NamedTuple
 
@@ -12,9 +12,9 @@ DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 
 
 class Watched(NamedTuple):
-    """Spectrum of a motion without the cycles in which both balls stick at once.
+    """Spectrum of a motion without the cycles in which both balls stick at the same time.
 
-    errors, dimension_error: bootstrap errors of its exponents and of its dimension. double_sticks: number of cycles
+    errors, dimension_error: bootstrap errors of the exponents and of the dimension. double_sticks: number of cycles
     left out.
     """
 
@@ -27,7 +27,7 @@ class Watched(NamedTuple):
 def watch(system, states, cycles: int, block: int) -> list[Watched]:
     """Return the spectrum of each motion over `cycles` cycles after a transient of ten blocks.
 
-    The blocks are those of the bootstrap, which needs at least two.
+    `block` is the number of cycles per block of the bootstrap; it is reduced to half of `cycles` if it is larger.
     """
     found, block = [], max(1, min(block, cycles // 2))
     for state in states:
@@ -41,9 +41,9 @@ def watch(system, states, cycles: int, block: int) -> list[Watched]:
 def rows(key: dict, found) -> list[dict]:
     """Return the rows of the table for motions of one regime.
 
-    Each row has the mean, the standard error over motions, and the mean bootstrap error of one motion.
+    Each row has the mean over motions, its standard error, and the mean of the bootstrap errors of single motions.
 
-    Sum and contraction are of the cycles in which no ball sticks. Double sticks are counted over all motions.
+    Sum and contraction are means over the cycles in which no ball sticks. Double sticks are counted over all motions.
     """
     size = found[0].spectrum.growth.shape[1]
     columns = {f"exponent {k + 1}": [(one.spectrum.exponents[k], one.errors[k]) for one in found] for k in range(size)}
@@ -56,16 +56,16 @@ def rows(key: dict, found) -> list[dict]:
 
 
 def _rate(count, others):
-    """Return the rate of rare events and its standard error.
+    """Return the rate of rare events per OF_CYCLES cycles, and its standard error.
 
-    The error assumes Poisson counts, and that of one event where none was met.
+    The error assumes Poisson statistics; if there was no event, it is the error for one event.
     """
     scale = OF_CYCLES / (count + others)
     return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}
 
 
 def _free(one, values):
-    """Return the mean over the cycles in which no ball sticks."""
+    """Return the mean of the values over the cycles in which no ball sticks."""
     return values[one.stuck == 0].mean()
 
 
