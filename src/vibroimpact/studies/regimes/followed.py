@@ -22,7 +22,8 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
 
     Stable orbits are searched at a few of the values, and followed to both sides by Newton's method until the branch
     folds, or the orbit is inadmissible or symmetric. Of two mirror images one is followed. Branches without a stable
-    orbit at the searched values are missed. A resonance of undamped boxes ends a branch; it warns at a searched value.
+    orbit at the searched values are missed. A resonance of undamped boxes ends a branch; at a searched value there is a
+    warning.
 
     Parameters
     ----------

@@ -73,7 +73,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     """Return the regime that each initial state ends in, in order.
 
     Classifications of motions that do not repeat are tested, one name after another. One initial state with this name,
-    the witness, continues for `retest` cycles. If any initial state has become periodic, there are up to MOST_WITNESSES,
+    the witness, continues for `retest` cycles; if any initial state has become periodic, up to MOST_WITNESSES continue,
     since chaos may be transient. If all witnesses keep a name of the same kind, all members get the name that the last
     witness has then. Otherwise all members continue for `retest` cycles, and those still of this kind are unsettled.
     Motions that cannot be classified also continue for `retest` cycles.
