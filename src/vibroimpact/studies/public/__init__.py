@@ -1,1 +1,1 @@
-"""Studies in one call, as `import vibroimpact` offers them."""
+"""Studies in one call, as they are available from `import vibroimpact`."""

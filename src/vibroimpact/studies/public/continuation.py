@@ -25,7 +25,7 @@ FAMILIES = {
 }
 _MOST_SEEDS = 1000
 _STEPS, _CURVE_STEPS = 10, 20
-"""Number of longest steps over a range, for branches and for curves of special points."""
+"""Length of the range divided by the longest step, for branches and for curves of special points."""
 
 
 def branches(
@@ -56,7 +56,7 @@ def branches(
         (`periodic_orbit`). Its branch ends as "lost" where a ball grazes or an event meets the stroboscopic instant.
     seeds : int, default 5
         Number of values in `between` at which to search for motions. Branches that pass none of these values and
-        emanate from no other branch are missed. Of one motion, there is no search.
+        emanate from no other branch are missed. For one given motion there is no search.
     progress : bool, default True
         Report family and parameter on standard error, if it is a terminal; "exact" takes about ten seconds.
 
@@ -64,10 +64,9 @@ def branches(
     -------
     list of Branch
         Each branch has .family; .nodes in order, of which the first and last may lie one step beyond `between`;
-        .special, the special ones; and .closed, True if it returns to its first node, which is then its last one too. A
-        node has .p, the parameter, .amplitudes C_1, C_2, .kind (the type of special point, or ""), .stable and
-        .admissible. `to_frame` returns a row per node of each piece between special points; these belong to both
-        pieces.
+        .special, the special nodes; and .closed, True if its last node is also its first. A node has .p, the parameter,
+        .amplitudes C_1, C_2, .kind (the type of special point, or ""), .stable and .admissible. `to_frame` returns one
+        row per node of each piece between special points; a special point has a row in both pieces.
 
     Raises
     ------
@@ -123,12 +122,12 @@ def bifurcation_curves(
     along : tuple of str
         Two parameters of System.
     between : tuple of tuple of float
-        First and last value of each, ((low, high), (low, high)).
+        First and last value of each parameter, ((low, high), (low, high)).
     of : str, default 'theory'
         "theory" (fixed points of the slow flow), "exact" (orbits) or "both".
     seeds : int, default 3
-        Number of values of the second parameter, evenly spaced inside its range; a curve that passes none of them is
-        missed.
+        Number of values of the second parameter at which to search, evenly spaced inside its range. A curve that passes
+        none of these values is missed.
     progress : bool, default True
         Report the current family and parameters on standard error, if it is a terminal; "exact" takes minutes.
 
@@ -188,7 +187,7 @@ def bifurcation_curves(
 
 
 def with_parameters(known, names) -> tuple[str, ...]:
-    """Return the names if they are parameters of System.
+    """Return the names as a tuple if all are in `known`, the parameters of System.
 
     Raises
     ------
@@ -202,7 +201,7 @@ def with_parameters(known, names) -> tuple[str, ...]:
 
 
 def _with(system, names) -> System:
-    """Return the system if it has parameters of these names."""
+    """Return the system if all names are parameters of System, else raise ValueError."""
     with_parameters(asdict(instance("system", system, System)), names)
     return system
 
@@ -221,7 +220,7 @@ def _families(of):
 
 
 def _report(words, progress) -> Callable:
-    """Return a function that reports values of parameters after the words given."""
+    """Return a function that writes a progress line: `words`, then the values of parameters."""
     return lambda *values: (
         wants_progress(progress) and write_line(f"{words} {', '.join(f'{value:.4g}' for value in values)}")
     )

@@ -12,27 +12,27 @@ _STEP = 100  # cycles of the transient per line of progress
 
 
 def sections(systems, states, cycles: int, settle: int = 0, progress: bool = True) -> np.ndarray:
-    """Return stroboscopic Poincare sections of many runs: states at the end of every cycle once settled.
+    """Return stroboscopic Poincare sections of many runs: the state at the end of every cycle after the transient.
 
     For a list of systems with one varied parameter, the result is a bifurcation diagram.
 
     Parameters
     ----------
     systems, states : System or array_like, array_like
-        Combined as by `ensemble`: one System or an array of them, and initial states (..., 8) at tau = 0. A module that
-        takes no part (`PhysicalSystem.single`) is put at rest.
+        Combined as by `ensemble`: one System or an array of them, and initial states (..., 8) at tau = 0. An inactive
+        module (as in `PhysicalSystem.single`) is put at rest.
     cycles : int
         Forcing periods of each run.
     settle : int, default 0
-        Forcing periods of the transient among them, which are omitted.
+        Forcing periods of the transient, the first ones of `cycles`, which are omitted.
     progress : bool, default True
-        Count the steps (of 100 cycles, then of 1) on standard error, if it is a terminal.
+        Count the steps on standard error, if it is a terminal. A step is 100 cycles of the transient, or 1 after it.
 
     Returns
     -------
     ndarray
-        States (..., cycles - settle, 8), dimensionless, in the broadcast shape; nan once a run has failed (`ensemble`
-        gives the reason).
+        States (..., cycles - settle, 8), dimensionless, in the broadcast shape; nan after a run has failed
+        (`ensemble` gives the reason).
 
     Raises
     ------

@@ -42,23 +42,24 @@ def sweep(
     axes : mapping
         Values of one or two parameters, by name.
     observe : sequence of str
-        Any of "amplitudes" (largest |X_i|, root mean square, mean ball speeds), "envelopes" (amplitude per cycle, 5 %
-        and 95 % quantiles), "energy" (share of the impacts in the work of the forces), "peaks" (amplitude exceeded by
-        one cycle in a hundred along a band), "regimes" (share of the initial states that end in each, and the regime
-        reached from rest), which simulate all initial states; "fixed_points" (their number, and the number of stable
-        ones by the theory) and "orbits" (number of exact 1:1 orbits, and of stable ones).
+        Names of observations. These simulate all initial states: "amplitudes" (largest |X_i|, root mean square, mean
+        ball speeds), "envelopes" (5 % and 95 % quantiles of the amplitude per cycle), "energy" (share of the work of
+        the forces that impacts dissipate), "peaks" (amplitude exceeded by one cycle in a hundred along a band) and
+        "regimes" (share of the initial states that end in each regime, and the regime reached from rest). These do not:
+        "fixed_points" (number of fixed points of the theory and of stable ones) and "orbits" (the same for exact 1:1
+        orbits).
     starts : int, default 5
-        Number of initial states, evenly spread, the first at rest. From rest a ball may stay idle that moves from any
-        other initial state.
+        Number of initial states, evenly spread, the first at rest. A ball may stay idle from rest, although it moves
+        from any other initial state.
     seed : int, default 0
         Seed of the scrambling of the initial states.
     cycles : int, default 1000
         Forcing periods of each run; "regimes" uses those of `observation`.
     settle : int, default 800
-        Forcing periods of the transient among them. At equal forces most motions still change after 400, none after
-        2000 (docs/howto.md).
+        Forcing periods of the transient, the first ones of `cycles`. At equal forces most motions still change after
+        400 cycles, none after 2000 (docs/howto.md).
     band : mapping, optional
-        For "peaks": values, by name, of the parameter along which the highest peak is searched.
+        For "peaks": name and values of the parameter along which the highest peak is searched.
     observation : Observation, optional
         For "regimes": length of the runs.
     progress : bool, default True
@@ -106,7 +107,7 @@ def sweep(
 
 
 def _axes(name, given, known) -> list[Axis]:
-    """Return the axes of single parameters from their values by name."""
+    """Return one Axis per parameter, from the values of each parameter by name."""
     if not isinstance(given, Mapping):
         raise ValueError(f"{name}: needs values by parameter, such as {{'f20_hat': [0.8, 1.0]}}")
     with_parameters(known, given)
@@ -118,7 +119,7 @@ def _axes(name, given, known) -> list[Axis]:
 
 
 def _band(given, known, axes) -> dict:
-    """Return the arguments of `grid.axis` for the band of peaks."""
+    """Return the arguments of `grid.axis` for the band along which peaks are searched."""
     if given is None:
         raise ValueError("band: missing; 'peaks' requires a band, such as band={'sigma_e_hat': [-1.0, 0.0, 1.0]}")
     found = _axes("band", given, known)
