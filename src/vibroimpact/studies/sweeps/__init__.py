@@ -1,1 +1,1 @@
-"""Sweeps: one or two parameters moved over a grid, observations at each point, and their cost."""
+"""Sweeps of one or two parameters over a grid: observations at each point, and their cost."""

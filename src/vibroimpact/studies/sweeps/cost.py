@@ -4,19 +4,19 @@ import math
 from collections.abc import Mapping
 
 RUNS = ("amplitudes", "envelopes", "energy")
-"""Observations that simulate every start over `cycles`; "peaks" does so along its band, "regimes" as it settles."""
+"""Observations with one run over `cycles` per initial state; "peaks" and "regimes" also simulate, but differently."""
 CYCLE = 5e-6
-"""Core seconds of a forcing cycle of one start, observed (`make benchmark`; a settled cycle has four impacts)."""
+"""Core seconds per forcing cycle of one run, as measured by `make benchmark` (a settled cycle has four impacts)."""
 POINT = 0.01
-"""Core seconds of a point without its simulations: flow tables, fixed points, orbits."""
+"""Core seconds per point without simulations, for flow tables, fixed points and orbits."""
 RETESTED = 0.1
-"""Assumed share of motions that do not repeat and are tested over `retest` cycles."""
+"""Assumed share of motions that do not repeat, and are therefore tested over `retest` cycles."""
 MOST_TILES = 10_000
 """Largest number of tiles, each of which is a file and a job."""
 
 
 def points(axes: list[Mapping]) -> int:
-    """Return the number of points of a grid over axes as the config has them."""
+    """Return the number of points of a grid, from its axes as written in the configuration."""
     return math.prod(_values(axis) for axis in axes)
 
 
@@ -26,7 +26,7 @@ def core_seconds(request: Mapping) -> float:
     Parameters
     ----------
     request : Mapping
-        "axes" and "spec", as for `vibroimpact.studies.sweeps.request.parsed`.
+        "axes" and "spec" as for `vibroimpact.studies.sweeps.request.parsed`.
     """
     spec, observation = request["spec"], request["spec"].get("observation")
     starts, cycles = spec.get("starts", 0), spec.get("cycles", 0)
@@ -40,7 +40,7 @@ def core_seconds(request: Mapping) -> float:
 
 
 def tiles(request: Mapping, seconds: float) -> int:
-    """Return the number of tiles of about the given core seconds each, at most one per point."""
+    """Return the number of tiles that take about `seconds` core seconds each, at most one tile per point."""
     return max(1, min(math.ceil(core_seconds(request) / seconds), points(request["axes"]), MOST_TILES))
 
 

@@ -1,4 +1,4 @@
-"""Grid of a sweep: the values of parameters that vary alone or together, and the systems at its points."""
+"""Grid of a sweep: values of its parameters, alone or together on an axis, and the system at each point."""
 
 import math
 from collections.abc import Sequence
@@ -11,20 +11,20 @@ from vibroimpact.system import System
 
 LINEAR, LOGARITHMIC = "linear", "logarithmic"
 SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
-"""Spacings of the values of an axis between its ends."""
+"""Spacing of the values of an axis, by name."""
 LEAPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
-"""Steps whose multiples modulo 1 spread evenly over a line, over a square (Roberts 2018)."""
+"""Steps by dimension; their multiples modulo 1 spread evenly over a line or a square (Roberts 2018)."""
 
 
 @dataclass(frozen=True)
 class Axis:
-    """Dimensionless parameters that vary together; a value applies to all, or has one number for each."""
+    """Dimensionless parameters that vary together; each value is one number for all, or a tuple with one for each."""
 
     along: tuple[str, ...]
     values: tuple[float | tuple[float, ...], ...]
 
     def place(self, value) -> dict[str, float]:
-        """Return the value of each parameter of the axis, by name, at one of its values."""
+        """Return the value of each parameter by name, at one value of the axis."""
         return dict(zip(self.along, np.broadcast_to(value, len(self.along)).tolist(), strict=True))
 
 
@@ -39,15 +39,15 @@ def axis(
 ) -> Axis:
     """Return the axis of one parameter, or of several that vary together.
 
-    Values are `values` points of a range, ends included; the midpoints of `cells` equal cells of it; or a list. With
-    `tuples`, each point has a value for each parameter.
+    The values are `values` points of a range, ends included, or the midpoints of `cells` equal cells of the range, or
+    the list `listed`. With `tuples` instead, each point has one value per parameter.
 
     Parameters
     ----------
     along : sequence of str
         Names of parameters of System.
     scale : str, default LINEAR
-        One of SPACED, of values.
+        Spacing of `values` points, a key of SPACED.
     """
     if tuples is not None:
         return Axis(tuple(along), tuple(tuple(map(float, values)) for values in tuples))
@@ -57,12 +57,12 @@ def axis(
 
 
 class Grid:
-    """The points of a sweep, numbered from 0, those of the last axis fastest.
+    """The points of a sweep, numbered from 0; the last axis varies fastest.
 
     Parameters
     ----------
     system
-        Whose other parameters are kept. axes: one or two.
+        System with the values of all other parameters. axes: one or two.
     """
 
     def __init__(self, system: System, axes: Sequence[Axis]):
@@ -73,7 +73,7 @@ class Grid:
         return math.prod(self.shape)
 
     def place(self, number: int) -> dict[str, float]:
-        """Return the value of every varied parameter, by name, at a point."""
+        """Return the value of each varied parameter by name, at a point."""
         places = np.unravel_index(number, self.shape)
         at = zip(self.axes, places, strict=True)
         return {name: value for axis, k in at for name, value in axis.place(axis.values[k]).items()}
@@ -84,7 +84,7 @@ class Grid:
         Raises
         ------
         ValueError
-            If there is no valid system; the message names the point.
+            If the point does not give a valid system; the message names the point.
         """
         place = self.place(number)
         try:
@@ -94,7 +94,7 @@ class Grid:
             raise ValueError(f"at {where}: {error}") from None
 
     def tile(self, number: int, tiles: int) -> range:
-        """Return the points of a tile, counted from 1.
+        """Return the numbers of the points of a tile; tiles are counted from 1.
 
         A tile has every `tiles`-th point, so that all tiles take about the same time.
         """

@@ -1,4 +1,4 @@
-"""Observations of a sweep at a point; each is a function from a system to the values of its columns."""
+"""Compute the observations of a sweep at a point; each one is a function that returns the values of its columns."""
 
 import numpy as np
 
@@ -17,13 +17,13 @@ from vibroimpact.system.state import idle_at_rest
 
 FROM_REST = "from_rest"
 LOW, HIGH = 0.05, 0.95
-"""Quantiles of the amplitudes per cycle that form an envelope."""
+"""Quantiles of the amplitude per cycle that bound an envelope."""
 
 
 def observed(system, spec: Spec) -> dict:
-    """Return the columns of all observations at one point, as Python numbers.
+    """Return the values of all observations at one point by column, as Python numbers.
 
-    A module that takes no part is at rest.
+    An inactive module is put at rest.
     """
     states = idle_at_rest(system, spread_starts(spec.starts, spec.seed)) if spec.runs else None
     row = {}
@@ -33,13 +33,13 @@ def observed(system, spec: Spec) -> dict:
 
 
 def _regimes(system, states, spec):
-    """Return the shares of the regimes of all initial states, and the regime reached from rest."""
+    """Return the share of the initial states that end in each regime, and the regime reached from rest."""
     names = [regime.name for regime in settle(system, states, Observation(**spec.observation))]
     return *(names.count(name) / len(names) for name in REGIMES), names[0]
 
 
 def _amplitudes(system, states, spec):
-    """Return the largest |X_i|, the root mean square of X_i and the mean ball speeds, over all starts."""
+    """Return largest |X_i|, root mean square of X_i and mean ball speeds over all starts, and the unfinished runs."""
     runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
     if not len(done):
@@ -49,7 +49,7 @@ def _amplitudes(system, states, spec):
 
 
 def _envelopes(system, states, spec):
-    """Return the quantiles LOW and HIGH of the amplitude of X_i per cycle, over the cycles of all starts."""
+    """Return the quantiles LOW and HIGH of the amplitude of X_i per cycle, over all cycles of all starts."""
     cycles = spec.cycles - spec.settle
     runs = [sampled(system, state, cycles).samples for state in finals(system, states, spec.settle)]
     found = [[cycle_amplitudes(samples[:-1, box], PER_CYCLE) for samples in runs] for box in (0, 2)]
@@ -57,10 +57,10 @@ def _envelopes(system, states, spec):
 
 
 def _peaks(system, states, spec):
-    """Return the highest peak of all starts along the band (`absorbers.peaks`).
+    """Return the highest peak along the band, over all starts (`absorbers.peaks`), and four other values.
 
-    Also return the largest root mean square of both boxes, the value of the first parameter at the peak, and the peak
-    with one ball (`_one_ball`).
+    These are the largest root mean square of both boxes, the value of the first parameter at the peak, the peak with
+    one ball (`_one_ball`), and the number of unfinished runs.
     """
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
@@ -74,15 +74,15 @@ def _peaks(system, states, spec):
 
 
 def _one_ball(runs):
-    """Return the peak of runs from rest if the same ball is idle in all of them, else nan."""
+    """Return the peak of the runs from rest if one ball, the same in all of them, is idle; else nan."""
     still = [not runs.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
     return peak_of(runs.largest[:, :1]).max() if sum(still) == 1 else np.nan
 
 
 def _energy(system, states, spec):
-    """Return the share of the impacts in the work of the forces, and the number of starts without impacts.
+    """Return the share of the work of the forces that impacts dissipate, and the number of starts without impacts.
 
-    Starts whose balls stay at rest are excluded from the share.
+    Starts without impacts are excluded from the share.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]
@@ -93,7 +93,7 @@ def _energy(system, states, spec):
 
 
 def fixed_point_counts(system) -> tuple[int, int]:
-    """Return the number of fixed points of the theory, and of those that it calls stable."""
+    """Return the number of fixed points of the theory, and the number of those that are stable by the theory."""
     points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
     return len(points), sum(FixedPoints.stable(system, point) for point in points)
 

@@ -8,17 +8,17 @@ from vibroimpact.system import System
 
 
 def parsed(request: Mapping) -> tuple[Grid, Spec]:
-    """Return the grid and the observations of a request.
+    """Return the grid of a request, and the Spec of its observations.
 
     Parameters
     ----------
     request : Mapping
-        "system", parameters of System; "axes", a list of arguments of `grid.axis`; "spec", arguments of `spec.Spec`.
+        "system": parameters of System; "axes": a list of arguments of `grid.axis`; "spec": arguments of `spec.Spec`.
 
     Raises
     ------
     ValueError
-        If the parameters are not those of a system.
+        If the parameters do not give a valid system.
     """
     grid = Grid(System(**request["system"]), [axis(**one) for one in request["axes"]])
     return grid, Spec(**request["spec"])

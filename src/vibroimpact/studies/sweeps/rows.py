@@ -1,4 +1,4 @@
-"""Table of a sweep: names of its columns, and a row per point."""
+"""Table of a sweep: names of its columns, and one row per point."""
 
 from collections.abc import Iterable, Iterator
 
@@ -14,9 +14,9 @@ def columns(grid: Grid, spec: Spec) -> list[str]:
 
 
 def rows(grid: Grid, spec: Spec, numbers: Iterable[int]) -> Iterator[dict]:
-    """Yield a row for each of some points.
+    """Yield one row for each point in `numbers`.
 
-    If an observation fails at a point, its fields are blank and the reason is recorded; other points are not affected.
+    If an observation fails at a point, its fields stay blank and FAILED has the reason; other points are not affected.
 
     Raises
     ------

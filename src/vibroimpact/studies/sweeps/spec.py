@@ -1,4 +1,4 @@
-"""Observations of a sweep at every point, and their settings; this module does not load the engine."""
+"""Names and settings of the observations of a sweep; importing this module does not load the engine."""
 
 from dataclasses import dataclass
 
@@ -6,16 +6,16 @@ from vibroimpact.studies.sweeps.cost import RUNS
 from vibroimpact.studies.sweeps.grid import axis
 
 POINT, FAILED = "point", "failed"
-"""Columns of every table: the number of the point, and the reason of a failure, or ""."""
+"""Columns of every table: number of the point, and reason of a failure, or ""."""
 
 
 @dataclass(frozen=True)
 class Spec:
-    """Observations at every point.
+    """Observations at every point of a sweep, and their settings.
 
-    observe: names of observations. starts, seed: see `regimes.classification.starts`. cycles, settle: of the runs whose
-    amplitudes are observed, forcing periods; those before `settle` are left out. band: arguments of `grid.axis`, of the
-    parameters that peaks are sought along. observation: those of `regimes.settling.Observation`.
+    observe: names of observations. starts, seed: see `regimes.classification.starts`. cycles, settle: forcing periods
+    of a run, and of the transient at its start, which is left out. band: arguments of `grid.axis` for the parameters
+    along which peaks are searched. observation: arguments of `regimes.settling.Observation`.
     """
 
     observe: tuple[str, ...]
