@@ -27,28 +27,28 @@ from vibroimpact.system.progress import track
 from vibroimpact.system.state import IMPACT, RELEASE, STICK, idle_at_rest
 
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.5, 0.8)
-"""Default candidates for the restitution coefficient; a damped pair of steels has about 0.6."""
+"""Default candidates for the restitution coefficient; steel on steel with damping has about 0.6."""
 CLEARANCE_FACTOR, WIDEST_FACTOR, COARSE_CLEARANCES = 4, 8, 8
-"""Default clearances: COARSE_CLEARANCES values between F / k M / m over and times CLEARANCE_FACTOR. The lower end is at
-most the amplitude without ball over WIDEST_FACTOR, the upper end at most that amplitude."""
+"""Default clearances: COARSE_CLEARANCES values from (F / k) (M / m) / CLEARANCE_FACTOR to (F / k) (M / m) times
+CLEARANCE_FACTOR. The lower end is at most the peak without ball / WIDEST_FACTOR, the upper end at most this peak."""
 DIGITS = 3
 """Significant digits of candidate clearances, so that the printed value is the simulated one."""
 FEW = 3
 """Number of best candidates that are measured again."""
 PER_WIDTH, LEAST, MOST = 6, 41, 801
-"""Frequencies per half-power width of the resonance without ball; smallest and largest number in the band."""
+"""Frequencies per half-power width of the resonance without ball; smallest and largest number of them in a band."""
 TRIED, AGAIN = 3, 6
-"""Initial states for all candidates, at every other frequency, and for the best few."""
+"""Number of initial states for each candidate (at every other frequency), and for each of the best few."""
 SETTLED, LONGEST = 5, 2000
-"""Transient in time constants of the machine, and its largest length in forcing periods."""
+"""Length of the transient in time constants of the machine, and its upper limit in forcing periods."""
 SHORT, LONG = 100, 600
-"""Forcing periods of the window of candidates, and shortest transient of the best few (transients may be chaotic)."""
+"""Forcing periods of the window for each candidate; shortest transient for the best few (it may be chaotic)."""
 WATCHED = 300
-"""Forcing periods of the window of the best few."""
+"""Forcing periods of the window for each of the best few."""
 NEAR, FRAGILE = 0.02, 1.1
-"""Relative change of the clearance in the neighbourhood; ratio of peaks in it above which a design is fragile."""
+"""Relative change of the clearance to both neighbours; factor of the peak at a neighbour that makes it fragile."""
 LATER = 1000
-"""Further forcing periods of the largest motion at a frequency, which show if it is a transient."""
+"""Forcing periods for which the largest motion at a frequency continues, to show if it is a transient."""
 CURVES = {
     "without_m": ("without ball", {"color": "0.55", "linewidth": 1.6}),
     "with_m": ("with the ball, settled", {"color": "black", "linewidth": 1.2}),
@@ -70,16 +70,16 @@ class Design:
         The chosen machine, with the mass of the ball `m` [kg], the clearance `L` [m], half of the play, and the
         restitution coefficient `kappa`.
     peak : float
-        Largest displacement over the band [m] once settled: in the last `window[1]` forcing periods, after `window[0]`.
-        It is the largest `with_m` of `response`.
+        Largest displacement over the band [m] once settled: in `window[1]` forcing periods after the transient of
+        `window[0]`. It is the largest `with_m` of `response`.
     near : tuple of float
-        Smallest and largest peak with 2 % less, the same and 2 % more clearance [m].
+        Smallest and largest peak [m] among those with 2 % less, the same and 2 % more clearance.
     settling : float
-        Largest displacement before that window, from rest [m].
+        Largest displacement before this window, from rest [m].
     without, fixed : float
         Peak without ball [m], and with the ball fixed in the box [m].
     absorber, absorber_stroke : float
-        Peak with the best linear absorber of the mass of the ball [m], and its stroke to each side [m].
+        Peak with the best linear absorber of the same mass as the ball [m], and its stroke to each side [m].
     off : tuple of float
         Peaks at 0.8 and 1.2 times the clearance [m].
     natural, static : float
@@ -87,16 +87,17 @@ class Design:
     window : tuple of int
         Forcing periods of the transient and of the window.
     candidates : list of dict
-        One row per pair tried: clearance_m, restitution, peak_m from a few initial states; for the best few again_m,
-        measured as `peak`, and near_m, the largest of `near` (else nan). The chosen one has the smallest near_m.
+        One row per pair of clearance and restitution: clearance_m, restitution, peak_m from a few initial states. The
+        best few have again_m, measured as `peak`, and near_m, the larger value of `near`; all others have nan there.
+        The chosen pair has the smallest near_m.
     response : list of dict
-        One row per frequency: frequency_Hz; displacement [m] without ball, with it (the largest of all initial states
-        in the window), while it settles from rest, and with the absorber. Then, for the largest motion with the ball in
-        the same window: impacts_per_s, the mean impact_speed_m_s of the ball against the wall, the mean impulse_Ns of
-        an impact, impulse_Ns_per_s, and sticking, the share of time that the ball rests on a wall. Last, later_m, its
-        displacement in the 1000 periods after the window, which is smaller for a transient.
+        One row per frequency: frequency_Hz; the displacements without_m, with_m (in the window, the largest of all
+        initial states), settling_m (before the window, from rest) and absorber_m. The rest is for the largest motion
+        with the ball in the window: impacts_per_s; the mean impact_speed_m_s of the ball against the wall; the mean
+        impulse_Ns of an impact; impulse_Ns_per_s; sticking, the share of time that the ball rests on a wall; later_m,
+        the displacement in the 1000 periods after the window, which is smaller if this motion is a transient.
     masses : list of dict
-        One row per mass of the ball, if there are several: mass_kg, clearance_m, restitution, peak_m, near_m,
+        One row per mass of the ball, if several were tried: mass_kg, clearance_m, restitution, peak_m, near_m,
         absorber_m.
 
     Examples
@@ -149,7 +150,7 @@ class Design:
         ])  # fmt: skip
 
     def plot(self):
-        """Return a Matplotlib Figure of the displacements in `response` over the frequency.
+        """Return a Matplotlib Figure of the displacements in `response` against the frequency.
 
         Returns
         -------
@@ -216,7 +217,7 @@ def design(
     progress: bool = True,
     masses: Sequence[float] | None = None,
 ) -> Design:
-    """Return the clearance and restitution coefficient with the lowest peak over a band, and their response.
+    """Design a ball absorber: find clearance and restitution coefficient with the lowest peak over a band.
 
     A machine and its mirror image (the force -F) have the same design, to the last digit.
 
@@ -227,15 +228,14 @@ def design(
     band : tuple of float
         First and last frequency of the force [Hz].
     clearances : sequence of float, optional
-        Candidates [m]. By default 8 values around F / k M / m, from 1/4 to 4 times this, none above the amplitude
-        without ball (a box that moves less than its clearance never meets a ball at rest); then further ones near the
-        best.
+        Candidates [m]. By default 8 values from 1/4 to 4 times (F / k) (M / m), none above the amplitude without ball
+        (a box that moves less than its clearance never meets a ball at rest); then further values near the best ones.
     restitutions : sequence of float, default RESTITUTIONS
         Candidates, each between 0 and 1.
     progress : bool, default True
         Count the candidates on standard error, if it is a terminal.
     masses : sequence of float, optional
-        Candidate masses of the ball [kg], each with its own design; by default that of the machine.
+        Candidate masses of the ball [kg], each with its own design; by default only the mass in `machine`.
 
     Returns
     -------
@@ -273,7 +273,7 @@ def _choices(name, values, end) -> list[float]:
 
 
 def _of_mass(found) -> dict:
-    """Return the row of `Design.masses` of a design."""
+    """Return the row of `Design.masses` for a design."""
     machine = found.machine
     return {
         "mass_kg": machine.m, "clearance_m": machine.L, "restitution": machine.kappa, "peak_m": found.peak,
@@ -339,10 +339,10 @@ def _mm(metres) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Measured:
-    """A machine with its ball at n frequencies, from m initial states, once settled.
+    """Response of a machine with its ball at n frequencies, from m initial states.
 
-    largest: (n, m) [m], in the window. settling: (n,) [m], before it from rest. states, finals: (n, m, 8), at the start
-    and end of the window.
+    largest: (n, m), largest displacement [m] in the window. settling: (n,), largest displacement [m] before the window,
+    from rest. states, finals: (n, m, 8), at the start and end of the window.
     """
 
     machine: PhysicalSystem
@@ -358,7 +358,7 @@ class _Measured:
 
 
 class _Study:
-    """A machine over a band: frequencies, lengths of runs and initial states."""
+    """Simulations of one machine over a band, with their frequencies, lengths and initial states."""
 
     def __init__(self, machine, band):
         low, high = pair("band", band)
@@ -367,7 +367,7 @@ class _Study:
         if not machine.c1 or not machine.F10:
             raise ValueError("machine: needs a damper c above 0 and a force F, base or unbalance other than 0")
         natural = {"omega1": machine.omega10, "omega2": machine.omega10}
-        # With -F all signs change, so that the same initial states would sample other motions.
+        # With -F all motions are mirrored, and the same initial states would lead to other ones; so |F| is used.
         self.given, self.machine = machine, replace(machine, F10=abs(machine.F10), L=1.0, **natural)
         self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
@@ -382,11 +382,11 @@ class _Study:
         self.wait = max(self.settle, LONG)
 
     def linear(self, reference) -> float:
-        """Return the peak of a linear system in place of the machine [m]."""
+        """Return the peak [m] of a linear system, built by `reference`, over the band."""
         return self.machine.L * reference(self.system, self.scale).peak(self.band)
 
     def scale(self, Omega):
-        """Return the force at dimensionless frequencies, relative to that at the natural frequency."""
+        """Return the force at dimensionless frequencies, relative to the force at the natural frequency."""
         return self.machine.force(Omega * self.machine.omega10) / self.machine.F10 * np.ones_like(Omega)
 
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
@@ -402,7 +402,7 @@ class _Study:
         return rows
 
     def measured(self, machine, factor: float) -> _Measured:
-        """Return the response of a machine with a multiple of its clearance, from many initial states."""
+        """Return the response of a machine with `factor` times its clearance, from more initial states."""
         machine = replace(machine, L=factor * machine.L)
         systems = self._systems(machine)
         each = np.array(systems)[:, None]
@@ -436,7 +436,7 @@ class _Study:
 
 
 def _impacts(machine, run) -> dict:
-    """Return the speeds and impulses of the impacts of ball 1, and its share of time on a wall, in SI units."""
+    """Return the impact statistics of ball 1 and the share of time that it rests on a wall, in SI units."""
     events = run.events[run.events["module"] == 1]
     states = events["state"][events["kind"] == IMPACT]
     seconds = run.cycles * run.system.period / machine.omega10
@@ -453,7 +453,7 @@ def _impacts(machine, run) -> dict:
 
 
 def _at_rest(events, run):
-    """Return the time tau between each stick and its release, or the ends of the run."""
+    """Return the total time tau that the ball rests on a wall: from a stick, or the start, to release, or the end."""
     changes = events[np.isin(events["kind"], (STICK, RELEASE))]
     times, sticks = changes["tau"], changes["kind"] == STICK
     ends = np.append(times[1:], run.tau0 + run.cycles * run.system.period)
