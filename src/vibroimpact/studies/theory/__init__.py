@@ -1,1 +1,1 @@
-"""Motions with two unequal flights per cycle: their branch of the manifold, and all fixed points on it."""
+"""Slow flow with two unequal flights per cycle: branch of the manifold, fixed points, relaxation oscillations."""

@@ -1,11 +1,11 @@
-"""All fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
+"""Find all fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
 
-As for symmetric ones (docs/derivation.md, section 5) the balance is linear in w_i = u_i / beta_i and its coefficients
-depend on the chart parameters x_i alone, here over compact squares: |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2. That
-none is missed is proved by `theory.completeness_proof`, not here.
+As for symmetric points (docs/derivation.md, section 5), the balance is linear in w_i = u_i / beta_i, and its
+coefficients depend on the chart parameters x_i alone. This gives |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on the
+square |x_i| <= 1. `completeness.points` proves that no point is missed.
 
-v^2 < 0 is kept too: no motion at leading order, but where the branch goes on beyond symmetry breaking. A motion next to
-it exists once terms of order epsilon carry v^2 above 0.
+Points with v^2 < 0 are kept too. They are not motions at leading order, but continue the branch beyond symmetry
+breaking. A motion close to such a point exists once terms of order epsilon raise v^2 above 0.
 """
 
 import itertools
@@ -28,17 +28,17 @@ from vibroimpact.theory.manifold import stays_within_walls
 from vibroimpact.theory.slow_flow import descending, impedances, pencil
 
 PAIRS = [pair for pair in itertools.product((SMALL, LARGE, ASYMMETRIC), repeat=2) if ASYMMETRIC in pair]
-_STARTS = 20  # along each edge of the square
+_STARTS = 20  # starts along each edge of the square
 _REACH = 0.25
 _SAME = 1e-7
-_ROUNDING = 1e-10  # of an eigenvalue, in units of the largest one
+_ROUNDING = 1e-10  # error of an eigenvalue, relative to the largest one
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AsymmetricPoint(Representation):
-    """A fixed point with unequal flights of one module or both; it stands for its mirror images, too.
+    """A fixed point with unequal flights in one or both modules; it also represents its mirror images.
 
-    Of a single machine it is that of the module that takes part: of the other, squared, C, B, psi and middle are NaN.
+    For a single machine, squared, C, B, psi and middle of the inactive module are NaN.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class AsymmetricPoint(Representation):
     asymmetric : ndarray
         True for a module on the asymmetric branch, shape (2,).
     squared : ndarray
-        v^2 of each module, shape (2,), with the difference v of its flights over the period; 0 if symmetric.
+        v^2 of each module, shape (2,), where v is the difference of both flight times over the period; 0 if symmetric.
     C, B, psi, slow_eigenvalues : ndarray
         As for a FixedPoint.
     middle : ndarray
@@ -69,7 +69,7 @@ class AsymmetricPoint(Representation):
     def fast(self, kappa) -> np.ndarray:
         """Return the multipliers of the impact maps of both modules over a cycle, shape (4,).
 
-        B and phi are held constant. A single machine has shape (2,).
+        B and phi are held constant. For a single machine the shape is (2,).
         """
         return np.concatenate([one[1] for one in self._modules(kappa)])
 
@@ -86,7 +86,7 @@ class AsymmetricPoint(Representation):
             yield theory.stable(x, kappa), theory.multipliers(x, kappa)
 
     def _taking_part(self):
-        """Return asymmetric, C and v^2 of each module that takes part."""
+        """Return an iterator over (asymmetric, C, v^2) of each active module."""
         part = np.isfinite(self.C)
         return zip(self.asymmetric[part], self.C[part], self.squared[part], strict=True)
 
@@ -96,7 +96,7 @@ class AsymmetricPoint(Representation):
         return all_stable(verdict(-value.real, _ROUNDING * np.abs(values).max()) for value in values)
 
     def admissible(self, kappa) -> bool:
-        """Return True if it is a motion at leading order and both balls stay between their walls."""
+        """Return True if the point is a motion at leading order and both balls stay between their walls."""
         return self.real and all(
             branch.overshoot(np.sqrt(squared), kappa) == 0 if skewed else stays_within_walls(C, kappa)
             for skewed, C, squared in self._taking_part()
@@ -104,7 +104,7 @@ class AsymmetricPoint(Representation):
 
     @property
     def real(self) -> bool:
-        """True if it is a motion at leading order: no v^2 below 0."""
+        """True if the point is a motion at leading order, that is without a negative v^2."""
         return not (self.squared < 0).any()
 
     def _shown(self):
@@ -113,7 +113,7 @@ class AsymmetricPoint(Representation):
 
 
 class Balance:
-    """The two conditions on (x_1, x_2) in one pair of charts; x_i = 0 of a module that takes no part."""
+    """The two conditions on (x_1, x_2) in one pair of charts; for an inactive module the condition is x_i = 0."""
 
     def __init__(self, system, one: Chart, two: Chart):
         self._idle = ~np.isin([1, 2], system.modules)
@@ -138,18 +138,18 @@ class Balance:
         return np.where(self._idle, x, residual), np.where(self._idle[:, None], np.eye(2), np.stack(slopes, axis=-1))
 
     def phasors(self, x):
-        """Return b_i = B_i exp(-i psi_i), shape (2,)."""
+        """Return the complex amplitudes b_i = B_i exp(-i psi_i) at x, shape (2,)."""
         q1, q2, z1, z2, n1, n2, _, _ = (f(x[side]) for f, _, side in self._functions)
         return np.array([z1 * n1, z2 * n2]) / (q1 * q2 + self.K * (z1 * q2 + q1 * z2))
 
 
 def _product(one, other):
-    """Return the product of two functions of (x_1, x_2), each with its derivatives, (3, n)."""
+    """Return the product of two functions of (x_1, x_2); rows of all arrays (3, n) are value and both derivatives."""
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
 
 
 def _size(function):
-    """Return the modulus squared of a function with its derivatives, (3, n)."""
+    """Return the squared modulus of a function of (x_1, x_2); rows (3, n) are value and both derivatives."""
     return (function[0].conj() * function).real * np.array([[1], [2], [2]])
 
 
@@ -161,18 +161,18 @@ def fixed_points(system: System) -> list[AsymmetricPoint]:
     Raises
     ------
     ValueError
-        If system is not a System, or as `symmetric_points.search`.
+        If system is not a System, or as for `symmetric_points.search`.
     """
     return [point for point in search(system) if not (point.C < 0).any()]
 
 
 def search(system: System) -> list[AsymmetricPoint]:
-    """Return the same for any real C_i.
+    """Return all fixed points with an asymmetric module, for any real C_i.
 
     Raises
     ------
     ValueError
-        As `fixed_points`.
+        As for `fixed_points`.
     """
     refuse_free_motion(instance("system", system, System))
     found = [_point(system, pair, x) for pair in pairs_of(system, PAIRS) for x in _zeros(balance(system, pair))]
@@ -182,20 +182,20 @@ def search(system: System) -> list[AsymmetricPoint]:
 def pairs_of(system, pairs) -> list[tuple[str, str]]:
     """Return the pairs of charts on which a system can have fixed points.
 
-    A module that takes no part has x_i = 0 on the chart of small C.
+    An inactive module only has the chart of small C, with x_i = 0.
     """
     idle = {1, 2} - set(system.modules)
     return [pair for pair in pairs if system.modules and all(pair[module - 1] == SMALL for module in idle)]
 
 
 def balance(system, pair) -> Balance:
-    """Return the Balance of a pair of charts, by their names."""
+    """Return the Balance of a system on a pair of charts, given by name."""
     known = charts(system.kappa)
     return Balance(system, known[pair[0]], known[pair[1]])
 
 
 def _zeros(conditions):
-    """Return the zeros in the square |x_i| <= 1, shape (n, 2)."""
+    """Return the distinct zeros of the conditions in the square |x_i| <= 1, shape (n, 2)."""
     ticks = (2 * np.arange(_STARTS) + 1) / _STARTS - 1
     x = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 2)
     zeros, distinct = newton(conditions, x, _REACH), np.empty((0, 2))

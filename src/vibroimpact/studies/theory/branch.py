@@ -1,17 +1,17 @@
-"""The manifold, symmetric and asymmetric, as three charts of one real parameter x in [-1, 1], all of them polynomials.
+"""The manifold of symmetric and asymmetric motions in three charts: polynomials of a real parameter x in [-1, 1].
 
-A module's complex amplitude is b = z u / beta with |u| = 1, and the first harmonic of its saw-tooth is n u / beta, so
-the describing function of the ball is N = n / z. C = path / beta. With c = cos(pi v / 2), s = 2 sin(pi v / 2) / (pi v),
-which are entire functions of v^2 (docs/derivation.md, section 11):
+A module's complex amplitude is b = z u / beta with |u| = 1, and the first harmonic of its saw-tooth is n u / beta. So
+the describing function of the ball is N = n / z. The saw-tooth amplitude is C = path / beta. In the table,
+c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v) are entire functions of v^2 (docs/derivation.md, section 11):
 
     chart         x      z                          n          beta                            path
     small C       C      1 - (1 + i rho) x          mu x       1                               x
     large C       1 / C  x - (1 + i rho)            mu         x                               1
     asymmetric    v^2    -(4 c / pi^2 + i rho s)    mu c^2 s   ((1 - x) s - 4 c / pi^2) c      (1 - x) s c
 
-On the asymmetric branch a flight from wall +1 takes the fraction u of the cycle, the one back 1 - u; v = 1 - 2 u is
-their difference. Everything but the instants of impact is a function of v^2, since a motion and its mirror image have
-opposite v. Stability on the branch is that at B and phi held.
+On the asymmetric branch the flight from wall +1 takes the fraction u of the cycle, the flight back 1 - u; v = 1 - 2 u
+is the difference. All quantities except the impact phases are functions of v^2, since a motion and its mirror image
+have opposite v. Stability on the branch is for constant B and phi.
 """
 
 import functools
@@ -27,8 +27,8 @@ from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC
 
 SMALL, LARGE, ASYMMETRIC = "small C", "large C", "asymmetric"
-_TERMS = 16  # pi^2 / 4 to this power is below rounding against 32!
-_ROUNDING = 1e-12  # of a trace
+_TERMS = 16  # (pi^2 / 4)^16 / 32! is below rounding
+_ROUNDING = 1e-12  # error of a trace
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,7 @@ class Chart:
         return self.path(x) / beta, np.abs(self.z(x) / beta)
 
     def ball(self, x):
-        """Return B, N B and their derivatives by x."""
+        """Return B, N B and the derivatives of both with respect to x."""
         z, n, beta = self.z(x), self.n(x), self.beta(x)
         z_x, n_x, beta_x = (part.deriv()(x) for part in (self.z, self.n, self.beta))
         B, N = np.abs(z / beta), n / z
@@ -74,27 +74,27 @@ def charts(kappa: float) -> dict[str, Chart]:
 
 
 def amplitudes(squared, kappa):
-    """Return C and B of the asymmetric branch at v^2 in [0, 1), shape of v^2; C does not depend on kappa.
+    """Return C and B on the asymmetric branch at v^2 in [0, 1), each in the shape of v^2.
 
-    Both grow from where symmetry breaks, C = pi^2 / (pi^2 - 4), C up to 2, B without bound.
+    The branch starts at C = pi^2 / (pi^2 - 4). From there C grows up to 2, for every kappa, and B without bound.
     """
     return charts(kappa)[ASYMMETRIC].amplitudes(np.asarray(squared, dtype=float))
 
 
 def impact_phases(v, kappa):
-    """Return the phases of U at the impacts with W = +1 and, later, W = -1 [rad]; -1 < v < 1."""
+    """Return the phases of U [rad] at the impact with W = +1 and at the following one with W = -1; -1 < v < 1."""
     chart, v = charts(kappa)[ASYMMETRIC], np.asarray(v, dtype=float)
     middle, half = np.angle(-chart.z(v**2) / chart.beta(v**2)), np.pi * (1 - v) / 2
     return middle - half, middle + half
 
 
 def slope_change(v, kappa):
-    """Return the change of the slope of Z at an impact: 4 C / (pi (1 - v^2)), (1 + kappa) times the speed before it."""
+    """Return the change of the slope of Z at an impact, 4 C / (pi (1 - v^2)): (1 + kappa) times the impact speed."""
     return 4 * amplitudes(np.square(v), kappa)[0] / (np.pi * (1 - np.square(v)))
 
 
 def trace(squared, kappa):
-    """Return the trace of the map of perturbations over one cycle (two impacts); its determinant is kappa^4."""
+    """Return the trace of the map of perturbations over one cycle (two impacts); the determinant is kappa^4."""
     squared = np.asarray(squared, dtype=float)
     G = 1 - squared - (1 - squared) / amplitudes(squared, kappa)[0]  # (2 v / pi) cot(pi v / 2)
     tangent = (np.tan(np.pi / 2 * np.sqrt(squared.astype(complex))) ** 2).real
@@ -114,7 +114,7 @@ def multipliers(squared: float, kappa: float) -> np.ndarray:
 
 
 def period_doubling(kappa: float) -> float:
-    """Return the v^2 at which a multiplier is -1, 0.17 to 0.22: the branch is stable between 0 and there."""
+    """Return the v^2, from 0.17 to 0.22, at which a multiplier is -1; the branch is stable between 0 and this v^2."""
     return brentq(lambda squared: trace(squared, kappa) + 1 + kappa**4, 0.0, 0.3, xtol=1e-15)
 
 
@@ -127,9 +127,9 @@ def stable(squared: float, kappa: float) -> str:
 
 
 def overshoot(v: float, kappa: float) -> float:
-    """Return the largest |W_0| - 1 over a cycle, 0 if the ball stays between the walls.
+    """Return the largest |W_0| - 1 over a cycle, or 0 if the ball stays between the walls.
 
-    Flights turn where W_0' = 0.
+    The largest |W_0| is at a turning point of a flight, W_0' = 0.
     """
     _, B = amplitudes(v**2, kappa)
     a, b = impact_phases(v, kappa)

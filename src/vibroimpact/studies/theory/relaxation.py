@@ -1,9 +1,9 @@
-"""The strongly modulated response by the slow flow: drift along the manifold, loss of resonance, return.
+"""Compute the strongly modulated response by the slow flow: drift along the manifold, loss of resonance, return.
 
-A ball in resonance is on the stable part of the manifold, symmetric or, beyond symmetry breaking, asymmetric. Where the
-box's amplitude has sunk to the fold, B = B_min, it is lost; from then on it is taken to rest in the middle of its box
-and to do nothing, until at B = 1 the walls strike it and it is in resonance again (docs/derivation.md, section 12).
-Nothing is fitted.
+A ball in resonance is on the stable part of the manifold, which is symmetric or, beyond symmetry breaking, asymmetric.
+When the amplitude of the box has fallen to the fold, B = B_min, the ball leaves resonance. The model assumes that it
+then rests in the middle of its box without any effect, until the walls reach it at B = 1. Then it is in resonance again
+(docs/derivation.md, section 12). No parameter is fitted.
 """
 
 from dataclasses import dataclass
@@ -18,20 +18,20 @@ from vibroimpact.theory.manifold import B_min, C_min, C_of_B, rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances
 
 RETURN = 1.0
-"""The amplitude of a box whose walls reach a ball at rest in the middle."""
+"""Amplitude of a box at which its walls reach a ball at rest in the middle."""
 _PER_CYCLE = 24
 _NODES = 2000
-_BEYOND = 0.9  # v^2 at the end of the tables
+_BEYOND = 0.9  # largest v^2 in the tables
 _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 
 
 @dataclass(frozen=True, eq=False)
 class Relaxation:
-    """Statistics of both balls in a relaxation, each (..., 2).
+    """Statistics of both modules in a relaxation oscillation, each (..., 2).
 
-    bursts: mean length of the stretches in resonance that have ended, in forcing periods; nan where none has.
-    share: part of the time that each ball is in resonance.
-    largest: of B.
+    bursts: mean length of the intervals in resonance, from begin to end, in forcing periods, or nan without any.
+    share: share of time that each ball is in resonance.
+    largest: largest box amplitude B.
     """
 
     bursts: np.ndarray
@@ -40,7 +40,7 @@ class Relaxation:
 
 
 def describing_function(kappa: float):
-    """Return B -> N on the stable part of the manifold and on from it along the asymmetric branch."""
+    """Return the function B -> N on the stable symmetric manifold and, beyond its end, on the asymmetric branch."""
     r, chart = rho(kappa), charts(kappa)[ASYMMETRIC]
     squared = np.linspace(0.0, _BEYOND, _NODES)
     skewed = np.abs(chart.z(squared) / chart.beta(squared))
@@ -52,14 +52,14 @@ def describing_function(kappa: float):
 
 
 def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Relaxation:
-    """Follow the slow flow for `cycles` forcing periods after `settle` others.
+    """Follow the slow flow for `cycles` forcing periods after a transient of `settle` periods.
 
     Parameters
     ----------
     start : default (1.0, 1.0)
-        Amplitudes b_i = B_i exp(-i psi_i) of both modules; both balls are in resonance.
+        Initial complex amplitudes b_i = B_i exp(-i psi_i) of both modules; both balls start in resonance.
     forces : optional
-        (..., 2) in the place of those of the system; all are followed at once.
+        Forces (f10_hat, f20_hat), (..., 2), in place of those of the system; all are followed together.
     """
     e, K = impedances(system)
     forces = np.array([system.f10_hat, system.f20_hat] if forces is None else forces)
@@ -82,7 +82,7 @@ def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Re
 
 
 def _mean_length(states):
-    """Return the mean number of steps of the stretches that have begun and ended."""
+    """Return the mean number of steps of the intervals in resonance that both begin and end in `states`."""
     changes = np.diff(states)
     begins, ends = np.flatnonzero(changes > 0), np.flatnonzero(changes < 0)
     ends = ends[ends > begins[0]] if len(begins) else ends[:0]
@@ -90,10 +90,10 @@ def _mean_length(states):
 
 
 def lost_at(system, point) -> float:
-    """Return the factor below 1 of both forces at which a fixed point with a symmetric module loses that at the fold.
+    """Return the factor on both forces, below 1, at which the symmetric module of a fixed point leaves resonance.
 
-    nan if it is not beyond the fold at first, or if both forces can fall to a half, or if it ends before at a fold of
-    its own.
+    There C of this module falls to the fold of the manifold. The result is nan if C is below the fold at first, if C
+    stays above it down to half of the forces, or if the fixed point ends earlier at a fold of its own.
 
     Parameters
     ----------
