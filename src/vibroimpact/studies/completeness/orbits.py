@@ -1,19 +1,19 @@
 """Prove in interval arithmetic (python-flint's arb) that the list of symmetric 1:1 responses is complete.
 
-The equations of symmetric.py, P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))), are reduced
-once more. Eliminating the phase leaves one complex equation linear in the real C_1, C_2,
+The equations of symmetric.py are P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))). Let P_1,
+P_2 be the rows of P. Eliminating the phase phi leaves one complex equation that is linear in the real C_1, C_2,
 
     (w_2 P_1 - w_1 P_2) . C = i (w_1 - w_2),        w_1 = a_1,  w_2 = a_2 exp(i Omega delta),
 
-so C = N(delta) / D(delta) by Cramer's rule, and the modulus of the equation k with the larger |a_k| leaves, for delta
-alone,
+so C = N(delta) / D(delta) by Cramer's rule. The modulus of equation k, the one with the larger |a_k|, then gives one
+equation for delta alone,
 
     F(delta) = |P_k . N + i D|^2 - |a_k|^2 D^2 = 0.
 
 Where D is not 0 the roots of F are exactly the solutions, each with one C and one phase. F is smooth on [0, T/2] and on
-[T/2, T]. These are bisected until on each interval F excludes 0, or F' and D do, so that the signs of F at the two ends
-show if there is one root or none. The domain is complete: any lag, any phase, any real C. Intervals that are undecided
-at the smallest width (a double root, a root at a kink) are reported.
+[T/2, T]. Both are bisected until on each interval F excludes 0, or both F' and D exclude 0. In the latter case the
+signs of F at the two ends show if there is one root or none. The domain is complete: any lag, any phase, any real C.
+Intervals that are undecided at the smallest width (a double root, a root at a kink) are reported.
 
 For a single machine, |P_kk C_k + i| = |a_k| is a quadratic equation for C_k.
 """
@@ -32,7 +32,7 @@ need("reference", "flint")
 
 from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the dependency check)
 
-_NARROWEST = 2.0**-24  # of the half period; float64's 53 bits in arb leave room below that
+_NARROWEST = 2.0**-24  # relative to the half period; the 53 bits of arb resolve intervals of this width
 _FIRST = 8
 _MOST = 10_000  # largest number of intervals; the rest is reported as undecided
 _TERMS = 3
@@ -42,10 +42,10 @@ _TERMS = 3
 class Proof:
     """Proof of the list of symmetric orbits of a system with exactly these float64 matrices and forcing.
 
-    isolated: intervals of the lag (tau_2 - tau_1) / T, of a single machine of its C, each with exactly one symmetric
-        response, ascending.
+    isolated: ascending intervals of the lag (tau_2 - tau_1) / T, or of C for a single machine, each with exactly one
+        symmetric response.
     undecided: intervals in which nothing is proved; everywhere else there is no symmetric response.
-    complete: nothing is undecided, and `symmetric_solutions` lists exactly one response per isolated interval.
+    complete: True if nothing is undecided, and `symmetric_solutions` lists exactly one response per isolated interval.
     """
 
     isolated: list[tuple[float, float]]
@@ -61,7 +61,7 @@ def certify(system) -> Proof:
     Raises
     ------
     ValueError
-        If undamped boxes in resonance with the impacts.
+        If undamped boxes are in resonance with the impacts.
     """
     listed = symmetric_solutions(system)
     if system.modules == (1, 2):
@@ -74,7 +74,7 @@ def certify(system) -> Proof:
 
 
 def _of_one_module(system):
-    """Return the intervals of C with exactly one root, and those that stay open, both ascending."""
+    """Return the intervals of C with exactly one root, and the undecided intervals, both ascending."""
     if not system.modules:
         return [], []
     i, condition = system.modules[0] - 1, _Condition(system)
@@ -91,7 +91,7 @@ def _of_one_module(system):
 
 
 def _bisect(condition):
-    """Return the intervals of the lag over T with exactly one root, and those that stay open, both ascending."""
+    """Return the intervals of the lag over T with exactly one root, and the undecided intervals, both ascending."""
     pending = [(half, k / _FIRST, (k + 1) / _FIRST) for half in (0, 1) for k in range(_FIRST)]
     isolated, undecided = [], []
     for visited in itertools.count():
@@ -123,7 +123,7 @@ class _Condition:
         self.larger = int(abs(self.amplitude[1]).mid() > abs(self.amplitude[0]).mid())
 
     def count(self, lower, upper, half):
-        """Return the roots with delta in (half + [lower, upper]) T/2: 0, 1, or None where that stays open."""
+        """Return the number of roots with delta in (half + [lower, upper]) T/2: 0, 1, or None if undecided."""
         radius = (upper - lower) / 2
         step = arb(0, radius) * self.half_period
         F0, _ = self._at(arb((lower + upper) / 2), half)
@@ -165,11 +165,11 @@ class _Condition:
         return terms
 
     def _entry(self, terms, row, column):
-        """Return P[row, column], row != column, from the response terms."""
+        """Return P[row, column], row != column, from the Taylor coefficients of a response."""
         return _series([self.kick * acb(m[2 + row, column] / self.omega, m[row, column]) for m in terms])
 
     def _own(self, i):
-        """Return P[i, i]: the response just before the own impact."""
+        """Return P[i, i], from the response of box i just before an impact of its own ball."""
         velocity = self.own_velocity + self.kick * (self.start[2 + i, i] - 1)
         return _series([acb(velocity / self.omega, self.kick * self.start[i, i] - self.place)])
 

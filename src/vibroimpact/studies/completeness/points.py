@@ -1,12 +1,12 @@
-"""Proof that the lists of fixed points are complete, in interval arithmetic (python-flint's arb).
+"""Prove in interval arithmetic (python-flint's arb) that the lists of fixed points are complete.
 
-The conditions |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on each pair of charts, over the whole square |x_i| <= 1:
-every real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). The square is quartered until in each box a
-condition excludes 0 or a contraction settles how many zeros there are: none, or exactly one in the box of twice the
-width (Krawczyk's test; Neumaier 1990). The functions of a chart are computed again from the parameters, in intervals,
-and expanded to second order about the centre of a box, the second order enclosed over its reach. Where Delta excludes 0
-the phases follow uniquely. What stays open at the smallest width is reported. A module that takes no part has the
-condition x_i = 0 in place of its own, and q_i = 1.
+The conditions are |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on each pair of charts, over the whole square |x_i| <= 1.
+It contains every real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). The square is quartered until in each
+box a condition excludes 0, or a contraction proves the number of zeros: none, or exactly one in the box of twice the
+width (Krawczyk's test; Neumaier 1990). The functions of a chart are computed from the parameters in interval arithmetic
+and expanded to second order about the centre of a box, with a remainder that holds in the box of twice the width. Where
+Delta excludes 0 the phases are unique. Boxes that are undecided at the smallest width are reported. An inactive module
+has the condition x_i = 0 in place of its own, and q_i = 1.
 """
 
 import functools
@@ -28,12 +28,12 @@ from flint import acb, arb, arb_series, ctx  # noqa: E402 (after the dependency 
 
 SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
 _BITS = 128
-_REACH = 2  # a box is tested at this many times its width, so that zeros on an edge are settled
+_REACH = 2  # a box is tested at this multiple of its width, so that zeros on an edge are decided
 _NARROWEST = 2.0**-24
 _ISOLATED_WIDTH = 2.0**-20  # half-width at which a zero is distinguished from the others
-_MOST = 20_000  # boxes to look at in a pair of charts: the rest is reported as undecided
+_MOST = 20_000  # largest number of boxes in a pair of charts; the rest is reported as undecided
 _TERMS = 30
-_TAIL = arb(0, 2.0**-150)  # for |v^2| <= 2: the terms left out, and their derivatives, are below 5^30 100^2 / 60!
+_TAIL = arb(0, 2.0**-150)  # for |v^2| <= 2: the omitted terms and their derivatives are below 5^30 100^2 / 60!
 _ORDERS = 3
 _REAL, _IMAGINARY = (np.frompyfunc(lambda z, part=part: getattr(z, part), 1, 1) for part in ("real", "imag"))
 
@@ -44,12 +44,12 @@ Box = tuple[tuple[float, float], ...]
 class Proof:
     """Proof of the list of fixed points of a system with exactly these float64 hatted parameters.
 
-    isolated: ascending, each with exactly one fixed point: boxes ((C_1 from, to), (C_2 from, to)), or for asymmetric
-        points pairs of charts and the boxes of their parameters. Of a single machine they have one entry, not two.
-    undecided: the same, where nothing is proved; everywhere else, for any real C_i, and v^2 in [-1, 1], there is none.
-    motions: how many of the isolated points have C_i > 0 and v_i^2 > 0, motions at leading order; a box across 0 is not
-        counted. On the asymmetric branch C is positive anyway.
-    complete: nothing is undecided, and the search lists exactly one point in each isolated box.
+    isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point; for asymmetric
+        points, pairs of charts and boxes of the chart parameters. For a single machine they have one entry, not two.
+    undecided: boxes in which nothing is proved. Elsewhere, for any real C_i and v^2 in [-1, 1], no point exists.
+    motions: number of isolated points that are motions at leading order, C_i > 0 and v_i^2 > 0; a box that contains 0
+        is not counted. On the asymmetric branch C is always positive.
+    complete: True if nothing is undecided, and the search lists exactly one point in each isolated box.
     """
 
     isolated: list
@@ -59,21 +59,21 @@ class Proof:
 
 
 def certify(system) -> Proof:
-    """Prove the number of fixed points of a system, C_i of either sign.
+    """Prove the number of fixed points of a system, with C_i of either sign.
 
-    There is none where nothing is driven: what the balls dissipate, mu rho C_i^2, leaves C_i = 0, and the search
-    refuses the free motion that would be left.
+    A system without forces has none: since the balls dissipate mu rho C_i^2, only C_i = 0 remains, and the search
+    refuses this free motion.
 
     Raises
     ------
     ValueError
-        As `symmetric_points.search`.
+        As for `symmetric_points.search`.
     """
     listed = search(system)
     found, undecided = _all_zeros(system, SYMMETRIC_PAIRS)
     isolated = []
     for zero in sorted(_in_amplitudes(*zero) for zero in found):
-        if not any(_same(zero, known) for known in isolated):  # on the edge of two charts
+        if not any(_same(zero, known) for known in isolated):  # a zero on the edge between two charts is found twice
             isolated.append(zero)
     open_boxes = [_in_amplitudes(pair, box) for pair, box in undecided]
     points = [_taking_part(system, point.C) for point in listed.points + listed.outside]
@@ -86,7 +86,7 @@ def certify_asymmetric(system) -> Proof:
     Raises
     ------
     ValueError
-        As `asymmetric_points.search`.
+        As for `asymmetric_points.search`.
     """
     listed = asymmetric.search(system)
     isolated, undecided = _all_zeros(system, asymmetric.PAIRS)
@@ -104,14 +104,14 @@ def _proof(isolated, undecided, boxes, matched):
 
 
 def _matched(boxes, points):
-    """Return True if each box holds one of the points and each point is in one box."""
+    """Return True if each box contains exactly one of the points and each point is in exactly one box."""
     inside = [[all(low <= x <= high for (low, high), x in zip(box, at, strict=True)) for at in points] for box in boxes]
     counts = np.reshape(inside, (len(boxes), len(points)))
     return bool((counts.sum(axis=0) == 1).all() and (counts.sum(axis=1) == 1).all())
 
 
 def _in_amplitudes(pair, box) -> Box:
-    """Return the box of C_i, which is x_i on the chart of small C and 1 / x_i on that of large C."""
+    """Return the box of C_i, where C_i is x_i on the chart of small C and 1 / x_i on the chart of large C."""
     ends = []
     for name, (low, high) in zip(pair, box, strict=True):
         if name == LARGE:
@@ -122,15 +122,15 @@ def _in_amplitudes(pair, box) -> Box:
 
 
 def _same(box, known):
-    """Return True if the inner half of a box, which holds its zero, lies in another one."""
+    """Return True if the inner half of a box, which contains its zero, lies in the box `known`."""
     shrunk = [((3 * low + high) / 4, (low + 3 * high) / 4) for low, high in box]
     return all(low >= a and high <= b for (low, high), (a, b) in zip(shrunk, known, strict=True))
 
 
 def _all_zeros(system, pairs):
-    """Return the charts of the modules with their resolved and open boxes.
+    """Return the boxes with exactly one zero, and the undecided boxes, each with its pair of charts.
 
-    A resolved box has exactly one zero in the square; an open one is undecided.
+    Boxes of zeros outside the square |x_i| <= 1 are left out.
     """
     found, undecided = [], []
     with ctx.workprec(_BITS):
@@ -143,12 +143,12 @@ def _all_zeros(system, pairs):
 
 
 def _taking_part(system, both) -> tuple:
-    """Return the entries of a pair, one per module, that belong to modules whose ball impacts."""
+    """Return the entries of a pair (one per module) that belong to active modules."""
     return tuple(both[module - 1] for module in system.modules)
 
 
 def _subdivide(conditions):
-    """Return the boxes with exactly one zero, and those that stay open."""
+    """Return the boxes with exactly one zero, and the undecided boxes."""
     pending, found, undecided = [(0.0, 0.0, 1.0)], [], []  # half-widths are powers of two, so that centres are exact
     for visited in itertools.count():
         if not pending:
@@ -168,7 +168,7 @@ def _subdivide(conditions):
     distinct = []
     for zero in sorted(found):
         gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
-        if any(gap < 0.5 for gap in gaps):  # within the reach of the first box, where it has one zero only
+        if any(gap < 0.5 for gap in gaps):  # the same zero: the first box has only one within its reach
             continue
         (undecided if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
     return [_box(*zero) for zero in distinct], [_box(*zero) for zero in undecided]
@@ -177,7 +177,7 @@ def _subdivide(conditions):
 def _narrowed(conditions, x, y, half):
     """Return the centre and half-width of a small box about the zero of a wide one, or None.
 
-    The result is None where the box cannot be narrowed.
+    The result is None if the box cannot be narrowed, or if the phases at the zero are not unique.
     """
     while half > _ISOLATED_WIDTH:
         _, (x, y, half) = conditions.count(x, y, half)
@@ -195,7 +195,7 @@ def _box(x, y, half) -> Box:
 class _Conditions:
     """Both conditions in one pair of charts, expanded about the centre of a box in t = (x - centre) / half.
 
-    Local polynomials are arrays of intervals, entry [j, k] belonging to t_1^j t_2^k, that hold for |t| <= _REACH.
+    A local polynomial, valid for |t| <= _REACH, is an array of intervals: entry [j, k] is the factor of t_1^j t_2^k.
     """
 
     def __init__(self, system, pair):
@@ -208,11 +208,11 @@ class _Conditions:
         self._chart = functools.lru_cache(maxsize=None)(self._expanded)
 
     def count(self, x, y, half):
-        """Return the number of zeros in the box of this half-width about (x, y).
+        """Return the number of zeros in the box of half-width `half` about (x, y), and a box around the zero.
 
-        0: none; 1: exactly one in _REACH times the box; None: undecided.
+        Number: 0; 1, for exactly one zero in _REACH times the box; None, if undecided.
 
-        With 1, also centre and half-width of a box around the zero.
+        Box around the zero: (x, y, half-width) if the number is 1, else None.
         """
         delta, one, two = self._sides(x, y, half)
         local = np.array([delta - one, delta - two])
@@ -224,7 +224,7 @@ class _Conditions:
         (a, b), (c, d) = (map(float, (polynomial[1, 0], polynomial[0, 1])) for polynomial in local)
         if (determinant := a * d - b * c) == 0:
             return None, None
-        # t - Y F(t) maps the box |t| <= s into -Y F(0) plus or minus what the other terms can add.
+        # t - Y F(t) maps the box |t| <= s into -Y F(0) plus or minus a bound on all other terms.
         inverse = np.array([[d, -b], [-c, a]]) / determinant
         mapped = np.tensordot(inverse.astype(object), local, 1)
         mapped[0, 1, 0] -= 1
@@ -240,19 +240,19 @@ class _Conditions:
         return 1, (x + centre[0], y + centre[1], radius + rounding)
 
     def phases_follow(self, x, y, half):
-        """Return True if Delta is not 0 near (x, y), so that the phases are those of n_i / Delta."""
+        """Return True if Delta is not 0 near (x, y), so that n_i / Delta has unique phases."""
         return _excludes_zero(self._sides(x, y, _REACH * half)[0])
 
     def _sides(self, x, y, half):
-        """Return the local |Delta|^2, |beta_1 n_1|^2 and |beta_2 n_2|^2."""
+        """Return the local polynomials of |Delta|^2, |beta_1 n_1|^2 and |beta_2 n_2|^2."""
         (z1, q1, beta1, n2), (z2, q2, beta2, n1) = (self._chart(i, at, half) for i, at in enumerate((x, y)))
         delta = np.multiply.outer(q1, q2 + self.K * z2) + np.multiply.outer(self.K * z1, q2)
         return _modulus_squared(delta), np.multiply.outer(beta1, n1), np.multiply.outer(n2, beta2)
 
     def _expanded(self, module, at, half):
-        """Return the coefficients of z, q = e z + n, beta^2 and |n_j|^2, j the other module, in t = (x - at) / half.
+        """Return the coefficients of z, q = e z + n, beta^2 and |n_j|^2 (j: other module) in t = (x - at) / half.
 
-        The highest of z, q and beta and of the numerator n_j are enclosed for |t| <= _REACH.
+        The highest coefficients of z, q, beta and n_j are intervals that include the remainder for |t| <= _REACH.
         """
         exact, wide = (_functions(self.names[module], arb(at, radius), self.kappa) for radius in (0, _REACH * half))
         powers = [arb(half) ** k for k in range(_ORDERS)]
@@ -299,17 +299,17 @@ def _modulus_squared(polynomial):
 
 
 def _excludes_zero(polynomial):
-    """Return True if the constant term outweighs all others for |t| <= 1."""
+    """Return True if the constant term exceeds the sum of all others for |t| <= 1."""
     return abs(polynomial[0, 0]) > _size(polynomial, 1)
 
 
 def _size(polynomial, reach):
-    """Return the bound on all terms but the constant one for |t| <= reach."""
+    """Return a bound on the sum of all terms except the constant one for |t| <= reach."""
     return (abs(polynomial) * reach ** _degrees(polynomial)).ravel()[1:].sum()
 
 
 def _slope(polynomial, reach):
-    """Return the bound on the sum of both derivatives for |t| <= reach."""
+    """Return a bound on the sum of the moduli of both derivatives for |t| <= reach."""
     degrees = _degrees(polynomial)
     return (degrees * abs(polynomial) * reach ** np.maximum(degrees - 1, 0)).sum()
 
