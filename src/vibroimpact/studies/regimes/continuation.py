@@ -247,7 +247,7 @@ class Curve:
         return after if place.tangent @ after.tangent > np.cos(_TURN) else None
 
     def _foot(self, place, z):
-        """Return a list of the place on the curve that coincides with z, or [] if there is none.
+        """Return a list of the place on the curve that coincides with z, or [] if z is not on the curve.
 
         Every step along the tangent goes to the foot of the perpendicular from z.
         """
