@@ -46,7 +46,7 @@ SHORT, LONG = 100, 600
 WATCHED = 300
 """Forcing periods of the window for each of the best few."""
 NEAR, FRAGILE = 0.02, 1.1
-"""Relative change of the clearance to both neighbours; factor of the peak at a neighbour that makes it fragile."""
+"""Relative change of clearance to a neighbour; a design is fragile if a neighbour's peak is FRAGILE times as high."""
 LATER = 1000
 """Forcing periods for which the largest motion at a frequency continues, to show if it is a transient."""
 CURVES = {

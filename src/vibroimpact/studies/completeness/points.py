@@ -1,7 +1,7 @@
 """Prove in interval arithmetic (python-flint's arb) that the lists of fixed points are complete.
 
 The conditions are |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on each pair of charts, over the whole square |x_i| <= 1.
-It contains every real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). The square is quartered until in each
+It covers every real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). The square is quartered until in each
 box a condition excludes 0, or a contraction proves the number of zeros: none, or exactly one in the box of twice the
 width (Krawczyk's test; Neumaier 1990). The functions of a chart are computed from the parameters in interval arithmetic
 and expanded to second order about the centre of a box, with a remainder that holds in the box of twice the width. Where
@@ -45,7 +45,7 @@ class Proof:
     """Proof of the list of fixed points of a system with exactly these float64 hatted parameters.
 
     isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point; for asymmetric
-        points, pairs of charts and boxes of the chart parameters. For a single machine they have one entry, not two.
+        points, pairs of charts and boxes of the chart parameters. For a single machine both have one entry, not two.
     undecided: boxes in which nothing is proved. Elsewhere, for any real C_i and v^2 in [-1, 1], no point exists.
     motions: number of isolated points that are motions at leading order, C_i > 0 and v_i^2 > 0; a box that contains 0
         is not counted. On the asymmetric branch C is always positive.
@@ -299,7 +299,7 @@ def _modulus_squared(polynomial):
 
 
 def _excludes_zero(polynomial):
-    """Return True if the constant term exceeds the sum of all others for |t| <= 1."""
+    """Return True if the constant term is larger in modulus than all other terms together for |t| <= 1."""
     return abs(polynomial[0, 0]) > _size(polynomial, 1)
 
 

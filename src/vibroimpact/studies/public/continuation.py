@@ -46,7 +46,7 @@ def branches(
     Parameters
     ----------
     system : System
-        The other parameters.
+        System with the values of all other parameters.
     along : str or sequence of str
         A parameter of System, or several that vary together.
     between : tuple of float
@@ -118,7 +118,7 @@ def bifurcation_curves(
     Parameters
     ----------
     system : System
-        The other parameters.
+        System with the values of all other parameters.
     along : tuple of str
         Two parameters of System.
     between : tuple of tuple of float

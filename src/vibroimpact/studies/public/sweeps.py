@@ -38,7 +38,7 @@ def sweep(
     Parameters
     ----------
     system : System
-        The other parameters.
+        System with the values of all other parameters.
     axes : mapping
         Values of one or two parameters, by name.
     observe : sequence of str

@@ -16,7 +16,7 @@ RECURRENT = 0.1
 RESONANT = (0.1, 0.9)
 """Shares of time in bursts: below the first a module is never in resonance, above the second it is always."""
 DISCARDED = 1
-"""Number of blocks left out first, in which the perturbation turns to the direction of largest growth."""
+"""Number of initial blocks to discard, in which the perturbation turns to the direction of largest growth."""
 LONGER = 10
 """Length of the second estimate of an exponent, relative to the first; it is made unless the first is positive."""
 

@@ -84,8 +84,8 @@ def leads_to(stations, points):
 def onset(stations) -> float:
     """Return the epsilon at which the orbit emanates from a symmetric one (v^2 = 0), or 0 if it does not.
 
-    Epsilon is a polynomial in v^2 through the last stations, at most `_THROUGH`, evaluated at v^2 = 0. (A line through
-    two stations has only three correct digits if their epsilons differ by a fifth.)
+    The polynomial for epsilon in v^2 through the last stations (at most `_THROUGH`) is evaluated at v^2 = 0. A line
+    through two stations would give only three correct digits if their epsilons differ by a fifth.
     """
     last = stations[-_THROUGH:]
     epsilon, skew = (

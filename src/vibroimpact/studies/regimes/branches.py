@@ -81,7 +81,7 @@ class Branch(Representation):
         return [node for node in self.nodes if node.kind]
 
     def pieces(self) -> list[tuple[Node, list[Node]]]:
-        """Return the pieces between special points, each as (inner node, all nodes with both ends).
+        """Return the pieces between special points, each as (inner node, list of nodes including both ends).
 
         The stability at the inner node is the stability of the piece.
         """
@@ -257,7 +257,7 @@ def _node(family, path, z, kind="", member=None):
 
 
 def _symmetric(family, system, x):
-    """Return True for a root of the asymmetric equations with equal flights: a branch meets its mirror image."""
+    """Return True for a root of the asymmetric equations with equal flights, where a branch meets its mirror."""
     return family is AsymmetricOrbits and bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
 

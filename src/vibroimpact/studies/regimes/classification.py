@@ -26,7 +26,7 @@ REGIMES = (*PERIODIC, *APERIODIC, IDLE, NO_IMPACTS, UNSETTLED)
 _PER_CYCLE = 2
 _MOST_STARTS = 1_000_000
 _SHRUNK, _LONGEST = 1e-6, 10_000
-"""A run near a periodic motion is continued until the largest multiplier predicts that their distance has shrunk by the
+"""A run near a periodic motion is continued until the largest multiplier predicts that the distance has shrunk by the
 factor _SHRUNK, for at most _LONGEST cycles."""
 _REPEATED, _MIRRORED = 1e-8, 1e-6
 """Tolerances for the repetition and for the symmetry of a periodic motion that is known to rounding. Near symmetry
@@ -95,7 +95,7 @@ def classify_after(system, state, window: int, nearness: float) -> Regime:
 
 
 def _attracting(system, state, cycles, reach):
-    """Return the attracting motion within `reach` of a state that repeats after `cycles` cycles, or None."""
+    """Return the attracting motion that repeats after `cycles` cycles, if it is within `reach` of a state, or None."""
     try:
         orbit = refined(system, state, cycles)
     except ValueError:

@@ -23,7 +23,8 @@ from scipy.optimize import brentq
 _DIFFERENCE = 1e-6  # step in p, relative to 1 + |p|; dF/dp is then accurate to about 1e-10
 _STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
 _STEPS, _FEET = 12, 4
-_SETTLED, _STALLED = 1e-13, 1e-7  # the second once steps no longer shrink (rounding near a singular Jacobian)
+# Newton steps that end the iteration, relative; the second once steps no longer shrink (rounding, singular Jacobian).
+_SETTLED, _STALLED = 1e-13, 1e-7
 _REFINED = 1e-10
 _STEEP = 0.2  # p is constant if the tangent has a larger component along p; a new p costs more than a new x
 _TURN = 0.15  # radians by which the tangent may turn in one step

@@ -73,7 +73,7 @@ def largest_lyapunov(
     blocks : int, default 20
         Number of blocks into which `cycles` are divided, at least 2; their scatter gives the error.
     discarded : int, default 10
-        Number of earlier blocks, in which the perturbation turns to the direction of largest growth.
+        Number of blocks to discard before these, in which the perturbation turns to the direction of largest growth.
 
     Returns
     -------
@@ -206,7 +206,7 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     state, cycles, settle
         As for `largest_lyapunov`.
     discarded : int, default 100
-        Number of earlier forcing periods, in which the perturbations turn to their directions.
+        Forcing periods to discard before `cycles`, in which the perturbations turn to their directions.
 
     Returns
     -------

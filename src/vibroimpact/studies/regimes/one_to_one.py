@@ -27,7 +27,7 @@ class Amounts:
 
 
 def by_theory(system) -> list[Amounts]:
-    """Return the Amounts for each fixed point of (10.23), to leading order, (10.9), (10.10)."""
+    """Return the Amounts to leading order, (10.9) and (10.10), for each fixed point of (10.23)."""
     tau = np.linspace(0.0, system.period / 2, SAMPLES)
     return [
         Amounts(

@@ -1,4 +1,4 @@
-"""Grid of a sweep: values of its parameters, alone or together on an axis, and the system at each point."""
+"""Grid of a sweep: axes with one or more parameters each, and the system at each point."""
 
 import math
 from collections.abc import Sequence
@@ -39,8 +39,8 @@ def axis(
 ) -> Axis:
     """Return the axis of one parameter, or of several that vary together.
 
-    The values are `values` points of a range, ends included, or the midpoints of `cells` equal cells of the range, or
-    the list `listed`. With `tuples` instead, each point has one value per parameter.
+    An axis has `values` points of a range, ends included, or the midpoints of `cells` equal cells of the range, or the
+    points in `listed`. With `tuples`, each point has one value per parameter.
 
     Parameters
     ----------

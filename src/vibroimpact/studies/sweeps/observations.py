@@ -39,7 +39,7 @@ def _regimes(system, states, spec):
 
 
 def _amplitudes(system, states, spec):
-    """Return largest |X_i|, root mean square of X_i and mean ball speeds over all starts, and the unfinished runs."""
+    """Return, over all starts, largest |X_i|, root mean square of X_i, mean ball speeds, number of unfinished runs."""
     runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
     if not len(done):
