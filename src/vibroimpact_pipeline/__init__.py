@@ -1,4 +1,4 @@
-"""The pipeline around the library: config, records of results, provenance, figure check, report, archive."""
+"""Pipeline around the library: config, records of results, provenance, figure check, report and archive."""
 
 import gc
 

@@ -1,4 +1,4 @@
-"""Archive of a build: committed sources, results, and an RO-Crate with their checksums."""
+"""Write the archive of a build: committed sources, results, and an RO-Crate with the checksums of all files."""
 
 import gzip
 import io
@@ -24,9 +24,10 @@ WORKFLOW = "Snakefile"
 
 
 def results_behind(targets: list[str]) -> list[Path]:
-    """Return all results of the jobs that made the targets, and the inputs of these jobs, according to the records.
+    """Return the targets and all results on which they depend, according to the records.
 
-    Results that were made on demand are excluded unless a target depends on them: they may be from an older commit.
+    If a job made one of these results, its other results are included too. All other results are excluded, since they
+    may be from an older commit.
     """
     known = {path: record for path, record in records().items() if Path(path).is_file()}
     behind, pending = set(), list(targets)
@@ -44,17 +45,18 @@ def _job(record):
 
 
 def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, list[str]]]) -> Iterator[str]:
-    """Yield a line for each existing result behind the targets that the current rules would make differently.
+    """For each result that the current rules would make differently, yield a line with the reason.
 
-    Results for which only an input has changed come last, since this may be a consequence of another line.
+    The targets and all existing results on which they depend are checked. Results for which only an input has changed
+    come last, since another line may state why the input has changed.
 
     Parameters
     ----------
     targets
         Paths of results.
     now
-        Function that returns the current params and inputs of a rule with wildcards; it raises LookupError if the rule
-        no longer exists.
+        Function of a rule name and wildcards that returns the current params and inputs of the rule. It raises
+        LookupError if the rule no longer exists.
     """
     known, seen, pending, following = records(), set(), list(targets), []
     while pending:
@@ -82,7 +84,7 @@ def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, li
 
 
 def differences(one, other, place: str = "") -> Iterator[tuple]:
-    """Yield key path, value and other value where two nested mappings differ; a missing value is None."""
+    """For each difference of two nested mappings, yield the key path and both values; a missing value is None."""
     if isinstance(one, dict) and isinstance(other, dict):
         for name in one | other:
             yield from differences(one.get(name), other.get(name), f"{place}.{name}".removeprefix("."))
@@ -100,7 +102,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None
     results
         Paths of the results, relative to the working directory.
     titles
-        Titles of the figures by name.
+        Title of each figure by name.
     path
         Path of the archive, a .tar.gz file.
 
@@ -130,7 +132,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None
 
 
 def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, str]) -> ROCrate:
-    """Return the RO-Crate of a folder: authors, licence, and a description of each file."""
+    """Return the RO-Crate of a folder, with authors, licence and a description of each file."""
     described = ROCrate()
     written_in = {"lang": "snakemake", "lang_version": version("snakemake")}
     workflow = described.add_workflow(None, WORKFLOW, main=True, **written_in, properties={"name": "The pipeline"})
@@ -155,7 +157,7 @@ def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, s
 
 
 def _plain(member: tarfile.TarInfo, time: int) -> tarfile.TarInfo:
-    """Normalise owner, time and mode of an archive entry, so that equal files give equal bytes."""
+    """Normalise owner, time and mode of an archive entry, so that equal files give identical archives."""
     member.uid = member.gid = 0
     member.uname = member.gname = ""
     member.mtime, member.mode = time, 0o755 if member.isdir() or member.mode & 0o100 else 0o644

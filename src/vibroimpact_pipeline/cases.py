@@ -1,9 +1,9 @@
-"""Assign a case to every entry of a config: the one that it names, or `default_case`. Standard library only."""
+"""Assign a case to every config entry: the case that the entry names, or `default_case`. Standard library only."""
 
 import copy
 
 CHAPTER = ("equal", "unequal", "weak")
-"""Cases of the chapter. A config may omit them: see `with_cases`."""
+"""Cases of the chapter. A config may omit some of them (see `with_cases`)."""
 SINGLE = ("accuracy.benchmark", "report.force_sweep", "regimes.branches", "regimes.basins")
 COLLECTIONS = ("accuracy.problems", "report.animations", "sweeps")
 
@@ -12,9 +12,9 @@ def with_cases(config: dict) -> dict:
     """Return a copy of a config in which every entry that needs a case names one.
 
     An entry without a case gets `default_case`, or the first case if the config sets no default. The chapter's figures
-    must name their case. If a case of the chapter is missing, the figures, the animations and the mixed point of
-    `regimes.epsilon` that show it are removed; all other entries that name it get the default case. Malformed entries
-    are left unchanged; validation reports them.
+    must name their case. If a case of the chapter is missing, the figures, animations and `regimes.epsilon.mixed` are
+    removed if they name that case; all other entries that name the missing case get the default case. Malformed
+    entries are left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")
@@ -38,12 +38,12 @@ def with_cases(config: dict) -> dict:
 
 
 def case_overrides(config: dict, case: str) -> dict:
-    """Return the parameters in the entry of a case: forcing amplitudes and values that override `system`."""
+    """Return the parameters that a case sets: forcing amplitudes, and values that override those of `system`."""
     return {name: value for name, value in config["cases"][case].items() if name not in ("title", "simulation")}
 
 
 def title_of(config: dict, case: str) -> str:
-    """Return the text for a case in titles and captions: its title, or its name and values overriding `system`."""
+    """Return the text for a case in titles and captions: its title, or its name and the values that it overrides."""
     overrides = [
         f"{name} = {value}" for name, value in case_overrides(config, case).items() if name in config["system"]
     ]

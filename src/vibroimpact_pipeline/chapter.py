@@ -5,7 +5,7 @@ import runpy
 from vibroimpact_pipeline.cases import case_overrides
 from vibroimpact_pipeline.code import SOURCES
 
-# Rules read these parameters too, and Snakemake may run where NumPy, which the package imports, is not installed.
+# The rules need these parameters even where NumPy is not installed, so the module is run without importing its package.
 PRINTED = runpy.run_path(str(SOURCES / "vibroimpact/system/chapter.py"))
 CASES, PARAMETERS = PRINTED["CASES"], PRINTED["PARAMETERS"]
 CASE_OF = {
@@ -16,11 +16,11 @@ CASE_OF = {
     "fig10_10": "weak",
     "fig10_11": "weak",
 }
-"""Case shown by each figure of the chapter."""
+"""Case of each figure of the chapter."""
 
 
 def departures(config: dict) -> list[str]:
-    """Return one line for each difference between a config and section 10.4, ignoring additional cases."""
+    """Return one line for each difference between a config and section 10.4; additional cases are ignored."""
     found = _differences("system", config["system"], PARAMETERS)
     for case, forces in CASES.items():
         if case in config["cases"]:

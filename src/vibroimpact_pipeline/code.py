@@ -1,8 +1,8 @@
-"""Fingerprints of the code behind a job: the modules that its script imports, and the files that these read.
+"""Compute the fingerprint of the code of a job: its script, the modules that it imports, and their data files.
 
-The `params` of each rule contain the fingerprint. It covers the parsed code without comments and docstrings, so that
-editing a comment reruns nothing, and editing a formula reruns every job that imports it, directly or indirectly.
-Standard library only.
+The `params` of each rule contain the fingerprint. It covers the parsed code without comments and docstrings. Editing a
+comment therefore reruns nothing, and editing a formula reruns every job that imports its module, directly or
+indirectly. Standard library only.
 """
 
 import ast
@@ -14,24 +14,24 @@ from pathlib import Path
 SOURCES = Path(__file__).resolve().parents[1]
 """Folder that contains the packages: `src` of a checkout, or the installation folder."""
 SHIPPED = Path(__file__).resolve().with_name("checkout")
-"""Folder of the other files of the checkout in a wheel (listed in pyproject.toml)."""
+"""Folder in a wheel for files of the checkout other than packages (listed in pyproject.toml)."""
 INSTALLED = SHIPPED.is_dir()
 ROOT = SHIPPED if INSTALLED else SOURCES.parent
-"""The checkout, or in an installed pipeline the folder with its files."""
+"""Root of the checkout; for an installed pipeline, the folder that contains files of the checkout."""
 PACKAGES = "vibroimpact", "vibroimpact_pipeline"
 CODE = ".py", ".pyi", ".typed"
 DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
 
 
 def behind(*roots: str) -> list[Path]:
-    """Return all files behind a job, sorted.
+    """Return all code and data files on which a job depends, sorted.
 
     Parameters
     ----------
     roots
-        Names of modules, such as vibroimpact.figures.fig10_06, and paths of files and folders in the checkout. Modules,
-        scripts and notebooks include everything that they import, directly or indirectly. A module also includes the
-        other files in its folder, such as styles and templates.
+        Names of modules, such as vibroimpact.figures.fig10_06, and paths of files and folders in the checkout. For
+        modules, scripts and notebooks, the result includes all modules that they import, directly or indirectly. For
+        each module, it includes the data files in the same folder, such as styles and templates.
     """
     found, pending = set(), [path for root in roots for path in _paths(root)]
     while pending:
@@ -45,7 +45,7 @@ def behind(*roots: str) -> list[Path]:
 
 
 def fingerprint(*roots: str) -> str:
-    """Return the fingerprint of the files behind a job; for folders it covers every byte, including comments."""
+    """Return the fingerprint of the files of `behind`; for folders it covers every byte, including comments."""
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
     for name, path in sorted((_name(path), path) for path in behind(*roots)):
         content = path.read_bytes() if path in listed else _content(path)
@@ -54,18 +54,18 @@ def fingerprint(*roots: str) -> str:
 
 
 def _name(path: Path) -> str:
-    """Return the path of a file relative to the checkout, or to `src` for a module; a wheel gives the same path."""
+    """Return a path relative to the checkout, or to `src` for a module; the result is the same in a wheel."""
     top = SOURCES if path.is_relative_to(SOURCES) and not path.is_relative_to(SHIPPED) else ROOT
     return path.relative_to(top).as_posix()
 
 
 def change_times(*roots: str) -> dict[Path, int]:
-    """Return the ctime (ns) of every file behind a job; unlike the mtime it also changes when a file is restored."""
+    """Return the ctime [ns] of each file of `behind`; unlike the mtime, it changes when a file is restored."""
     return {path: path.stat().st_ctime_ns for path in behind(*roots)}
 
 
 def _paths(root: str) -> list[Path]:
-    """Return the files of a root of `behind`."""
+    """Return the files for one root of `behind`, without the modules that they import."""
     if root.split(".")[0] in PACKAGES:
         return module_files(root)
     top = ROOT / root
@@ -78,13 +78,13 @@ def _paths(root: str) -> list[Path]:
 
 
 def is_source(path: Path) -> bool:
-    """Return True if a path within a source folder is neither hidden nor bytecode."""
+    """Return True if no part of a path, relative to a source folder, is hidden or a bytecode folder."""
     return not any(name.startswith(".") or name == "__pycache__" for name in path.parts)
 
 
 @cache
 def modules() -> dict[str, Path]:
-    """Return the file of every module of this project by its name."""
+    """Return the file of each module of this project by the name of the module."""
     found = [
         path for package in PACKAGES for path in (SOURCES / package).rglob("*.py") if not path.is_relative_to(SHIPPED)
     ]
@@ -98,7 +98,7 @@ def modules() -> dict[str, Path]:
 
 @cache
 def module_files(name: str) -> list[Path]:
-    """Return a module, its parent packages and the other files in its folder; an empty list for other projects."""
+    """Return the files of a module, its parent packages and the data in its folder; none for other projects."""
     if name not in modules():
         return []
     parts = name.split(".")
@@ -108,13 +108,13 @@ def module_files(name: str) -> list[Path]:
 
 
 def _imported(path: Path) -> set[str]:
-    """Return the names of the modules of this project that a file imports anywhere."""
+    """Return the names of the modules of this project that a file imports, including imports in functions."""
     return _parsed(path, path.stat().st_ctime_ns)[1]
 
 
 @cache
 def _parsed(path: Path, time: int) -> tuple[str, set[str]]:
-    """Return the code of a module, script or notebook without comments and docstrings, and the names of its imports."""
+    """For a module, script or notebook, return its code without comments and docstrings, and its imported modules."""
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".ipynb":
         cells = json.loads(text)["cells"]
@@ -136,10 +136,10 @@ def _content(path: Path) -> bytes:
 
 
 def changed(code: dict) -> bool:
-    """Return True if the code behind a job has changed since `code_of` returned this value."""
+    """Return True if the code of a job has changed since `code_of` returned `code`."""
     return fingerprint(*code["of"]) != code["fingerprint"]
 
 
 def code_of(*roots: str) -> dict:
-    """Return the value of `params.code` for a rule: the roots of `behind` and their fingerprint."""
+    """Return the value of `params.code` for a rule: the arguments of `behind` and their fingerprint."""
     return {"of": sorted(roots), "fingerprint": fingerprint(*roots)}

@@ -1,4 +1,4 @@
-"""Data dictionary: the contents of every results file, from the SPECs of the figures and report/data.yaml."""
+"""Data dictionary: describe the content of every results file, from the SPECs of figures and report/data.yaml."""
 
 import re
 from dataclasses import dataclass, field
@@ -12,27 +12,27 @@ from vibroimpact_pipeline.specs import columns, each, specs
 DATA = "report/data.yaml"
 DRAWN = "results/figures/"
 LABEL = "data-"
-"""Prefix of the anchors of tables on the data pages."""
+"""Prefix of the anchor of each table on the data pages."""
 
 
 @dataclass(frozen=True)
 class File:
-    """One kind of results file.
+    """Description of one kind of results file.
 
     Parameters
     ----------
     paths
         Paths of the files; a placeholder such as {case} stands for one word.
     about
-        Description of the content.
+        Content of the files.
     columns
-        Meaning, unit and, optionally, allowed values of each column by name.
+        For each column by name: meaning, unit and, optionally, allowed values.
     specific
-        Names of the columns whose meaning is specific to this file.
+        Names of the columns with a meaning or values that are specific to these files.
     keys
-        Meaning of each key by its path; * stands for every entry.
+        For JSON files, the meaning of each key by its path; * stands for every entry.
     on_demand
-        Command that makes the file, by path, if the default build does not.
+        By path, the command that makes a file that the default build does not make.
     """
 
     paths: list[str]
@@ -53,13 +53,13 @@ def stands_for(pattern: str, path: str) -> bool:
 
 
 def read(root) -> tuple[dict, dict]:
-    """Read the SPEC of every figure and report/data.yaml."""
+    """Return the SPEC of every figure by name, and the content of report/data.yaml."""
     checkout = root if Path(root, "src").is_dir() else None
     return specs(checkout), yaml.safe_load(Path(root, DATA).read_text(encoding="utf-8"))
 
 
 def files(known: dict, data: dict) -> list[File]:
-    """Return all kinds of files, tables of figures first; `known` maps figures to their SPEC."""
+    """Return all kinds of results files, first the tables of figures; `known` contains the SPEC of each figure."""
     shared = each(data["shared"])
     tables = [table for spec in known.values() for table in spec.get("tables", {}).values()]
     found = []
@@ -74,7 +74,7 @@ def files(known: dict, data: dict) -> list[File]:
 
 
 def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
-    """Return the data dictionary as Markdown without heading; `of_figures` selects tables of figures or other files."""
+    """Return the data dictionary in Markdown for tables of figures (`of_figures=True`), other files (False) or all."""
     parts = [
         "## Units",
         _table(["unit", "meaning"], data["units"].items()),
@@ -87,7 +87,7 @@ def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
 
 
 def _section(file):
-    """Yield the parts of a section: heading, paths and description, names of shared columns, tables of others."""
+    """Yield the parts of the section of a file: heading, paths and description, shared columns, other columns, keys."""
     on_demand = {path: f" (made by `{command}`)" for path, command in file.on_demand.items()}
     places = [f"`{path}`{on_demand.get(path, '')}" for path in file.paths]
     common = [f"`{name}`" for name in file.columns if name not in file.specific]
@@ -109,13 +109,13 @@ def _columns(listed):
 
 
 def _meaning(entry):
-    """Return the meaning of a column, followed by its allowed values unless the meaning lists them."""
+    """Return the meaning of a column, followed by its allowed values unless the meaning already contains them."""
     meaning, values = entry["meaning"], entry.get("values", [])
     return meaning if all(value in meaning for value in values) else f"{meaning}: {'; '.join(values)}"
 
 
 def _table(heads, rows):
-    """Return a pipe table in which consecutive names with the same meaning share a row."""
+    """Return a Markdown table; consecutive rows that differ only in the first cell, a name, are merged."""
     merged = ((", ".join(name for name, *_ in same), *rest) for rest, same in groupby(rows, lambda row: row[1:]))
     lines = [heads, ["---"] * len(heads), *merged]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)

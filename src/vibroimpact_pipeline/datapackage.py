@@ -1,4 +1,4 @@
-"""Data package (Frictionless Table Schema) of the tables of a build, from the data dictionary."""
+"""Make the data package (Frictionless Table Schema) of a build: its tables as the data dictionary describes them."""
 
 from pathlib import Path
 
@@ -9,18 +9,18 @@ TYPES = {
     "text": {"type": "string"},
     "true or false": {"type": "boolean", "trueValues": ["True"], "falseValues": ["False"]},
 }
-"""Type of a column by its unit; columns with any other unit are numbers."""
+"""Type of a column by its unit; a column with any other unit is a number."""
 
 
 def data_package(headers: dict[str, list[str]], known: list[File], units: dict[str, str], cited: dict) -> dict:
-    """Return the data package of CSV files as JSON data.
+    """Return the data package for CSV files as JSON data.
 
     Parameters
     ----------
     headers
-        Names of the columns by path of the table; the package is written to results/.
+        For each table by its path, the names of the columns. Paths begin with results/, the folder of the package.
     known
-        Kinds of files.
+        Kinds of results files.
     units
         Meaning of each unit.
     cited
@@ -29,7 +29,7 @@ def data_package(headers: dict[str, list[str]], known: list[File], units: dict[s
     Raises
     ------
     LookupError
-        If the dictionary lacks a table or column.
+        If the data dictionary lacks a table or one of its columns.
     """
     return {
         "profile": "tabular-data-package",

@@ -1,4 +1,4 @@
-"""Environment variables of all commands and jobs of the pipeline."""
+"""Set environment variables for all commands and jobs of the pipeline."""
 
 import getpass
 import importlib.util
@@ -12,10 +12,10 @@ CACHES = {
     "IPYTHONDIR": "ipython",
     "HEYOKA_CACHE_DIR": "heyoka",
 }
-"""Cache folders below `.cache` by environment variable; by default libraries use the home directory."""
+"""Cache folder below `.cache` for each environment variable; by default libraries use the home directory."""
 
 REMOVED = ("JUPYTER_", "MPLBACKEND", "PYTHONSTARTUP")
-"""Prefixes of user variables that would change kernels, page templates, the Matplotlib backend or start-up code."""
+"""Prefixes of variables to remove, since they change kernels, page templates, the backend or start-up code."""
 
 REQUIRED = ("numpy", "scipy", "numba", "matplotlib", "pandas", "papermill", "pydantic", "flint", "mpmath", "yaml")
 """Modules that jobs need; parsing, linting and listing the workflow needs only Snakemake."""
@@ -27,9 +27,9 @@ def missing_libraries() -> list[str]:
 
 
 def set_environment(checkout: Path | None) -> None:
-    """Set the variables of this process and its jobs: library path, cache folders, one thread per job.
+    """Set library path, cache folders and one thread per job in the environment of this process and its jobs.
 
-    Caches are stored in the working directory if there is no checkout or if the checkout is not writable.
+    The cache folders are in the checkout, or in the working directory if the checkout is missing or not writable.
     """
     cache_folder = (checkout if checkout and os.access(checkout, os.W_OK) else Path.cwd()) / ".cache"
     for variable, folder in CACHES.items():

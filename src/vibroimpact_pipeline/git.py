@@ -13,7 +13,7 @@ SETTINGS = {
     "log.showSignature": "false",
     "tar.umask": "0002",
 }
-"""Settings that affect the output of git or the bytes of a checkout. Other settings, such as safe.directory, apply."""
+"""Values for settings that affect output or archives. All other settings, such as safe.directory, are the user's."""
 ABSENT = "not a git repository"
 """Part of the message that git prints outside a repository."""
 MAX_PATHS = 4
@@ -21,20 +21,20 @@ MAX_PATHS = 4
 
 
 class GitRefused(ValueError):
-    """Raised if git does not read a repository, for example because another user owns its directory."""
+    """Raised if git refuses to read a repository, for example because another user owns its directory."""
 
 
 def call(*arguments, root=".", **variables) -> subprocess.CompletedProcess:
-    """Run a git command in a directory, with English output and without variables that select another repository.
+    """Run git in a directory, with English output and without variables that could select another repository.
 
     Parameters
     ----------
     arguments
         Arguments of git.
     root
-        Directory.
+        Directory in which git runs.
     variables
-        Additional environment variables.
+        Further environment variables.
 
     Raises
     ------
@@ -53,7 +53,7 @@ def output(*arguments, root=".") -> bytes:
     Raises
     ------
     GitRefused
-        If the command fails; the message is that of git in one line.
+        If the command fails; the message contains the error of git on one line.
     """
     run = call(*arguments, root=root)
     if run.returncode:
@@ -62,15 +62,15 @@ def output(*arguments, root=".") -> bytes:
 
 
 def git(*arguments, root=".") -> str | None:
-    """Return the output of a git command in a directory, or None if git does not track the directory.
+    """Return the output of a git command in a directory, or None if git tracks no file of the directory.
 
-    Git tracks no file of the directory if git is not installed, if there is no repository, or if the directory is an
-    untracked copy inside another repository.
+    The result is None if git is not installed, if there is no repository, or if the directory is an untracked copy
+    inside another repository.
 
     Raises
     ------
     GitRefused
-        If git does not read the repository.
+        If git refuses to read the repository.
     """
     try:
         tracked = output("ls-files", "-z", ".", root=root)
@@ -84,7 +84,7 @@ def git(*arguments, root=".") -> str | None:
 
 
 def changes(root=".") -> list[str] | None:
-    """Return the modified and untracked paths of a checkout, or None if git does not track it (see `git`)."""
+    """Return modified and untracked paths of a checkout, or None if git does not track the checkout (see `git`)."""
     listed = git("status", "--porcelain", "--untracked-files=normal", "--ignore-submodules=none", ".", root=root)
     return None if listed is None else [line[3:] for line in listed.splitlines()]
 
@@ -105,7 +105,7 @@ def committed(root) -> str:
     Raises
     ------
     ValueError
-        If there is no git checkout, git does not read it, or it has uncommitted changes.
+        If git does not track the checkout, refuses to read it, or finds uncommitted changes.
     """
     commit, changed = git("rev-parse", "HEAD", root=root), changes(root)
     if changed is None:

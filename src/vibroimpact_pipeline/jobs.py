@@ -1,4 +1,4 @@
-"""Context of every job: write its log, check code and inputs before and after, move outputs into place at the end."""
+"""Run a job: write a log, check code and inputs before and after, and move outputs into place at the end."""
 
 import ctypes
 import os
@@ -23,16 +23,16 @@ PR_SET_PDEATHSIG = 1
 
 
 class Refused(RuntimeError):
-    """Raised if code or inputs changed, so that the outputs of the job cannot be used."""
+    """Raised if code or inputs have changed, so that the outputs of the job are not valid."""
 
 
 @contextmanager
 def running(job) -> Iterator[SimpleNamespace]:
-    """Run the script of a Snakemake job with named outputs; yield their temporary paths by name.
+    """Run the body of a `with` statement as the script of a Snakemake job; yield a temporary path for each output.
 
-    Output of the script is written to the log of the job. The job fails with one line and replaces no output if its
+    The paths have the names of the outputs. Everything that the script prints is written to the log of the job. If the
     code differs from `params.code` (see `code.code_of`), if an input differs from its record, or if either changes
-    while the job runs. An invalid value from the config is reported in one line, too.
+    while the job runs, the job fails with one line and replaces no output. An invalid config value also gives one line.
     """
     end_with_parent()
     with ExitStack() as stack:
@@ -68,14 +68,14 @@ def running(job) -> Iterator[SimpleNamespace]:
 
 
 def with_key(error, decided: dict) -> str | None:
-    """Return the text of an error with the config key of its argument, or None if the config lacks the argument.
+    """Return the text of an error with the full config key of its argument, or None if no entry has this key.
 
     Parameters
     ----------
     error
         Error or text that begins with the name of an argument and a colon.
     decided
-        Entries of the config by their full key.
+        Config entries of the job by full key.
     """
     name, _, _ = str(error).partition(":")
     argument, _, _ = name.partition(".")
@@ -86,7 +86,7 @@ def with_key(error, decided: dict) -> str | None:
 
 @contextmanager
 def logging_to(path) -> Iterator[None]:
-    """Redirect the output of this process and its children to a log file; print errors as one line to the terminal."""
+    """Redirect the output of this process and its children to a log file; print errors as one line on the terminal."""
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     terminal = os.dup(sys.stderr.fileno())
     with open(path, "w", encoding="utf-8") as log:

@@ -1,4 +1,4 @@
-"""Provenance of a figure: write its record, and compare the record with the checkout.
+"""Write the provenance record of a figure, or compare a record with the current checkout.
 
 python -m vibroimpact_pipeline.provenance results/figures/fig10_06.png
 """
@@ -17,18 +17,18 @@ from vibroimpact_pipeline.result_records import RESULTS, digest_of, is_result
 from vibroimpact_pipeline.specs import at, case_parameters
 
 CONFIG = "config"
-"""Folder of the config files, relative to a build or to the checkout."""
+"""Folder of config files, relative to the folder of a build or to the checkout."""
 
 
 def write(job, out) -> None:
-    """Write the record of a figure: config, code, inputs and files, which must exist.
+    """Write the provenance record of a figure, whose files must exist: config, code, inputs, files and commit.
 
     Parameters
     ----------
     job
         The Snakemake job.
     out
-        Temporary paths of its outputs; `out.provenance` already contains the versions of packages.
+        Temporary paths of the outputs; `out.provenance` already contains the versions of packages.
     """
     folder = Path(job.output.provenance).parent
     outputs = {path: getattr(out, name) for name, path in job.output.items() if name != "provenance"}
@@ -47,7 +47,7 @@ def write(job, out) -> None:
 
 
 def read(path) -> dict:
-    """Return the provenance record of a figure, given one of its files.
+    """Return the provenance record of a figure, given the path of one of its files.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def differences(path, record: dict, config: dict) -> Iterator[str]:
     Parameters
     ----------
     path
-        Path of a file of the figure.
+        Path of one file of the figure.
     record
         Provenance record of the figure.
     config
@@ -88,7 +88,7 @@ def differences(path, record: dict, config: dict) -> Iterator[str]:
 
 
 def _at(config, place):
-    """Return the config entry at "section.key", or for a case the parameters of its System."""
+    """Return the config entry at "section.key"; for a case, the parameters of its System."""
     section, _, name = place.partition(".")
     if place == "cases":
         return {case: case_parameters(config, case) for case in config["cases"]}
@@ -101,14 +101,14 @@ def _at(config, place):
 
 
 def main() -> int:
-    """Compare a figure with the checkout; return 0 if nothing changed, 1 if something did, 2 if it has no record."""
+    """Compare a figure with the checkout; return 0 without differences, 1 with differences, 2 without a record."""
     from vibroimpact_pipeline.config import checked, merged
     from vibroimpact_pipeline.config import read as read_config
 
     parser = argparse.ArgumentParser(prog="python -m vibroimpact_pipeline.provenance", description=__doc__)
     parser.add_argument("file", type=Path, help="file of a figure, such as results/figures/fig10_06.png")
     file = parser.parse_args().file
-    # Symbolic links are not resolved because `results` may be a link to another disk.
+    # Keep symbolic links, because `results` may be a link to another disk.
     parents = Path(os.path.abspath(file)).parents
     build = next((folder.parent for folder in parents if folder.name == RESULTS), code.ROOT)
     of_checkout = sorted((code.ROOT / CONFIG).glob("*.yaml"))

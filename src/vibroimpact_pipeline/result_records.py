@@ -1,8 +1,8 @@
-"""Write results atomically, each with a record of its content and origin.
+"""Write results atomically, and for each result a record of its content and origin.
 
-The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`: the SHA-256 of the result, the rule with its
-wildcards and params, and the SHA-256 of every input. Records are stored next to those of Snakemake, so that copying
-results from another build does not copy their records.
+The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`. It contains the SHA-256 of the result, the
+rule with wildcards and params, and the SHA-256 of every input. Records are in the folder of Snakemake's own records,
+so that results copied from another build have no record.
 """
 
 import base64
@@ -19,7 +19,7 @@ RECORDS = Path(".snakemake/sums")
 PARTIAL = ".partial-"
 """Prefix of the folders that contain outputs until their job has succeeded."""
 OF_SNAKEMAKE = ".snakemake_timestamp"
-"""File that Snakemake adds to output directories."""
+"""Name of the file that Snakemake adds to output directories."""
 
 
 class ModifiedResult(RuntimeError):
@@ -27,7 +27,7 @@ class ModifiedResult(RuntimeError):
 
 
 def digest_of(path) -> str:
-    """Return the SHA-256 of a file, or of the names and digests of all files in a directory."""
+    """Return the SHA-256 of a file; for a directory, the SHA-256 of the names and digests of all files."""
     path = Path(path)
     if path.is_dir():
         below = sorted(file for file in path.rglob("*") if file.is_file() and file.name != OF_SNAKEMAKE)
@@ -47,7 +47,7 @@ def to_disk(path) -> None:
 
 
 def partial_path(path) -> Path:
-    """Return a path with the same name in a new, empty folder next to `path`."""
+    """Create an empty folder next to `path`; return the path of a file of the same name in this folder."""
     path = Path(path)
     folder = path.with_name(PARTIAL + path.name)
     shutil.rmtree(folder, ignore_errors=True)
@@ -57,7 +57,7 @@ def partial_path(path) -> Path:
 
 @contextmanager
 def replacing(path) -> Iterator[Path]:
-    """Yield a temporary path with the same name, and move it to `path` unless an exception is raised."""
+    """Yield a temporary path; move the file written there to `path` unless an exception is raised."""
     partial = partial_path(path)
     try:
         yield partial
@@ -82,7 +82,7 @@ def record_of(path) -> Path:
 
 
 def write_record(path, origin: Mapping) -> None:
-    """Write the record of a result: its digest, its size and its origin."""
+    """Write the record of a result: digest, size and origin."""
     with replacing(record_of(path)) as partial:
         partial.write_text(
             json.dumps({"sha256": digest_of(path), "size": os.stat(path).st_size, **origin}, indent=1) + "\n",
@@ -99,18 +99,18 @@ def read_record(path) -> dict:
 
 
 def records() -> dict[str, dict]:
-    """Return the records of all existing results of the working directory by path."""
+    """Return the records of all existing results in the working directory, by the path of the result."""
     paths = (str(path.relative_to(RECORDS)).removesuffix(".json") for path in sorted(RECORDS.rglob("*.json")))
     return {path: read_record(path) for path in paths if os.path.exists(path)}
 
 
 def is_result(path) -> bool:
-    """Return True if jobs write to a path, False if it is a file of the checkout."""
+    """Return True for the path of a result, False for a file of the checkout."""
     return not Path(path).is_absolute() and RESULTS in Path(path).parts
 
 
 def checked_digests(paths: Iterable) -> dict[str, str]:
-    """Compare the inputs of a job that are results with their records, and return their SHA-256.
+    """Check that those inputs of a job that are results match their records; return the SHA-256 of each by path.
 
     Raises
     ------
@@ -126,11 +126,11 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
 
 
 def distrust(outputs: Iterable) -> list[str]:
-    """Mark results that have no Snakemake record or have been modified as incomplete; return their paths.
+    """Mark results without complete records and modified results as incomplete; return their paths.
 
-    Snakemake treats a file without record as up to date. It rebuilds a file that is marked as incomplete when needed.
+    Without the mark, Snakemake would treat such a file as up to date. It rebuilds an incomplete file when needed.
     """
-    # The order matters: while a job ends, its results are either still marked by Snakemake or already recorded.
+    # Read the marks before the records: while a job ends, a result is still marked by Snakemake or already recorded.
     present = [path for path in map(str, outputs) if os.path.exists(path)]
     unmarked = [path for path in present if not _of_snakemake("incomplete", path).exists()]
     found = [path for path in unmarked if not _as_recorded(path)]
@@ -147,9 +147,9 @@ def _mark(path: str) -> None:
 
 
 def _as_recorded(path: str) -> bool:
-    """Return True if a result matches its records; its content is read only if times or size differ."""
+    """Return True if a result matches its records; the content is read only if times or size are unexpected."""
     try:
-        # The job writes its record, Snakemake then touches the result, and finally writes its own record.
+        # Expected order: the job writes the record, Snakemake touches the result, and Snakemake writes its own record.
         times = [Path(one).stat().st_mtime_ns for one in (record_of(path), path, _of_snakemake("metadata", path))]
     except OSError:
         return False
@@ -160,9 +160,10 @@ def _as_recorded(path: str) -> bool:
 
 
 def _of_snakemake(folder: str, path: str) -> Path:
-    """Return the path of Snakemake's record of a result: its name in Base64, split to respect the name length limit.
+    """Return the path of Snakemake's own record of a result, in a folder such as "metadata" or "incomplete".
 
-    Snakemake has no public function for it. Tested with 9.12 and 9.27.
+    The file name is the path of the result in Base64, split to respect the length limit of names. Snakemake has no
+    public function for this path. Tested with versions 9.12 and 9.27.
     """
     name = base64.urlsafe_b64encode(path.encode()).decode()
     *cut, last = (name[start : start + 254] for start in range(0, len(name), 254))

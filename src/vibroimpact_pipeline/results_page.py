@@ -1,4 +1,4 @@
-"""Index page of a build: verdict of the exact system on each figure, recommended methods, links to all results."""
+"""Write the index page of a build: the exact system's verdict on each figure, recommended methods, links to results."""
 
 import csv
 import json
@@ -16,7 +16,7 @@ from vibroimpact_pipeline.html.policy import guarded
 TEMPLATE = Path(__file__).with_name("results_page.html.j2")
 EXACT = re.compile(r"<p>(<strong>The exact system:</strong>.*?)</p>", re.DOTALL)
 LARGE = "Speed and accuracy"
-"""Heading of the figures that the page shows at full text width."""
+"""Heading of the group of figures that the page shows at full text width."""
 KINDS = {"PNG": ".png", "SVG": ".svg", "PDF": ".pdf", "numbers (CSV)": ".csv"}
 TABLES = "*.csv", "*.json", "*.md", "regimes/*.csv", "accuracy/*.csv", "sweeps/*.csv"
 

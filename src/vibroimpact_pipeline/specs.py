@@ -1,17 +1,18 @@
 """Read the SPEC of every figure from the source without importing it. Standard library only.
 
-A SPEC is a literal with these entries. The rule of the figure in workflow/rules/ lists the inputs and settings.
+A SPEC is a dictionary literal with the entries below. The inputs and settings of a figure are in its rule, in
+workflow/rules/.
 
-- title, caption, alt, equations: texts of the figure. own: the same texts for figures of your own that use its drawing
-  code. method: how it is computed. notebook: name of the notebook that explains it, if it has a page.
-- sweeps: sweeps that the figure draws: their axes, and the observations that it needs.
-- columns: columns of the plotted table: meaning, unit, allowed values, `compared` (a kind of
+- title, caption, alt, equations: texts of the figure. own: texts for figures of your own that use the same drawing
+  code. method: how the figure is computed. notebook: name of the notebook that explains the figure, if any.
+- sweeps: for each sweep that the figure draws, the axes and observations that the figure needs.
+- columns: for each column of the plotted table, meaning, unit, allowed values, `compared` (a kind of number in
   figure_check/tolerances.yaml, or kinds by series) and `infinite` if infinite values are allowed. file: path of the
   table, if not the default. on_demand: command that makes the table, if the default build does not.
-- tables: further tables that `compute` returns, by name: file, description and columns.
+- tables: for each further table that `compute` returns, file, description and columns.
 
-The entries equations, columns and own may be the name of a figure with the same entry. The key "C1, C2" describes both
-columns.
+Instead of equations, columns or own, a SPEC may contain the name of the figure that has this entry. The key "C1, C2"
+describes both columns.
 """
 
 import ast
@@ -22,14 +23,14 @@ from vibroimpact_pipeline.cases import case_overrides
 from vibroimpact_pipeline.code import SOURCES, modules
 
 SHARED = "own", "equations", "columns"
-"""Entries of a SPEC that may be the name of a figure with the same entry."""
+"""Entries of a SPEC that may be given as the name of another figure that has this entry."""
 PACKAGES = "vibroimpact.figures", "vibroimpact.studies.figures"
-"""Packages of figures; the second may be missing."""
+"""Packages of figures; the second is missing without the studies."""
 
 
 @cache
 def specs(root=None) -> dict[str, dict]:
-    """Return the SPEC of every figure, of the checkout `root` if given; the plotted table is named "csv"."""
+    """Return the SPEC of every figure by name, from the checkout `root` if given; "csv" is the plotted table."""
     found = {}
     top = Path(root, "src") if root else SOURCES
     for path in sorted(path for package in PACKAGES for path in (top / package.replace(".", "/")).glob("*.py")):
@@ -53,12 +54,15 @@ def specs(root=None) -> dict[str, dict]:
 
 
 def module_of(figure: str) -> str:
-    """Return the full name of the module of a figure."""
+    """Return the full name of the module that draws a figure."""
     return next(name for package in PACKAGES if (name := f"{package}.{figure}") in modules())
 
 
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
-    """Return the SPEC of a figure with its full "module"; a figure of your own gets its own texts and files."""
+    """Return the SPEC of a figure and, as "module", its drawing module; your own figures get their own texts and files.
+
+    `scene` is the config entry of the figure, `known` the SPEC of every figure.
+    """
     module = scene.get("like", figure)
     if module == figure:
         return known[figure] | {"module": module_of(module)}
@@ -73,7 +77,7 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
 
 
 def with_model(caption: str, scene: dict) -> str:
-    """Return the caption of a figure, followed by the name of its model unless this is the default of the chapter."""
+    """Return the caption of a figure, followed by the name of its model if the model is not the default."""
     other = scene.get("model") in ("exact_orbit", "second_term")
     return f"{caption} Drawn with the model *{scene['model'].replace('_', ' ')}*." if other else caption
 
@@ -97,10 +101,10 @@ def case_parameters(config: dict, case: str) -> dict:
 
 
 def columns(table: dict, shared: dict) -> dict[str, dict]:
-    """Return the columns of a table by single name, with shared meanings and units filled in."""
+    """Return each column of a table by its single name, with shared meanings and units filled in."""
     return {name: shared.get(name, {}) | entry for name, entry in each(table["columns"]).items()}
 
 
 def each(listed: dict) -> dict:
-    """Return entries by single name; the key "C1, C2" is split into two."""
+    """Return a copy of a mapping with one name per key; an entry "C1, C2" is repeated for each name."""
     return {name: entry or {} for names, entry in listed.items() for name in names.split(", ")}

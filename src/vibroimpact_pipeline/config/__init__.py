@@ -1,6 +1,6 @@
 """Read and validate the config of the pipeline, config/config.yaml, before any job runs.
 
-Each field declares its limits and conditions. The rules receive plain values.
+Each field of the models declares its limits and conditions. Rules receive the values as dictionaries and lists.
 """
 
 from vibroimpact_pipeline.config.reading import ConfigError, checked, merged, read

@@ -1,4 +1,4 @@
-"""Types of fields that several sections share, with their limits."""
+"""Types of fields, with limits, that several sections share."""
 
 from typing import Annotated
 
@@ -7,13 +7,13 @@ from pydantic import AfterValidator, Field, ValidationInfo
 NAME, CASE = "^[a-z][a-z0-9_]{1,39}$", "^[a-z][a-z0-9_-]{1,39}$"
 TITLE, LETTER = "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
 BEYOND_LIMITS = 1.69
-"""Value of C above all stability limits derived in the companions; the highest is pi^2 / (pi^2 - 4) = 1.68."""
+"""Value of C above all stability limits that the companions derive; the highest limit is pi^2 / (pi^2 - 4) = 1.68."""
 MAX_VALUES = 1000
 """Maximum number of values along an axis."""
 
 
 def needs(fits, what: str) -> AfterValidator:
-    """Return a validator that raises ValueError(what) unless `fits` returns True."""
+    """Return a validator that raises ValueError(what) for a value unless fits(value) is True."""
 
     def check(value):
         if not fits(value):
@@ -24,7 +24,7 @@ def needs(fits, what: str) -> AfterValidator:
 
 
 def _known(case: str, info: ValidationInfo):
-    """Return a case if it is among the cases in the validation context, or if there is no context."""
+    """Return a case; raise ValueError if the validation context lists cases without it."""
     if case not in (info.context or [case]):
         raise ValueError(f"should be one of the cases {', '.join(map(repr, info.context))}")
     return case
@@ -41,22 +41,22 @@ WITHIN_WALLS = needs(
 
 
 def items(kind, least: int, most: int, about: str | None = None, check: AfterValidator | None = DIFFERENT):
-    """Return the type of a list; its values must be distinct unless another check is given."""
+    """Return the type of a list with `least` to `most` values, which must be distinct unless `check` replaces this."""
     return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), check]
 
 
 def span(kind, about: str = "Lower and upper end"):
-    """Return the type of a range [low, high]."""
+    """Return the type of a range [low, high] with low < high."""
     return items(kind, 2, 2, about, ASCENDING)
 
 
 def around(low: float, high: float):
-    """Return the type of a range that contains [low, high]."""
+    """Return the type of a range within [0, 100] that contains [low, high]."""
     return tuple[Annotated[float, Field(ge=0, le=low)], Annotated[float, Field(ge=high, le=100)]]
 
 
 def named(kind, least: int, most: int, name: str = NAME):
-    """Return the type of a mapping with names of your choice; a null entry removes a default (see `reading`)."""
+    """Return the type of a mapping with free names; null removes an entry of an earlier file (see `reading`)."""
     free = Annotated[str, Field(pattern=name)]
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]
 

@@ -1,4 +1,4 @@
-"""Section `figures`: figures of the chapter, and figures of your own that are drawn like one of them."""
+"""Section `figures`: figures of the chapter, and your own figures, each drawn like one of the chapter."""
 
 from typing import Annotated, Literal
 
@@ -11,12 +11,12 @@ MAX_FIGURES = 100
 """Maximum number of figures of a build; each is one job."""
 LIKE = Field(description="Figure of the chapter whose drawing code is used")
 MODEL = "Model: "
-"""Begins the description of `model`; results/accuracy/models.csv compares the models of each figure."""
+"""First word in the description of `model`; results/accuracy/models.csv compares the models of each figure."""
 THEORY = f"{MODEL}slow_flow (leading order) or exact_orbit (the exact orbits next to the fixed points)"
 
 
 class Drawing(Section):
-    """A drawing to scale."""
+    """Figures 10.1 and 10.2, drawings of the system without settings."""
 
 
 class Sawtooth(Section):
@@ -59,7 +59,7 @@ class Response(Section):
 
 
 class ResponseOnPlanes(Response):
-    """The theoretical response at a fixed point and the fixed point on the manifold, as in figure 10.10."""
+    """The theoretical response at a fixed point, and the place of this point on the manifold, as in figure 10.10."""
 
     C_max: fields.Planes
 
@@ -93,7 +93,7 @@ class OwnSimulatedMotion(SimulatedMotion):
 
 
 class OwnResponseOnPlanes(ResponseOnPlanes):
-    """Your own figure of a response and its fixed point on the manifold."""
+    """Your own figure of a response and of its fixed point on the manifold."""
 
     like: Literal["fig10_10"] = LIKE
 
@@ -104,7 +104,7 @@ OwnFigure = Annotated[
 
 
 class Figures(Section):
-    """The figures to build: those of the chapter, each optional, and figures of your own with other names."""
+    """The figures to build: any figures of the chapter, and your own figures with other names."""
 
     model_config = ConfigDict(extra="allow")
     __pydantic_extra__: dict[Annotated[str, Field(pattern=fields.NAME)], OwnFigure | None]

@@ -1,4 +1,4 @@
-"""Error messages on a config: the key, the given value, the allowed values."""
+"""Make error messages for a config; each states the key, the given value and the allowed values."""
 
 import difflib
 import re
@@ -10,7 +10,7 @@ from vibroimpact_pipeline.config.section import Place, Section
 
 
 def problems_of(error: ValidationError) -> dict[Place, dict]:
-    """Return Pydantic's errors by key path; a missing key is not reported next to an unknown key."""
+    """Return Pydantic's errors by key path; missing keys are left out if the same mapping has an unknown key."""
     errors = error.errors(include_url=False)
     misspelt = {details["loc"][:-1] for details in errors if details["type"] == "extra_forbidden"}
     found = {}
@@ -19,7 +19,7 @@ def problems_of(error: ValidationError) -> dict[Place, dict]:
         if details["type"] == "missing" and place[:-1] in misspelt:
             continue
         if place[:1] == ("figures",) and len(place) > 2 and str(place[2]).startswith("fig10_"):
-            place = place[:2] + place[3:]  # without the figure that `like` names
+            place = place[:2] + place[3:]  # remove the name of the figure in `like`, which Pydantic inserts
         place = place[:-1] if place[-1:] == ("[key]",) else place
         place += ("like",) if "discriminator" in details.get("ctx", {}) else ()
         found.setdefault(place, details)
@@ -49,18 +49,18 @@ def _keys(part) -> set[str]:
 
 
 def hint(name, known: Iterable[str]) -> str:
-    """Return "did you mean ...?" with the most similar known name, or an empty string if no name is similar."""
+    """Return "did you mean ...?" with the known name most similar to `name`, or an empty string if none is similar."""
     meant = difflib.get_close_matches(str(name), list(known), n=1)
     return f", did you mean {meant[0]!r}?" if meant else ""
 
 
 def key_path(place: Place) -> str:
-    """Return the path of a key as text, such as system.kappa or regimes.branches.paths[0]."""
+    """Return a key path as text, such as system.kappa or regimes.branches.paths[0]."""
     names = (f"[{part}]" if isinstance(part, int) else f".{short_repr(part, plain=True)}" for part in place)
     return "".join(names).removeprefix(".")
 
 
 def short_repr(value, plain: bool = False) -> str:
-    """Return a value as one line for an error message, shortened in the middle if it is long."""
+    """Return a value as text on one line for an error message; a long text is shortened in the middle."""
     text = "null" if value is None else str(value) if plain and str(value).isprintable() else repr(value)
     return text if len(text) <= 120 else f"{text[:60]}...{text[-60:]}"

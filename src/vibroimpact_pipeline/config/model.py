@@ -1,4 +1,4 @@
-"""Model of the chapter's config, config/config.yaml: smaller sections and conditions across sections."""
+"""Model of the chapter's config, config/config.yaml, with its small sections and the conditions across sections."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -15,20 +15,20 @@ from vibroimpact_pipeline.config.section import Place, Section
 from vibroimpact_pipeline.specs import specs
 
 MIN_FREQUENCY = 1e-3
-"""Lowest forcing frequency; the cost of simulating one cycle is inversely proportional to it."""
+"""Lowest forcing frequency; the cost to simulate one cycle is inversely proportional to the frequency."""
 PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "pages_"
-"""Reserved prefixes: rules of companions, sweeps and pages, the chapter's figures."""
+"""Reserved prefixes: names of rules for companions, sweeps and pages, and of the chapter's figures."""
 RULES = {
     name
     for path in (ROOT / "workflow").rglob("*.smk")
     for name in re.findall(r"^ *(?:use rule \w+ as|rule) (\w+)", path.read_text("utf-8"), re.MULTILINE)
 } | {"all", *(figure for figure, spec in specs().items() if not spec["own"])}
-"""Names of rules; figures and other entries that become rules cannot have these names."""
+"""Names of existing rules. Figures and other entries that become rules cannot have these names."""
 Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 
 
 class SystemSection(Section):
-    """Default parameters of all cases, dimensionless and hatted as in (10.4) and (10.6)."""
+    """Default parameters of all cases, dimensionless; the hat has the meaning of (10.4) and (10.6)."""
 
     epsilon: fields.Epsilon
     kappa: float = Field(gt=0, lt=1, description="Restitution coefficient")
@@ -64,10 +64,10 @@ class Parameters(SystemSection):
 
 
 def _refuse_resonance(system):
-    """Raise ValueError for an undamped system whose periodic responses are not isolated or not bounded."""
+    """Raise ValueError for an undamped system with periodic responses that are not isolated or not bounded."""
     if system.gamma1 > 0 and system.gamma2 > 0:
         return
-    # Imported here because loading SciPy takes longer than the rest of a build that is up to date.
+    # Import these here because loading SciPy takes longer than everything else in a build that is up to date.
     from vibroimpact.exact.orbits.impulse_response import impulse_response
     from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
@@ -77,7 +77,7 @@ def _refuse_resonance(system):
 
 
 class Simulation(Section):
-    """The direct integration of a case: a discarded transient, and a window."""
+    """Direct integration of a case: a transient, which is discarded, and a window."""
 
     initial_state: fields.State
     transient_cycles: fields.count("Length of the transient before the window [forcing periods]", 0)
@@ -105,7 +105,7 @@ class Case(create_model("Overrides", __base__=Section, **OVERRIDES)):
 
 
 class Problem(Section):
-    """A test problem of the work-precision chart, solved many times by every method and by the reference."""
+    """A test problem for the work-precision chart; all methods and the reference solve it many times."""
 
     case: fields.CaseName
     initial_state: fields.State
@@ -113,13 +113,13 @@ class Problem(Section):
 
 
 class Benchmark(Problem):
-    """The motion of `make benchmark`."""
+    """The motion that `make benchmark` simulates."""
 
     cycles: fields.count("Length [forcing periods]", 1, 1000)
 
 
 class Accuracy(Section):
-    """Test problems for the integration methods, and durations of the timings."""
+    """Test problems for the integration methods, and durations of timings."""
 
     effort: Literal["quick", "full"] = Field(
         "quick", description="quick, or full: longer timings and all stress tests (some minutes)"
@@ -131,10 +131,10 @@ class Accuracy(Section):
 
 
 class Config(Section):
-    """Config of the chapter: system, cases, figures, accuracy. Dimensionless; times in forcing periods."""
+    """Config of the chapter: system, cases, figures, accuracy. Values are dimensionless, times in forcing periods."""
 
     system: SystemSection
-    # At most twelve, since companion figures have a panel for each case.
+    # At most twelve cases, since companion figures have a panel for each case.
     cases: fields.named(Case, 1, 12, fields.CASE) = Field(
         description="Cases by name: a lower-case letter, then 1 to 39 characters out of a-z 0-9 - _"
     )
@@ -149,11 +149,11 @@ class Config(Section):
         yield from self.unsound()
 
     def named_rules(self) -> Iterator[Place]:
-        """Yield the key paths of entries that become rules of the same name."""
+        """Yield the key path of each entry from which a rule of the same name is made."""
         yield from (("figures", name) for name in self.figures.model_extra)
 
     def taken_names(self):
-        """Yield errors for entries whose name is already in use."""
+        """Yield an error for each entry with a name that is already in use."""
         places = [*self.named_rules()]
         for place in places:
             name = place[-1]
@@ -163,7 +163,7 @@ class Config(Section):
                 yield place, what
 
     def unsound(self):
-        """Yield errors for parameters that System rejects: in cases or, if these are valid, along sweeps and paths."""
+        """Yield errors for parameters that System rejects: of cases or, if all cases are valid, of sweeps and paths."""
         systems, found = {}, False
         for name, case in self.cases.items():
             overrides = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)
@@ -178,12 +178,12 @@ class Config(Section):
                     yield place, f"at {at}: {': '.join([*key, what])}"
 
     def moves(self) -> Iterable[tuple[Place, str | None, dict[str, float]]]:
-        """Return varied parameters: key path of the entry, its case (None: all cases), and parameters by name."""
+        """Return varied parameters to check, as tuples (key path of the entry, case or None for all, parameters)."""
         return ()
 
 
 def _amiss(parameters):
-    """Return the problems of parameters that System rejects, each with its key path; an empty list if valid."""
+    """Return why System rejects parameters, as pairs (key path, message); an empty list if they are valid."""
     try:
         Parameters.model_validate(parameters)
     except ValidationError as error:

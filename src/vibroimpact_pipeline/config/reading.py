@@ -1,4 +1,4 @@
-"""Read and validate a config; report all problems at once, one line each."""
+"""Read and validate a config; report all problems together, each on one line."""
 
 import re
 from importlib import import_module
@@ -13,9 +13,9 @@ from vibroimpact_pipeline.config.messages import described, hint, key_path, prob
 from vibroimpact_pipeline.config.section import refuse
 
 MAX_BYTES, MAX_VALUES = 100_000, 50_000
-"""Limits of a file: its size, and the number of its values after YAML aliases are expanded."""
+"""Limits for a config file: its size, and its number of values after YAML aliases are expanded."""
 MAX_LINES = 30
-"""Maximum number of problems in an error message."""
+"""Maximum number of problems that an error message lists."""
 
 
 class ConfigError(ValueError):
@@ -52,12 +52,12 @@ for kind in ("int", "float"):
 
 
 def read(path) -> dict:
-    """Return the entries of a config file; a null marks an entry to be removed.
+    """Return the entries of a config file; the value null marks an entry to remove.
 
     Raises
     ------
     ConfigError
-        If the file cannot be read, is not a YAML mapping, or contains unsupported values; one line.
+        If the file cannot be read, is not a YAML mapping, or contains unsupported values.
     """
     try:
         with open(path, "rb") as file:
@@ -80,12 +80,12 @@ def read(path) -> dict:
 def merged(sources) -> dict:
     """Merge sources (name, content); a later source overrides earlier ones.
 
-    A null removes the entry of an earlier source. Inside a mapping given by `--config`, Snakemake passes null as text.
+    The value null, or its text "null", which Snakemake passes inside mappings of `--config`, removes an earlier entry.
 
     Raises
     ------
     ConfigError
-        If a null has nothing to remove, or a source contains unsupported values; one line for each.
+        If a null has no entry to remove, or a source contains unsupported values; one line for each problem.
     """
     whole = {}
     for name, content in sources:
@@ -97,14 +97,14 @@ def merged(sources) -> dict:
 
 
 def checked(config: dict, sources=()) -> dict:
-    """Validate a config and return its values, with numbers converted and defaults filled in.
+    """Validate a config; return its values, with texts converted to numbers and defaults filled in.
 
     Parameters
     ----------
     config
-        All entries, as `merged` returns them.
+        All entries, as returned by `merged`.
     sources
-        (name, content) of each source, later ones overriding earlier ones; used in messages.
+        Pairs (name, content) in the order of `merged`, used to name the source in messages.
 
     Raises
     ------
@@ -122,14 +122,14 @@ def checked(config: dict, sources=()) -> dict:
 
 
 def model():
-    """Return the model of the config: of both files, or of the chapter's alone if the studies are not installed."""
+    """Return the model of both config files, or of the chapter's file alone if the studies are not installed."""
     if find_spec("vibroimpact_pipeline.studies"):
         return import_module("vibroimpact_pipeline.studies.config.model").Whole
     return import_module("vibroimpact_pipeline.config.model").Config
 
 
 def _update(whole, content, above):
-    """Update a config with entries whose keys are texts; return a problem for each null with nothing to remove."""
+    """Update `whole` in place with entries whose keys are texts; return a problem for each null without an entry."""
     problems = []
     for key, value in content.items():
         if value in (None, "null"):
@@ -149,7 +149,7 @@ def _update(whole, content, above):
 
 
 def _refusal(error, sources):
-    """Return a ConfigError with one line for each of the first MAX_LINES problems that Pydantic found."""
+    """Return a ConfigError with one line for each problem that Pydantic found, for at most MAX_LINES problems."""
     found = sorted(problems_of(error).items(), key=lambda problem: key_path(problem[0]))
     lines = [f"{_source(place, sources)}: {key_path(place)}: {described(about)}" for place, about in found[:MAX_LINES]]
     return ConfigError(
@@ -158,7 +158,7 @@ def _refusal(error, sources):
 
 
 def _source(place, sources):
-    """Return the last source that contains a key path, or else the first that contains the longest part of it."""
+    """Return the last source with a key path, or else the first source with the longest part of the path."""
 
     def depth(source):
         value = source[1]
@@ -174,7 +174,7 @@ def _source(place, sources):
 
 
 def _with_text_keys(config):
-    """Return a copy of a config with its keys converted to text.
+    """Return a copy of a config with all keys converted to text.
 
     Raises
     ------

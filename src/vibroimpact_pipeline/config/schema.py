@@ -1,4 +1,4 @@
-"""Write the JSON Schema of each config file, for editors and for Snakemake without Pydantic.
+"""Write the JSON Schema of each config file, for editors and for validation by Snakemake without Pydantic.
 
 Run as `python -m vibroimpact_pipeline.config.schema`.
 """
@@ -15,18 +15,18 @@ if find_spec("vibroimpact_pipeline.studies"):
     studies = import_module("vibroimpact_pipeline.studies.config.model").Studies
     TARGETS[ROOT / "workflow/schemas/studies/config.schema.json"] = studies
 NUMERALS = {"number": r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", "integer": r"^[-+]?\d+(\.0*)?$"}
-"""Patterns of texts that Pydantic reads as numbers."""
+"""For each type of number, the pattern of texts that Pydantic converts to it."""
 
 
 def schema(model) -> str:
-    """Return the JSON Schema of a model as text, one line for each section."""
+    """Return the JSON Schema of a model as text, with one line for each section."""
     whole = {"$schema": "https://json-schema.org/draft/2020-12/schema"} | _plain(model.model_json_schema())
     sections = ",\n".join(f"{json.dumps(name)}: {json.dumps(part)}" for name, part in whole.pop("$defs").items())
     return f'{{"$defs": {{\n{sections}\n}},\n{json.dumps(whole)[1:]}\n'
 
 
 def _plain(node):
-    """Return a node without titles and null defaults; numbers may be texts, and names must match their pattern."""
+    """Return a schema node without titles and null defaults, in which numbers may be texts and names are restricted."""
     if not isinstance(node, dict):
         return [_plain(item) for item in node] if isinstance(node, list) else node
     plain = {key: _plain(item) for key, item in node.items() if key != "title" or not isinstance(item, str)}

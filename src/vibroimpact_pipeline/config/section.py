@@ -1,4 +1,4 @@
-"""Base class of config sections; it rejects unknown keys and checks conditions across fields."""
+"""Base class of config sections, which rejects unknown keys and checks conditions across fields."""
 
 from collections.abc import Iterable
 
@@ -10,12 +10,12 @@ Place = tuple[str | int, ...]
 
 
 class Section(BaseModel):
-    """A mapping in the config. Numbers may be given as text, as `--config` does."""
+    """A mapping in the config. Numbers may be texts, since Snakemake passes some numbers of `--config` as text."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     def conditions(self) -> Iterable[tuple[Place, str]]:
-        """Return violated conditions across valid fields, each with its key path and message."""
+        """Return the violated conditions across fields as (key path, message); called only if all fields are valid."""
         return ()
 
     @model_validator(mode="after")
@@ -25,7 +25,7 @@ class Section(BaseModel):
 
 
 def refuse(problems: Iterable[tuple[Place, str]]) -> None:
-    """Raise Pydantic's ValidationError if there are problems, given as (key path, message)."""
+    """Raise Pydantic's ValidationError for problems (key path, message); do nothing if there are none."""
     kinds = [(place, PydanticCustomError("condition", "{what}", {"what": what})) for place, what in problems]
     if errors := [InitErrorDetails(type=kind, loc=place, input=None) for place, kind in kinds]:
         raise ValidationError.from_exception_data("config", errors)

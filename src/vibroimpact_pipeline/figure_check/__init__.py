@@ -1,1 +1,1 @@
-"""The figure check: compare tables and pictures with the reference set."""
+"""Figure check: compare the tables and pictures of a build with the reference set."""

@@ -17,14 +17,14 @@ from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.check import PASSED, SUMS, line, reference_sums
 
 SETS = {"figure_check": "", "study_check": "studies"}
-"""Folder of each reference set, relative to `figures/`, by the name of its check."""
+"""For each check, the folder of its reference set, relative to `figures/`."""
 HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest first.\n"
 
 
 def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.date, pictures_only=False) -> None:
     """Copy the tables of figures into the reference set, draw their pictures, and record the reason.
 
-    Figures that are no longer built are removed from the set.
+    Figures that are no longer built are removed from the reference set.
 
     Parameters
     ----------
@@ -33,19 +33,19 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
     build
         Folder that contains results/.
     reference
-        Folder of the set.
+        Folder of the reference set.
     reason
-        One line.
+        Reason for the entry in CHANGES.md; joined to one line.
     date
         Date of the entry.
     pictures_only
-        Keep the reference tables and redraw the pictures from them.
+        True to keep the reference tables and only redraw the pictures from them.
 
     Raises
     ------
     ValueError
-        If the reason is empty, or if `pictures_only` is set for a figure without reference. Nothing is written in these
-        cases.
+        If the reason is empty, or if `pictures_only` is set for a figure without reference. In both cases nothing is
+        written.
     """
     reason, reference, build = " ".join(reason.split()), Path(reference), Path(build)
     if not reason:

@@ -1,7 +1,7 @@
 """Compare new tables with reference tables, and `draw(reference table)` with the reference picture.
 
-A figure passes or fails, or is not comparable if its tables match but other versions of the drawing libraries produce
-another picture.
+A figure passes, fails or is not comparable. It is not comparable if its tables match but its picture differs, and the
+reference picture was drawn with other versions of the drawing libraries.
 """
 
 import json
@@ -21,11 +21,11 @@ from vibroimpact_pipeline.specs import each
 PASSED, FAILED, NOT_COMPARABLE = "passed", "failed", "not comparable"
 OTHER_VERSIONS = "the picture differs, but other library versions drew the reference (see pictures.json)"
 SUMS = "pictures.json"
-"""File of a reference set with the checksums of PDF and SVG by figure, and the versions that drew them."""
+"""File in a reference set: for each figure, checksums of PDF and SVG, and the library versions that drew them."""
 
 
 def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
-    """Return the compared tables of a figure by name: file name in the reference set, path in a build."""
+    """Return, for each compared table of a figure, its file name in the reference set and its path in a build."""
     return {
         name: (f"{figure}.csv" if name == "csv" else f"{figure}.{name}.csv", table["file"])
         for name, table in spec["tables"].items()
@@ -34,13 +34,13 @@ def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
 
 
 def reference_sums(reference) -> dict[str, dict]:
-    """Return the checksums of the pictures of a reference set by figure."""
+    """Return the checksums of the pictures in a reference set, by figure."""
     path = Path(reference) / SUMS
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
 
 
 def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]:
-    """Return the verdicts on all figures of a build or of the reference set, sorted by name."""
+    """Return the verdict on each figure of a build or of the reference set, sorted by name."""
     known = [*Path(reference).glob("*.png"), *Path(reference).glob("published/*.csv")]
     figures = sorted(({path.stem: None for path in known} | figures).items())
     with ProcessPoolExecutor(processes) as pool:
@@ -48,25 +48,25 @@ def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]
 
 
 def check(figure: str, spec: dict | None, reference, build) -> dict:
-    """Return the verdict on one figure as JSON data; a damaged file only fails this figure.
+    """Return the verdict on one figure as JSON data; a damaged file makes this figure fail and raises no error.
 
     Parameters
     ----------
     figure
         Name of the figure.
     spec
-        SPEC of the figure with its drawing module as "module"; None if the figure is no longer built.
+        SPEC of the figure, with its drawing module as "module"; None if the figure is no longer built.
     reference
         Folder of the reference set.
     build
-        Folder that contains results/, up to date.
+        Folder that contains results/, which must be up to date.
 
     Returns
     -------
     dict
-        Keys figure, stem (path of the pictures in the build, without suffix), module, files (name in the reference set
-        and path in the build of each compared table), status, reasons (one line each), distance (the largest; 1 is the
-        limit), tables (distances of `table_differences`, with the name of the table).
+        Keys: figure; stem (path of the pictures in the build, without suffix); module; files (for each compared table,
+        the file name in the reference set and the path in the build); status; reasons (one line each); distance (the
+        largest; 1 is the limit); tables (distances from `table_differences`, each with the name of the table).
     """
     verdict = {
         "figure": figure,
@@ -101,7 +101,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
 
 
 def _compare_tables(verdict, spec, reference, build) -> tuple[dict, dict]:
-    """Add the differences of all tables to a verdict; return the tables of the reference set and of the build."""
+    """Add the differences of all tables to a verdict; return the tables in the reference set and those in the build."""
     old, new = {}, {}
     for name, (file, path) in verdict["files"].items():
         with _errors_as_reasons(verdict["reasons"], f"{file}: unreadable"):
@@ -111,7 +111,7 @@ def _compare_tables(verdict, spec, reference, build) -> tuple[dict, dict]:
 
 
 def _compare_with_print(verdict, printed, new):
-    """Add the distances of a build from points of the printed figure to a verdict, if there are such points."""
+    """Add the distance between the new curves and points of the printed figure, if available, to a verdict."""
     if printed.is_file():
         with _errors_as_reasons(verdict["reasons"], f"published/{printed.name}: unreadable"):
             _add(verdict, f"published/{printed.name}", printed_distances(read(printed), new["csv"]))
@@ -124,8 +124,8 @@ def _add(verdict, file, differences):
 
 
 def _other_pictures(verdict, reference, built, old, new) -> list[str]:
-    """Return the kinds of pictures that differ from those of the reference set; a blank picture is a reason to fail."""
-    # If the tables are equal, `draw` would reproduce the built picture from the reference tables.
+    """Return the kinds of pictures that differ from the reference; add reasons for blank and changed pictures."""
+    # If the tables are equal, drawing the reference tables would only repeat the picture in the build.
     equal = all(name in new and old[name].equals(new[name]) for name in verdict["files"])
     with TemporaryDirectory() as folder:
         today = pictures.sums(built if equal else pictures.draw(verdict["module"], old, verdict["figure"], folder))
@@ -142,7 +142,7 @@ def _other_pictures(verdict, reference, built, old, new) -> list[str]:
 
 @contextmanager
 def _errors_as_reasons(reasons, what):
-    """Append any error to the reasons; libraries raise many types of errors for a damaged file."""
+    """Catch any error and append it to the reasons, because a damaged file can raise many types of errors."""
     try:
         yield
     except Exception as error:
@@ -156,14 +156,14 @@ def ordered(verdicts: list[dict]) -> list[dict]:
 
 
 def line(verdict: dict) -> str:
-    """Return one line for a figure, with the first reason why it did not pass."""
+    """Return one line for a figure: name, status and, if it did not pass, the first reason."""
     reasons = verdict["reasons"] or [OTHER_VERSIONS] * (verdict["status"] == NOT_COMPARABLE)
     more = f" ({len(reasons) - 1} more on the page)" * (len(reasons) > 1)
     return ": ".join([verdict["figure"], verdict["status"], *reasons[:1]]) + more
 
 
 def lines(verdicts: list[dict]) -> list[str]:
-    """Return one line for each figure that did not pass, and a summary."""
+    """Return one line for each figure that did not pass, and a summary line."""
     counts = Counter(verdict["status"] for verdict in verdicts)
     summary = ", ".join(f"{n} {status}" for status, n in counts.items())
     far = max((verdict["distance"] for verdict in verdicts), default=0.0)
@@ -172,6 +172,6 @@ def lines(verdicts: list[dict]) -> list[str]:
 
 
 def has_failed(verdicts: list[dict], strict: bool = False) -> bool:
-    """Return True if a figure failed, if there is no verdict or, if strict, if a figure is not comparable."""
+    """Return True if a figure failed, if there are no verdicts or, with `strict`, if a figure is not comparable."""
     failures = (FAILED, NOT_COMPARABLE) if strict else (FAILED,)
     return not verdicts or any(verdict["status"] in failures for verdict in verdicts)

@@ -1,4 +1,4 @@
-"""Offline HTML page of the figure check: reference, new picture, difference and distances of every figure."""
+"""Write the offline HTML page of the figure check: for each figure, both pictures, their difference, all distances."""
 
 import base64
 import io
@@ -14,7 +14,7 @@ from vibroimpact_pipeline.html.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
 SPREAD = 7
-"""Width [pixels] to which a changed pixel is enlarged, so that it is visible on the page."""
+"""Width to which a changed pixel is enlarged to make it visible [pixels]."""
 
 
 def page(verdicts: list[dict], reference, build) -> str:
@@ -26,7 +26,7 @@ def page(verdicts: list[dict], reference, build) -> str:
 
 
 def _pictures(verdict, reference, build):
-    """Return reference, new picture and difference as data URLs; only the reference if the figure passed."""
+    """Return reference picture, new picture and difference as data URLs; only the reference if the figure passed."""
     files, shown = {}, []
     for name, folder in (("Reference", Path(reference)), ("New", (Path(build) / verdict["stem"]).parent)):
         with suppress(Exception):  # the verdict reports unreadable files
@@ -41,7 +41,7 @@ def _pictures(verdict, reference, build):
 
 
 def difference(old, new) -> bytes:
-    """Return a PNG file that is white where two pictures agree and dark elsewhere, cropped to their common part."""
+    """Return a PNG of the common part of two pictures, white where the pictures agree and dark elsewhere."""
     changed = ImageChops.difference(old.convert("RGB"), new.convert("RGB"))
     content = io.BytesIO()
     ImageChops.invert(changed).filter(ImageFilter.MinFilter(SPREAD)).save(content, "PNG")

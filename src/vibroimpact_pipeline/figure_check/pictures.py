@@ -1,4 +1,4 @@
-"""Draw pictures from tables and compute checksums: of the pixels of PNG, of SVG and PDF without metadata."""
+"""Draw pictures from tables, and compute checksums of PNG pixels and of SVG and PDF without metadata."""
 
 import base64
 import hashlib
@@ -14,12 +14,12 @@ from vibroimpact.figures.plotting import style
 
 KINDS = "png", "pdf", "svg"
 DECIMALS = 3
-"""Decimals to which numbers in PDF and SVG are rounded [points]. Further digits depend on how the processor rounds the
-layout; 0.001 points are about a hundredth of a pixel."""
+"""Number of decimals to which lengths in PDF and SVG [points] are rounded before the checksum is computed. Further
+digits depend on how the processor rounds the layout. 0.001 points are about a hundredth of a pixel."""
 
 
 def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:
-    """Draw a figure from its tables with a module, given by its full name; return the files by kind."""
+    """Draw a figure from its tables with the module of the given full name; return the path of each kind of file."""
     files = {kind: Path(folder) / f"{figure}.{kind}" for kind in KINDS}
     style.save(style.draw_tables(import_module(module), tables), files)
     return files
@@ -38,7 +38,7 @@ def load_png(content: bytes) -> Image.Image:
 
 
 def small(content: bytes) -> bytes:
-    """Return a PNG file without metadata, unused alpha and unused colours."""
+    """Return a PNG file without metadata, without an unused alpha channel, and in grey levels if it has no colours."""
     shown, smaller = load_png(content), io.BytesIO()
     modes = (shown.convert(mode) for mode in ("L", "RGB"))
     fits = (one for one in modes if one.convert("RGBA").tobytes() == shown.tobytes())
@@ -47,12 +47,12 @@ def small(content: bytes) -> bytes:
 
 
 def is_blank(path) -> bool:
-    """Return True if all pixels of a PNG file are equal."""
+    """Return True if all pixels of a PNG file have the same colour."""
     return all(low == high for low, high in load_png(path.read_bytes()).getextrema())
 
 
 def sums(files: dict[str, Path]) -> dict[str, str]:
-    """Return the SHA-256 of the content of files by kind, without metadata and compression."""
+    """Return the SHA-256 of the content of each file, without metadata and compression, by kind."""
     return {kind: hashlib.sha256(SHOWN[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
 
 
@@ -62,14 +62,14 @@ def _png(content):
 
 
 def _svg(content):
-    """Return the text of an SVG without metadata, with embedded pictures replaced by their pixels."""
+    """Return the text of an SVG without metadata; embedded pictures are replaced by pixels, and numbers rounded."""
     content = re.sub(rb"<metadata>.*?</metadata>", b"", content, flags=re.DOTALL)
     embedded = re.compile(rb"data:image/png;base64,\s*([^\"]+)")
     return _rounded(embedded.sub(lambda found: _png(base64.b64decode(found[1])).hex().encode(), content))
 
 
 def _pdf(content):
-    """Return the decompressed objects of a PDF without document information, lengths and cross-reference table."""
+    """Return the decompressed objects of a PDF, without document information, stream lengths and cross references."""
     objects = dict(re.findall(rb"(?ms)^(\d+) 0 obj\s(.*?)\sendobj$", content))
     (info,) = re.findall(rb"/Info (\d+) 0 R", content)
     shown = [body for number, body in objects.items() if number != info and not body.strip().isdigit()]

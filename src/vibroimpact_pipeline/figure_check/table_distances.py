@@ -1,4 +1,4 @@
-"""Compute distances of tables of plotted numbers from their references, by series and column."""
+"""Compute distances between tables of plotted numbers and their reference tables, for each series and column."""
 
 from pathlib import Path
 
@@ -7,29 +7,29 @@ import pandas as pd
 import yaml
 
 KINDS = {}
-"""Kinds of numbers: the limit of each of the MEASURES that apply to them, and the reason."""
+"""For each kind of number, the limit of each of its MEASURES, and the reason for these limits."""
 for path in (Path(__file__).with_name("tolerances.yaml"), Path(__file__).parents[1] / "studies/tolerances.yaml"):
     if path.is_file():  # the studies may be missing
         KINDS |= yaml.safe_load(path.read_text(encoding="utf-8"))
 OTHERS = "others"
-"""Key for the kind of all series without a kind of their own."""
+"""Key in `compared` for all series that the SPEC does not name."""
 MAX_DISTANCE = 999.0
-"""Distance of changes that no limit allows: a value that is not finite, a class that vanishes."""
+"""Distance for changes that no limit allows, such as a value that becomes infinite or a class that vanishes."""
 LOG_FLOOR = 1e-17
-"""Errors below this value are replaced by it before taking logarithms; logarithmic axes end there."""
+"""Numbers are raised to at least this value before logarithms are taken; logarithmic axes end at the same value."""
 EQUAL_WITHIN = 1e-6
-"""Counts and shares that differ by less are equal."""
+"""Counts and shares that differ by less than this value are equal."""
 RARE_ROWS = 5
-"""A class with fewer rows may vanish: rounding changed all rows of a class of three."""
+"""A class with fewer rows may vanish, since rounding has changed all rows of a class of three rows."""
 MOVED_BY = 1e-3
-"""Smallest relative change at which a number counts as moved."""
+"""A number counts as moved if its relative change is larger than this value."""
 
 
 def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
-    """Return why a table fails, one line per reason, and the distance of each column from its reference.
+    """Return the reasons why a table fails, and the distance of each column from its reference.
 
-    Rows with equal text in the first two text columns that are not compared form a series. Rows of a series are
-    compared one by one.
+    A series consists of all rows with the same text in the first two text columns that are not compared. The rows of a
+    series are compared with its reference rows in order.
 
     Parameters
     ----------
@@ -38,15 +38,15 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
     new
         Table of the build.
     columns
-        Column entries of a SPEC. Text columns that are not compared must be equal.
+        Entries of the columns in a SPEC. Text columns that are not compared must be equal.
 
     Returns
     -------
     reasons : list of str
-        What cannot be compared.
+        One line for each reason. The table passes if the list is empty.
     distances : list of dict
-        For each column and measure the keys column, kind, measure, distance (1 is the limit), where (place of the
-        largest distance), reference and new (values there; medians for a measure of the whole column).
+        For each column and measure, a mapping with the keys column, kind, measure, distance (the largest; 1 is the
+        limit), where (its place), reference and new (the values there; medians for a measure of the whole column).
     """
     if list(old) != list(new):
         return [f"columns are {', '.join(new)} instead of {', '.join(old)}"], []
@@ -82,7 +82,7 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
 
 
 def _wrong_in_itself(table, columns):
-    """Return errors of a table that can be detected without its reference."""
+    """Return those errors of a table that can be detected without its reference."""
     compared = [name for name, entry in columns.items() if "compared" in entry and name in table]
     if table.empty or not compared:
         return ["no rows" if table.empty else "no column that the SPEC compares"]
@@ -93,14 +93,14 @@ def _wrong_in_itself(table, columns):
 
 
 def _by_series(table, columns):
-    """Return the rows of each series, in order; a table without text columns is one series, ("",)."""
+    """Return the rows of each series, in the order of the table; without text columns, the only series is ("",)."""
     texts = [name for name in _words(table) if not pd.api.types.is_bool_dtype(table[name])]
     words = [name for name in texts if "compared" not in columns.get(name, {})][:2]
     return dict(iter(table.groupby(words, sort=False))) if words else {("",): table}
 
 
 def _kind(columns, name, series):
-    """Return the kind of a column in a series, or None if it is not compared."""
+    """Return the kind of number of a column in a series, or None if the column is not compared."""
     kinds = columns.get(name, {}).get("compared")
     if not isinstance(kinds, dict):
         return kinds
@@ -120,7 +120,7 @@ def _given(values):
 
 
 def _distance(old, new, name, kind, measure):
-    """Return the largest distance of a column in one measure of its kind."""
+    """Return the largest distance of a column by one measure, with its place and values as in `table_differences`."""
     before, after = (part[name].to_numpy() for part in (old, new))
     with np.errstate(all="ignore"):
         far = np.nan_to_num(MEASURES[measure](before, after, KINDS[kind]["limits"][measure]), nan=MAX_DISTANCE)
@@ -143,17 +143,18 @@ def _distance(old, new, name, kind, measure):
 
 
 def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[str], list[dict]]:
-    """Return why a table fails, and the largest distance of a point read from the printed book.
+    """Return why a table fails, and the largest distance between its curves and points read from the printed book.
 
-    The return values are those of `table_differences`.
+    The values are returned in the form of `table_differences`.
 
     Parameters
     ----------
     points
-        Rows with columns of `table` and `tolerance`, relative to the extent of each axis. The text cells of a point
-        select the rows of `table` that form its curve. Blank cells are ignored.
+        One row for each point, with some columns of `table` and the column `tolerance`, a distance relative to the
+        extent of each axis. The text cells of a point select the rows of `table` that form its curve. Blank cells are
+        ignored.
     table
-        Plotted table of the build.
+        Plotted table in the build.
     """
     if unknown := set(points) - {*table, "tolerance"}:
         return [f"unknown columns {', '.join(sorted(unknown))}; expected some of {', '.join(table)}, tolerance"], []
@@ -188,21 +189,22 @@ def _nearest(point, curve):
     return places[np.linalg.norm(places - point, axis=1).argmin()]
 
 
-# Measures of two columns, arrays of shape (n,). They return one distance per row or one for all rows; 1 is the limit.
+# Measures of the distance between two columns of shape (n,). Each returns one distance per row or one for all rows, in
+# units of its limit.
 
 
 def _difference(old, new, limit):
-    """Compare numbers by their difference; the limit has an absolute part and one relative to the reference."""
+    """Compare numbers by their difference; the limit is the sum of an absolute and a relative part."""
     return np.abs(new - old) / (limit["absolute"] + limit["relative"] * np.abs(old))
 
 
 def _decades(old, new, limit):
-    """Compare numbers by their logarithms."""
+    """Compare numbers by the difference of their decimal logarithms."""
     return np.abs(_shifts(old, new)) / limit
 
 
 def _middle(old, new, limit):
-    """Compare a column by the median shift of its logarithms."""
+    """Compare a column by the median difference of the decimal logarithms."""
     return np.abs(np.nanmedian(_shifts(old, new))) / limit
 
 
@@ -211,7 +213,7 @@ def _shifts(old, new):
 
 
 def _mean(old, new, limit):
-    """Compare a column by its mean, relative to the reference."""
+    """Compare a column by the relative change of its mean."""
     return np.abs(np.nanmean(new) / np.nanmean(old) - 1) / limit
 
 
@@ -222,10 +224,11 @@ def _rows(old, new, limit):
 
 
 def _balance(old, new, limit):
-    """Compare how many rows join a class and leave it, or how many numbers rise and fall (sign test).
+    """Compare the number of rows that join a class with the number that leave it, or rises with falls (sign test).
 
-    Rounding moves rows both ways equally often. The difference is measured in standard deviations of a binomial
-    distribution with one trial for each moved row. A class that vanishes exceeds the limit, unless it is rare.
+    Rounding moves rows in both directions equally often. The difference of both numbers is measured in standard
+    deviations of a binomial distribution with one trial for each moved row. A class that vanishes exceeds the limit,
+    unless it is rare.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:

@@ -1,1 +1,1 @@
-"""Building blocks of offline HTML pages: formulas, figure texts, notebooks and the content security policy."""
+"""Parts of offline HTML pages: formulas, figure texts, notebooks and the content security policy."""

@@ -1,4 +1,4 @@
-"""Return title, caption, alternative text, equations and tables of each figure."""
+"""Fill in the texts of each figure for a config: title, caption and alternative text."""
 
 import re
 from collections.abc import Callable
@@ -10,11 +10,11 @@ from vibroimpact_pipeline.data_dictionary import read
 from vibroimpact_pipeline.specs import case_parameters, spec_of, specs, with_model
 
 TEXTS = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", text), "alt": str}
-"""Texts of a figure and the function that escapes inserted values: captions are reStructuredText."""
+"""For each text of a figure, the function that escapes inserted values; captions are reStructuredText."""
 
 
 def figure_texts(root, config: dict) -> dict[str, dict]:
-    """Return the SPEC of every figure, animation and control by name, filled in for a config (see `words`)."""
+    """Return the SPEC of every figure, animation and interactive part by name, filled in for a config (see `words`)."""
     known, data = read(root)
     texts = {name: spec for name, spec in known.items() if name != "animation" and not name.startswith("fig10_")}
     moving = dict(config.get("report", {"animations": {}}))
@@ -29,18 +29,18 @@ def figure_texts(root, config: dict) -> dict[str, dict]:
 
 
 def words(figure: str, scene: dict, parameters: dict) -> dict:
-    """Return the SPEC of a figure with placeholders such as {f10_hat} replaced by the values of its case.
+    """Return the SPEC of a figure, with placeholders in its texts, such as {f10_hat}, replaced by values of its case.
 
-    A figure of the chapter with other parameters than in the chapter gets the texts for figures of your own.
+    If a figure of the chapter has other parameters than in the chapter, it gets the texts for figures of your own.
 
     Parameters
     ----------
     figure
         Name of the figure.
     scene
-        Entry of the figure in the config.
+        Config entry of the figure.
     parameters
-        Parameters of the system that it shows, if any.
+        Parameters of the system that the figure shows, if any.
     """
     known = specs()
     spec = spec_of(figure, scene, known)
@@ -55,7 +55,7 @@ def words(figure: str, scene: dict, parameters: dict) -> dict:
 
 
 def _filled(text, known, escape: Callable[[str], str]):
-    """Return the text with known placeholders {name} replaced; other braces belong to formulas."""
+    """Return a text with its known placeholders {name} replaced; all other braces belong to formulas and are kept."""
 
     def value(name):
         given = known.get(name[1], name[0])

@@ -12,14 +12,14 @@ from vibroimpact_pipeline.html.mathematics import STYLE, kept, mathml
 from vibroimpact_pipeline.html.policy import guarded
 
 PROGRESS = "vibroimpact: compiling"
-"""Prefix of progress messages of the library, which pages omit."""
+"""Prefix of the library's progress messages, which are omitted from pages."""
 PAGE = Path(__file__).with_name("notebook.html.j2")
 
 
 class MathMLRenderer(markdown_mistune.IPythonRenderer):
-    """Renderer of Markdown to HTML with formulas as MathML.
+    """Render Markdown as HTML with MathML formulas.
 
-    A formula that cannot be converted raises math_core.LatexError.
+    Formulas that cannot be converted raise math_core.LatexError.
     """
 
     def inline_math(self, body):
@@ -34,10 +34,11 @@ class MathMLRenderer(markdown_mistune.IPythonRenderer):
 
 
 class OfflineExporter(HTMLExporter):
-    """Exporter of a notebook to one self-contained page."""
+    """Export a notebook as one self-contained page."""
 
     def __init__(self):
-        # Papermill inserts the values of this run below the cell of default parameters. Instructions are for a kernel.
+        # Default parameters are omitted because Papermill inserts the values of this run below them. Instructions are
+        # omitted because they are for readers who run the notebook.
         config = Config(TagRemovePreprocessor={"enabled": True, "remove_cell_tags": {"parameters", "instructions"}})
         super().__init__(config=config, exclude_input_prompt=True, exclude_output_prompt=True)
         self.raw_template = PAGE.read_text(encoding="utf-8")
@@ -48,21 +49,21 @@ class OfflineExporter(HTMLExporter):
 
 
 def markdown_to_html(source: str) -> str:
-    """Return the Markdown of a notebook as HTML; raw HTML is escaped and links with unsafe protocols are removed."""
+    """Convert Markdown of a notebook to HTML; raw HTML is escaped, and links with unsafe protocols are removed."""
     renderer = MathMLRenderer(escape=True, allow_harmful_protocols=False, exclude_anchor_links=True)
     return kept(markdown_mistune.MarkdownWithMath(renderer=renderer).render(source))
 
 
 def linked(page: str, address: str) -> str:
-    """Return the page of a notebook for the report, with its first line linked to the page of its figure."""
+    """Return the page of a notebook for the report, with its first line linked to its figure at `address`."""
     page = re.sub(r'href="\.\./(?:\.\./docs/)?(\w+)\.md"', r'href="../\1.html"', page)
     return re.sub(r'(<p class="of">)(.*?)(</p>)', rf'\1<a href="{escape(address)}">\2</a>\3', page, count=1)
 
 
 def page(notebook, title: str) -> str:
-    """Return the HTML page of an executed notebook; the title is that of its figure.
+    """Return the HTML page of an executed notebook; `title` is the title of the figure.
 
-    Progress messages of the library, such as those on compilation, are omitted.
+    Progress messages of the library on compilation are omitted.
     """
     for cell in notebook.cells:
         if "outputs" in cell:

@@ -1,6 +1,6 @@
-"""Content security policy of the pages: load files and scripts of the site only.
+"""Add a content security policy to pages, so that they load only files and scripts of the site itself.
 
-Texts from the config and from results are escaped when a page is made. The policy is a second line of defence.
+Texts from the config and from results are already escaped when a page is made. The policy is a second protection.
 """
 
 import base64
@@ -8,12 +8,12 @@ import hashlib
 import re
 
 FILES = "'self' file:"
-"""The site and local files, because some browsers treat a local page as having no origin."""
+"""Sources of the policy: the site, and local files because some browsers assign no origin to a local page."""
 HEAD = re.compile(r"<head>\n?")
 
 
 def policy(*scripts: str) -> str:
-    """Return the meta element that allows scripts from files and the given inline scripts."""
+    """Return the meta element of the policy. With inline scripts, it allows these and script files; otherwise none."""
     digests = (base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in scripts)
     allowed = " ".join([FILES, *(f"'sha256-{digest}'" for digest in digests)]) if scripts else "'none'"
     rules = (

@@ -1,4 +1,4 @@
-"""Decide if a config is the one for which the claims of the chapter were written."""
+"""Decide if the claims of the chapter can be judged with a config, since they were written for one config."""
 
 import hashlib
 import json
@@ -6,11 +6,11 @@ import json
 from vibroimpact_pipeline.chapter import departures
 
 JUDGED_WITH = "ec3468120a00"
-"""Digest of the settings on which verdicts depend (see `digest`)."""
+"""Digest of the settings for which the claims were written (see `digest`)."""
 
 
 def reason_not_judged(config: dict) -> str:
-    """Return why the claims cannot be judged with a config, or an empty text if they can."""
+    """Return the reason why claims cannot be judged with a config, or an empty text if they can be judged."""
     found = departures(config)
     if not found and digest(config) != JUDGED_WITH:
         found = ["simulations, stability.verdict_grid or regimes differ from those for which the claims were written"]
@@ -18,7 +18,7 @@ def reason_not_judged(config: dict) -> str:
 
 
 def digest(config: dict) -> str:
-    """Return a short digest of the settings on which verdicts depend, next to the parameters of the chapter."""
+    """Return a short digest of all settings that affect verdicts on claims, except the parameters of the chapter."""
     settings = [config["cases"][case]["simulation"] for case in ("equal", "weak")]
     settings += [config["stability"]["verdict_grid"]]
     settings += [config["regimes"][name] for name in ("observation", "branches", "modulation", "epsilon")]

@@ -12,12 +12,12 @@ TABLES = "fixed_points", "orbits", "verdict_grid", "modulation", "special_points
 
 
 def evidence(inputs: dict) -> Evidence:
-    """Return the evidence on the cases of the chapter.
+    """Return the evidence for judging claims on the cases of the chapter.
 
     Parameters
     ----------
     inputs
-        Paths of results by name; simulations are named <case>_samples, <case>_events and <case>_summary.
+        Path of each result by name. The results of simulations are <case>_samples, <case>_events and <case>_summary.
     """
     simulated = [name.removesuffix("_summary") for name in inputs if name.endswith("_summary")]
     return Evidence(
@@ -28,12 +28,12 @@ def evidence(inputs: dict) -> Evidence:
 
 
 def of_the_chapter(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of the chapter's cases, or all rows of a table without the column case."""
+    """Return the rows for the chapter's cases; all rows if the table has no column "case"."""
     return table[table["case"].isin(CASES)].reset_index(drop=True) if "case" in table else table
 
 
 def simulation(case: str, inputs: dict) -> Simulation:
-    """Return the simulation of a case from the paths of its results."""
+    """Read the simulation of a case; `inputs` has the paths of its results as in `evidence`."""
     samples, events = (pd.read_csv(inputs[f"{case}_{name}"]) for name in ("samples", "events"))
     summary = json.loads(Path(inputs[f"{case}_summary"]).read_text(encoding="utf-8"))
     return Simulation(samples, events, summary)

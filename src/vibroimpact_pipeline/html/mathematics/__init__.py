@@ -20,16 +20,16 @@ math {{ font-family: "STIX Two Math", math, serif; }}
 .kept {{ white-space: nowrap; }}
 math[display="block"] {{ margin: 0.7rem 0; }}
 """
-"""Style of every page with formulas; it embeds the font because browsers load no fonts from local files."""
+"""CSS of every page with formulas. It embeds the font because browsers load no fonts from local files."""
 _CONVERTER = LatexToMathML(fancy_error=False)
 OVERLINE = re.compile(r"(?<=<mo stretchy=\"true\">)\u0332(?=</mo></mover>)")
-"""The combining low line that the converter inserts for \\overline and that browsers draw below the letter."""
+"""The combining low line that the converter inserts for \\overline, although browsers draw it below the letter."""
 MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)', re.DOTALL)
 """An inline formula with the punctuation before and after it."""
 
 
 def mathml(tex: str, display: bool) -> str:
-    r"""Return a LaTeX formula as MathML, within a line or displayed on its own, where it may have a \tag.
+    r"""Return a LaTeX formula as MathML, inline or, with `display`, on a line of its own; then it may have a \tag.
 
     Raises
     ------

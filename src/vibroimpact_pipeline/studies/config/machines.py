@@ -28,14 +28,14 @@ class Plant(Section):
 
 
 class Band(Section):
-    """Evenly spaced frequencies."""
+    """Frequency band with evenly spaced values."""
 
     range: fields.span(Hertz, "Lowest and highest frequency [Hz]")
     values: fields.count("Number of frequencies, endpoints included", 2, fields.MAX_VALUES)
 
 
 class Shown(Section):
-    """A motion from rest that is drawn over time."""
+    """A motion from rest to draw over time."""
 
     L: Clearance
     frequency: Hertz

@@ -1,4 +1,4 @@
-"""Model of the studies' config, config/studies.yaml: smaller sections and conditions across both files."""
+"""Model of the studies' config, config/studies.yaml, with its small sections and the conditions across both files."""
 
 from collections.abc import Iterator
 
@@ -13,7 +13,7 @@ from vibroimpact_pipeline.studies.config.sweeps import Sweep
 
 
 class Companion1005(Section):
-    """Companion of figure 10.5."""
+    """Axis of the companion of figure 10.5."""
 
     C_range: fields.around(0.6, fields.BEYOND_LIMITS) = Field(
         description="Ends of the axis; it must contain the derived limits"
@@ -21,7 +21,7 @@ class Companion1005(Section):
 
 
 class VerdictGrid(Section):
-    """Verdicts of the theory against exact orbits at the centres of points x points cells of forcing amplitudes."""
+    """Grid of points x points cells of forcing amplitudes; their centres get verdicts of theory and exact orbits."""
 
     f10_range: fields.Forces
     f20_range: fields.Forces
@@ -30,21 +30,21 @@ class VerdictGrid(Section):
 
 
 class Stability(Section):
-    """Axis of the companion of figure 10.5, and grid for judging the stability criteria."""
+    """Axis of the companion of figure 10.5, and the grid on which stability criteria are judged."""
 
     companion_10_05: Companion1005
     verdict_grid: VerdictGrid
 
 
 class Animation(Section):
-    """An animation of the first cycles of the simulated window of a case."""
+    """An animation of the first cycles in the simulated window of a case."""
 
     case: fields.CaseName
     cycles: fields.count("Length, at most window_cycles of the case [forcing periods]", 1, 1000)
 
 
 class ForceSweep(Section):
-    """The slider on the page of fixed points: it varies f20_hat, with all other parameters as in the case."""
+    """The slider on the page of fixed points, which varies f20_hat; all other parameters are as in the case."""
 
     case: fields.CaseName
     range: fields.Forces
@@ -64,7 +64,7 @@ class Report(Section):
 
 
 class Studies(Section):
-    """Config of the studies. Dimensionless except machines; times in forcing periods."""
+    """Config of the studies. Values are dimensionless and times in forcing periods, except in `machines`."""
 
     stability: Stability
     regimes: Regimes
@@ -94,13 +94,13 @@ class Whole(Config, Studies):
                 yield ("report", "animations", name, "cycles"), what
 
     def named_rules(self) -> Iterator[Place]:
-        """Yield the key paths of entries that become rules of the same name."""
+        """Yield the key path of each entry from which a rule of the same name is made."""
         yield from super().named_rules()
         yield from (("report", "animations", name) for name in self.report.animations)
         yield from (("machines", name) for name in self.machines)
 
     def moves(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
-        """Yield varied parameters: key path of the entry, its case (None: all cases), and parameters by name."""
+        """Yield varied parameters to check, as tuples (key path of the entry, case or None for all, parameters)."""
         branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
         for number, path in enumerate(branches.paths):
             for end in path.range:

@@ -1,4 +1,4 @@
-"""Section `regimes`: settings for finding regimes of the exact system other than 1:1 responses."""
+"""Section `regimes`: settings to find regimes of the exact system, including regimes other than 1:1 responses."""
 
 import dataclasses
 from typing import Annotated, Literal
@@ -19,14 +19,14 @@ Window = Annotated[int, Field(ge=1, le=100_000)]
 
 
 class Exponent(Section):
-    """Length of the computation of a Lyapunov exponent."""
+    """Number and length of the blocks from which a Lyapunov exponent is computed."""
 
     blocks: fields.count("Number of blocks of a Lyapunov exponent; their spread gives its error", 2, 10_000)
     block: fields.count("Length of a block [forcing periods]", 1, 10_000)
 
 
 class Observation(Exponent):
-    """Settings for classifying the motion from one initial state."""
+    """Settings to classify the motion from one initial state."""
 
     cycles: fields.count("Transient before each observation, see docs/howto.md [forcing periods]")
     rounds: fields.count("Maximum number of observations until the motion repeats", 1, 1000)
@@ -36,14 +36,14 @@ class Observation(Exponent):
 
 
 class BranchPath(Section):
-    """A path in parameter space along which parameters vary together."""
+    """A path through the parameters, along which some of them vary together."""
 
     along: Along
     range: fields.span(fields.Number)
 
 
 class Attractors(Section):
-    """Attractors found from random initial states along the paths of the branches."""
+    """Attractors that are found from random initial states along the paths of `branches`."""
 
     values: fields.count("Number of values along each path", 2, fields.MAX_VALUES)
     starts: fields.Starts
@@ -51,7 +51,7 @@ class Attractors(Section):
 
 
 class Branches(Section):
-    """Branches of 1:1 responses along paths through the parameters."""
+    """Branches of 1:1 responses along paths through the parameters, and attractors along the same paths."""
 
     case: fields.CaseName
     paths: fields.items(BranchPath, 1, 4, "Paths in parameter space", APART)
@@ -60,7 +60,7 @@ class Branches(Section):
     attractors: Attractors
 
     def conditions(self):
-        # A continuation stops after 2000 points, and a branch is longer than its range.
+        # A continuation stops after 2000 points, and a branch is longer than the range of its parameters.
         if self.longest_step < (least := max(path.range[1] - path.range[0] for path in self.paths) / 200):
             yield ("longest_step",), f"{self.longest_step} should be at least {least:g}, 1/200 of the longest path"
 
@@ -75,21 +75,21 @@ class Modulation(Exponent):
 
 
 class Basins(Section):
-    """Basins of attraction in a plane of initial states."""
+    """Basins of attraction in a plane of initial states, a grid of points x points."""
 
     case: fields.CaseName
     points: fields.Points
 
 
 class Mixed(Section):
-    """A fixed point next to the fold of the manifold, excluded because the time scales do not separate there."""
+    """A fixed point next to the fold of the manifold, which is excluded because its time scales do not separate."""
 
     case: fields.CaseName
     label: fields.Label
 
 
 class EpsilonRange(Section):
-    """Values of epsilon at which theory and exact responses are compared."""
+    """Values of epsilon at which the theory is compared with exact responses."""
 
     epsilon: fields.items(fields.Epsilon, 2, 2, "First and last value")
     values: fields.count("Number of values, evenly spaced on a logarithmic scale", 3, fields.MAX_VALUES)
@@ -104,19 +104,19 @@ class EpsilonRange(Section):
 
 
 class Asymmetric(EpsilonRange):
-    """Asymmetric pairs of orbits as epsilon decreases, drawn over the manifold."""
+    """Pairs of asymmetric orbits for decreasing epsilon, drawn over the manifold."""
 
     C_max: fields.real("Right end of the manifold, above the derived limits", fields.BEYOND_LIMITS, 100)
 
 
 class EpsilonLimit(EpsilonRange):
-    """Theory against exact responses as epsilon tends to 0."""
+    """Comparison of the theory with exact responses as epsilon tends to 0."""
 
     mixed: Mixed | None = None
 
 
 class Regimes(Section):
-    """Regimes of the exact system other than 1:1 responses."""
+    """Regimes of the exact system, including regimes other than 1:1 responses."""
 
     observation: Observation
     branches: Branches

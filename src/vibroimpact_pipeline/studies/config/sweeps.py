@@ -14,16 +14,16 @@ from vibroimpact_pipeline.specs import specs
 from vibroimpact_pipeline.studies.config.regimes import Along
 
 MAX_POINTS = 4_000_000
-"""Maximum number of points of a sweep; one job holds the whole table in memory."""
+"""Maximum number of points of a sweep, since one job keeps the whole table in memory."""
 SIMULATED = ("starts", "seed", "cycles", "settle")
 NEEDED = dict.fromkeys(RUNS, SIMULATED) | {
     "regimes": ("starts", "seed"),
     "peaks": (*SIMULATED, "band"),
 }
-"""Keys required by each observation."""
+"""Keys of a sweep that each observation requires."""
 OBSERVATIONS = Literal["regimes", "amplitudes", "envelopes", "peaks", "energy", "fixed_points", "orbits"]
 FORMS = [{"range", "values"}, {"range", "values", "scale"}, {"range", "cells"}, {"listed"}, {"tuples"}]
-"""Allowed combinations of keys for the values of an axis."""
+"""Allowed combinations of keys that define the values of an axis."""
 Listed = fields.items(fields.Number, 2, fields.MAX_VALUES, "Values, instead of a range")
 Tuple = fields.items(fields.Number, 2, 10, check=None)
 Tuples = fields.items(
@@ -32,7 +32,7 @@ Tuples = fields.items(
 
 
 class Axis(Section):
-    """Parameters that vary together, over a range or a list of values."""
+    """One axis of a sweep: parameters that vary together, over a range or a list of values."""
 
     along: Along
     range: fields.span(fields.Number) | None = None
@@ -63,13 +63,13 @@ class Axis(Section):
         return len(self.listed or self.tuples or ()) or self.cells or self.values
 
     def ends(self) -> list[dict[str, float]]:
-        """Return the parameters at the lowest and the highest value, or at every tuple."""
+        """Return the parameters at the lowest and the highest value of the axis, or at every tuple."""
         values = self.tuples or [[end] * len(self.along) for end in self.range or (min(self.listed), max(self.listed))]
         return [dict(zip(self.along, at, strict=True)) for at in values]
 
 
 class Sweep(Section):
-    """A sweep: one or two axes, the case with the other parameters, and the observations at every point."""
+    """A sweep: one or two axes, a case for all other parameters, and the observations at every point."""
 
     case: fields.CaseName
     axes: fields.items(Axis, 1, 2, "Axes of the grid")
@@ -81,7 +81,7 @@ class Sweep(Section):
     band: Axis | None = Field(None, description="Axis along which the worst peak is searched at every point")
 
     def moving(self) -> list[Axis]:
-        """Return the axes and the band."""
+        """Return the axes and, if given, the band."""
         return self.axes + ([self.band] if self.band else [])
 
     def conditions(self):
@@ -97,11 +97,11 @@ class Sweep(Section):
             yield ("settle",), f"{self.settle} should be less than cycles"
 
     def corners(self) -> list[dict[str, float]]:
-        """Return the parameters at the corners of the grid, which suffice to check limits that are intervals."""
+        """Return the parameters at the corners of the grid; if these are within interval limits, all points are."""
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):
-        """Yield errors if companion figures that draw a sweep ("sweeps" in their SPEC) cannot do so."""
+        """Yield an error for each companion figure that cannot draw the sweep `name`, although its SPEC requires it."""
         for figure, spec in specs().items():
             if drawn := spec.get("sweeps", {}).get(name):
                 even = all(axis.range and axis.scale != "logarithmic" for axis in self.axes)

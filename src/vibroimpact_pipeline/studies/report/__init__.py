@@ -1,1 +1,1 @@
-"""Build the report from results: a website and a PDF."""
+"""Build the report, a website and a PDF, from results."""

@@ -1,4 +1,4 @@
-"""Data of the interactive pages: parameters, cases with predictions of the theory, verdicts over both forces."""
+"""Compute the data of interactive pages: parameters, predictions of the theory for cases, verdicts over both forces."""
 
 import json
 
@@ -19,15 +19,15 @@ from vibroimpact_pipeline.specs import case_parameters
 
 FORCES = ("f10_hat", "f20_hat")
 SAMPLES = 200
-"""Samples of a predicted response over one forcing cycle."""
+"""Number of samples of a predicted response over one forcing cycle."""
 
 
 def live_data(results, config: dict) -> str:
     """Return the data of the page Play as JSON.
 
-    The data are the parameters and, for each case, its forcing amplitudes and predicted responses, each with the
-    verdict of (10.26) and the verdict and largest multiplier of its exact orbit. Cases that differ from the first case
-    in more than the forcing amplitudes are omitted.
+    The data are the parameters and, for each case, the forcing amplitudes and the predicted responses. Each response
+    has the verdict of (10.26), and the verdict on its exact orbit with the largest multiplier. Cases that differ from
+    the first case in more than the forcing amplitudes are omitted.
     """
     given = {case: case_parameters(config, case) for case in config["cases"]}
     systems = {case: System(**{name: known[name] for name in (*PARAMETERS, *FORCES)}) for case, known in given.items()}
@@ -49,7 +49,7 @@ def _point(system, point):
 
 
 def _exact(results) -> dict:
-    """Return the verdict and largest multiplier of the exact orbit of each fixed point, by case and label."""
+    """Return, for each fixed point by case and label, the verdict on its exact orbit and the largest multiplier."""
     points, orbits = results.table("fixed_points.csv"), results.table("orbits.csv")
     moduli = orbits.set_index(["case", "label"])["modulus_1"]
     return {
@@ -62,10 +62,10 @@ def _exact(results) -> dict:
 
 
 def map_data(results, config: dict) -> str:
-    """Return the data of the map of regimes on the page Play as JSON, or an empty text if it is of another system.
+    """Return the data of the regime map on the page Play as JSON; an empty text if the map is for another system.
 
-    Each cell has its forces, its most frequent regime, and its fixed points: C, B and psi of module 2, the verdict
-    of (10.26), and the verdict and largest multiplier of the exact orbit.
+    Each cell has its forces, its most frequent regime, and its fixed points. Each fixed point has C, B and psi of
+    module 2, the verdict of (10.26), and the verdict on its exact orbit with the largest multiplier.
     """
     first, *_ = (case_parameters(config, case) for case in config["cases"])
     swept = case_parameters(config, config["sweeps"]["regime_map"]["case"]) if "regime_map" in config["sweeps"] else {}
@@ -97,10 +97,10 @@ def _of_cell(system, point, orbit):
 
 
 def verdict_data(results, config: dict) -> str:
-    """Return the data of the slider of epsilon as JSON.
+    """Return the data for the slider of epsilon as JSON.
 
-    For each criterion ((10.26), and both time scales of the theory) and each epsilon, the data list the points that
-    the criterion classifies as stable, as [f10, f20, verdict on the exact orbit].
+    The criteria are (10.26), and the theory on both time scales. For each criterion and each epsilon, the data list the
+    points that the criterion classifies as stable, each as [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
     by_epsilon = [
@@ -119,14 +119,14 @@ def verdict_data(results, config: dict) -> str:
 
 
 DOTS = {"printed_10_26": "(10.26)", "fast": "fast scale", "theory": "fast and slow", "exact": "exact orbit"}
-"""Criteria of the verdict matrix, with their column heads."""
+"""Column head for each criterion in the verdict matrix."""
 
 
 def verdict_dots(results) -> dict:
-    """Return the verdict matrix: values of epsilon, column heads, and a row for each fixed point.
+    """Return the verdict matrix: values of epsilon, column heads, and one row for each fixed point.
 
-    A row contains the verdicts of the theory by criterion, and for each epsilon the exact verdict with the largest
-    multiplier.
+    A row contains the verdict of each criterion of the theory and, for each epsilon, the verdict on the exact orbit
+    with the largest multiplier.
     """
     table = results.table("verdicts_by_epsilon.csv")
     rows = [

@@ -1,4 +1,4 @@
-"""Pages of the report as Markdown: documents with numbers of this build, and templates filled from results."""
+"""Make the pages of the report in Markdown, from documents and templates, with the numbers of this build."""
 
 import json
 import re
@@ -16,11 +16,11 @@ from vibroimpact_pipeline.studies.report.live import live_data, map_data, verdic
 
 TEMPLATES = "report/pages"
 NUMBER = re.compile(r"\[(?P<number>−?[\d.]+)\]\((?:studies/)?numbers\.yaml#(?P<key>[\w.-]+)\)")
-"""A number in a document, with its key in numbers.yaml."""
+"""Matches a number in a document with the link to its key in numbers.yaml."""
 PICTURE = re.compile(r"(?P<text>!?\[[^\]]*\])\((?:\.\./)+results/\w+/(?P<name>\w+)\.png\)")
-"""A figure that a document shows with a caption, or links to."""
+"""Matches a figure in a document, shown with a caption or linked."""
 LIVE = re.compile(r"<!-- live: (?P<part>\w+) -->\n(?P<still>.*?)(?=\n\n)", re.DOTALL)
-"""Marker for a part of report/parts, followed by the text that replaces it in print or if data are missing."""
+"""Matches the marker of a part in report/parts, and the text that replaces the part in print or without data."""
 SHOWN = """\
 ```{{figure}} figures/{name}.svg
 :alt: {alt}
@@ -34,11 +34,11 @@ FIGURE = """\
    :target: figures/{name}.svg
 
    {caption}"""
-"""reStructuredText, because captions are also used by the report of Snakemake."""
+"""Template of a figure in reStructuredText, since the report of Snakemake also uses the captions in this format."""
 
 
 class Pages:
-    """Pages of the report.
+    """Make the pages of the report.
 
     Parameters
     ----------
@@ -47,9 +47,9 @@ class Pages:
     results
         A `Results` object.
     config
-        The config of the pipeline.
+        The validated config of the pipeline.
     shown
-        Names of figures by group, in the order of display.
+        For each group, the names of its figures in the order of display.
     tables
         Names of additional results to download.
     """
@@ -87,14 +87,14 @@ class Pages:
         }
 
     def filled(self, name: str) -> str:
-        """Return a page of report/pages, filled from results."""
+        """Return a page of report/pages with its template filled from results."""
         return self.environment.get_template(f"pages/{name}.md").render()
 
     def with_numbers(self, text: str, paper: bool = False) -> str:
         """Return a document with the numbers and figures of this build.
 
-        A number keeps the number of decimals of the document, and links to its source except on paper. If a build with
-        other settings has no such value, the number of the document is kept.
+        Each number is shown with as many decimals as in the document, and links to its source unless `paper` is True.
+        If a build with other settings has no such value, the number in the document is kept.
         """
         if not paper:
             text = LIVE.sub(lambda found: self._live(**found.groupdict()), text)
@@ -102,7 +102,7 @@ class Pages:
         return PICTURE.sub(lambda found: self._picture(paper, **found.groupdict()), text)
 
     def number(self, key: str) -> tuple[float, str] | None:
-        """Return the value and the source of a number of the documents, or None if this build does not have it."""
+        """Return value and source of a number by its key in numbers.yaml, or None if this build has no such number."""
         try:
             value = float(self.results.value(self.places[key]))
         except (LookupError, TypeError, ValueError, StopIteration, OSError):
@@ -126,7 +126,7 @@ class Pages:
         return text[1:-1] if paper or name not in self.pictures else f"{text}(#{name})"
 
     def plates(self) -> str:
-        """Return the figures of the chapter for the end of the printed article, except the one that it shows."""
+        """Return the figures of the chapter for the end of the printed article, except 10.1, which the text shows."""
         shown = (name for name in self.chapter if name != "fig10_01")
         plates = [f"![{plain(self.about[name]['title'])}](../results/figures/{name}.png)" for name in shown]
         return "\n\n".join(["\n## The figures of the chapter", *plates]) if plates else ""
@@ -138,7 +138,7 @@ class Pages:
             return still
 
     def figure(self, name: str, level: int = 2) -> str:
-        """Return the section of a figure: title, equations, picture, files and origin."""
+        """Return the section of a figure, with title, equations, picture, files and origin."""
         about, record = self.about[name], self.results.provenance(name)
         files = self.results.files(name)
         links = [
@@ -167,7 +167,7 @@ class Pages:
         )
 
     def render_picture(self, name: str, files) -> str:
-        """Return the picture of a figure, if it exists, and its caption."""
+        """Return the picture of a figure, if there is one, and the caption."""
         caption = " ".join(self.about[name]["caption"].split())
         if "svg" in files:
             caption = FIGURE.format(name=quote(name), alt=one_line(self.about[name]["alt"]), caption=caption)
@@ -175,28 +175,28 @@ class Pages:
 
 
 def table(frame, heads: dict, number: int = 3) -> str:
-    """Return columns of a DataFrame as a pipe table; `heads` maps columns to heads in Markdown."""
+    """Return columns of a DataFrame as a Markdown table with `number` digits; `heads` has the head of each column."""
     rows = [[digits(value, number) for value in row] for row in frame[list(heads)].itertuples(index=False)]
     return "\n".join("| " + " | ".join(line) + " |" for line in [heads.values(), ["---"] * len(heads), *rows])
 
 
 def cell(text) -> str:
-    """Return Markdown for a table cell: on one line, with vertical bars escaped."""
+    """Return a text as Markdown for a table cell, on one line and with vertical bars escaped."""
     return re.sub(r"\s+", " ", str(text)).replace("|", r"\|").strip()
 
 
 def anchor(name) -> str:
-    """Return a name as an HTML anchor."""
+    """Return a name in a form that is valid as an HTML anchor."""
     return re.sub(r"[^\w-]", "-", str(name))
 
 
 def attribute(text) -> str:
-    """Return a text escaped for HTML attributes and elements."""
+    """Return a text on one line, escaped for HTML attributes and elements."""
     return escape(one_line(text))
 
 
 def data(name: str, text: str) -> str:
-    """Return JSON as a script element of a page, with < escaped so that no text ends the element.
+    """Return JSON as a script element of a page; < is escaped so that no text can end the element.
 
     Raises
     ------
@@ -208,4 +208,4 @@ def data(name: str, text: str) -> str:
 
 
 FILTERS = {"anchor": anchor, "attribute": attribute, "cell": cell, "code": code, "digits": digits, "plain": plain}
-"""Filters of the page templates; every value that is not a number must pass through one."""
+"""Filters for the page templates; every value that is not a number must pass through a filter."""

@@ -11,7 +11,7 @@ FOLDERS = ("figures", "accuracy", "force_sweep", "animations", "nudge")
 
 
 class Results:
-    """Results of a build in one directory.
+    """Read the results of a build from one directory.
 
     Parameters
     ----------
@@ -25,19 +25,19 @@ class Results:
         self.root, self.judged = Path(root), judged
 
     def table(self, name: str) -> pd.DataFrame:
-        """Return a CSV file as a table; the path is relative to the results directory."""
+        """Return the table in a CSV file; `name` is its path relative to the results directory."""
         return pd.read_csv(self.root / name)
 
     def text(self, name: str) -> str:
         return (self.root / name).read_text(encoding="utf-8")
 
     def files(self, figure: str) -> dict[str, Path]:
-        """Return the files of a figure by kind, and its additional tables <figure>.<name>.csv by name.
+        """Return the path of each file of a figure by kind, and of its further tables <figure>.<name>.csv by name.
 
         Raises
         ------
         ValueError
-            If there are no files of the figure.
+            If the figure has no files.
         """
         for folder in FOLDERS:
             found = {kind: self.root / folder / f"{figure}.{kind}" for kind in KINDS}
@@ -51,12 +51,12 @@ class Results:
         return path if path.is_file() else None
 
     def provenance(self, figure: str) -> dict:
-        """Return the provenance record of a figure, or an empty mapping if it has none."""
+        """Return the provenance record of a figure, or an empty mapping if there is no record."""
         paths = [self.root / folder / f"{figure}.provenance.json" for folder in FOLDERS]
         return next((json.loads(path.read_text(encoding="utf-8")) for path in paths if path.is_file()), {})
 
     def claims(self) -> list[dict]:
-        """Return the judged claims, in the order of the chapter."""
+        """Return the judged claims in the order of the chapter; an empty list if claims are not judged."""
         return json.loads(self.text("claims.json")) if self.judged else []
 
     def claims_about(self, figure: str) -> list[dict]:
@@ -65,9 +65,9 @@ class Results:
         return [claim for claim in self.claims() if named.search(claim["place"])]
 
     def most_accurate(self) -> pd.DataFrame:
-        """Return the finished run with the smallest error for each problem and method.
+        """Return, for each problem and method, the finished run with the smallest error.
 
-        The column ratio is its run time relative to that of the library.
+        The column ratio is the run time of this run relative to the most accurate run of the library.
         """
         table = self.table("accuracy/work_precision.csv")
         whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]
@@ -76,7 +76,7 @@ class Results:
         return best.assign(ratio=best["seconds_per_cycle"] / best["problem"].map(ours))
 
     def value(self, place: str):
-        """Return a number, given its place as in docs/studies/numbers.yaml.
+        """Return the number at a place in the results; places are written as in docs/studies/numbers.yaml.
 
         Raises
         ------

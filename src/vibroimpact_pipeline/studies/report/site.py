@@ -1,4 +1,4 @@
-"""Build the site with Sphinx, and its article as PDF with pandoc and Typst, without network access."""
+"""Build the site of the report with Sphinx, and its article as PDF with pandoc and Typst, without network access."""
 
 import io
 import re
@@ -30,16 +30,16 @@ NOTICE = (
     "depend on the parameters were not judged, and the texts refer to the parameters of the chapter. Differences: "
 )
 THEME_SCRIPT = '\n      document.body.dataset.theme = localStorage.getItem("theme") || "auto";\n    '
-"""The inline script of the theme."""
+"""Inline script of the theme, which the content security policy must allow."""
 DOCUMENTS = "docs", "docs/studies"
-"""Folders of documents; the site has them in one folder."""
+"""Folders of documents; on the site all documents are in one folder."""
 ELSEWHERE = re.compile(r"(?<=\]\()(?:studies|\.\.|(?:\.\./)+report/pages)/(?=\w+\.md)")
-"""Path to the other folder in a link between documents."""
+"""Matches the path to another folder in a link between documents."""
 EQUATION = re.compile(r"\((10\.\d+)\)")
 NAMES = (nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw)
-"""Nodes in which numbers of equations are not explained."""
+"""Types of nodes in which equation numbers are not explained."""
 OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>|.*more than one target).*(WARNING|ERROR)")
-"""A warning about a page, as opposed to a docstring or a name that is documented twice."""
+"""Matches a Sphinx warning on a page, but not on a docstring or on a name that is documented twice."""
 SPHINX = {
     "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", __name__],
     "myst_enable_extensions": ["dollarmath"],
@@ -75,9 +75,9 @@ def write(folder, root, pages, built: str, departures=()) -> None:
     pages
         A `Pages` object.
     built
-        Version that the pages are built from.
+        Text that names the commit from which the pages are built.
     departures
-        Differences from the parameters of the chapter, one line each; every page shows them.
+        Differences from the parameters of the chapter, each on one line; every page shows the differences.
 
     Raises
     ------
@@ -90,7 +90,7 @@ def write(folder, root, pages, built: str, departures=()) -> None:
 
 
 def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
-    """Write the documents, the pages of report/pages, and API pages for each part of the library."""
+    """Write the site: the documents, the pages of report/pages, and an API page for each part of the library."""
     settings, warnings = yaml.safe_load((root / "report/report.yaml").read_text(encoding="utf-8")), io.StringIO()
     with TemporaryDirectory() as scratch:
         scratch, static = Path(scratch), Path(scratch) / "static"
@@ -122,7 +122,7 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") ->
 
 
 def write_library(folder: Path, left_out) -> None:
-    """Write a Sphinx source for each part of the library, without modules that match a pattern."""
+    """Write a Sphinx source for each part of the library, without modules that match a pattern in `left_out`."""
     library, parts = Path(vibroimpact.__file__).parent, {}
     for path in sorted(path for path in library.rglob("*.py") if is_source(path.relative_to(library))):
         name = ".".join(path.relative_to(library.parent).with_suffix("").parts).removesuffix(".__init__")
@@ -138,7 +138,7 @@ def write_library(folder: Path, left_out) -> None:
 
 
 def fill(pages, name: str, source: list[str]) -> None:
-    """Fill a page from results when Sphinx reads it."""
+    """Fill the source of a page from results, in place, when Sphinx reads the page."""
     if name in pages.names:
         source[0] = pages.filled(name)
     elif not name.startswith("api/"):
@@ -146,7 +146,7 @@ def fill(pages, name: str, source: list[str]) -> None:
 
 
 def explain(tree, equations: dict) -> None:
-    """Explain equation numbers of the chapter and add them to the search index."""
+    """Add explanations to the chapter's equation numbers on a page, and add these numbers to the search index."""
     named = set()
     for text in list(tree.findall(nodes.Text)):
         if not isinstance(text.parent, NAMES) and EQUATION.search(text):
@@ -163,7 +163,7 @@ def explain(tree, equations: dict) -> None:
 
 
 def write_article(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
-    """Write the findings as PDF, with links to the pages of the site."""
+    """Write the document of findings as PDF, with links to the pages of the site."""
     article = ELSEWHERE.sub("", (root / f"docs/studies/{ARTICLE}.md").read_text(encoding="utf-8"))
     text = pages.with_numbers(article + pages.plates(), paper=True)
     metadata = {"date": f"Built from {built}."} | ({"abstract": notice} if notice else {})
@@ -176,7 +176,7 @@ def write_article(folder: Path, root: Path, pages, built: str, notice: str = "")
 
 
 def setup(app) -> dict:
-    """Register the Sphinx extension: MathML formulas, literal bars in docstrings, content security policy."""
+    """Set up this module as Sphinx extension, for MathML formulas, bars in docstrings and the security policy."""
     app.add_html_math_renderer("mathml", (_inline, None), (_display, None))
     app.connect("autodoc-process-docstring", _with_bars)
     app.connect("html-page-context", _with_policy)
