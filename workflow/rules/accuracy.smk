@@ -1,9 +1,9 @@
-# Accuracy, speed and failures of each method. Jobs that measure times use all cores, so that they run alone.
-# `accuracy: {effort: full}` in the config selects longer timings, and every method on every stress test.
+# Accuracy, speed and failures of each method. A job that measures run times uses all cores, so that it runs alone.
+# `accuracy: {effort: full}` in the config selects longer timings, and runs every method on every stress test.
 
 ACCURACY = config["accuracy"]
 FULL = ACCURACY["effort"] == "full"
-# There is no number of cores if Snakemake runs no jobs, for example for a summary, a graph or its report.
+# `cores` is None if Snakemake runs no jobs, for example when it makes a summary, a graph or its report.
 ALL_CORES = workflow.resource_settings.cores or 1
 
 
@@ -60,7 +60,7 @@ rule work_precision:
         "../scripts/figure.py"
 
 
-# Figures with a choice of models.
+# Figures whose config entry selects a model.
 MODELLED = {figure: entry for figure, entry in config["figures"].items() if "model" in entry}
 
 
@@ -105,7 +105,7 @@ rule method_comparison:
         "../scripts/method_comparison.py"
 
 
-# Charts that the figure check compares with the reference set (errors, orders and failures, but not times), and all charts.
+# CHARTS are the charts that the figure check compares with the reference set: errors, orders and failures, but not times.
 CHARTS = "work_precision", "stress_tests", "grazing"
 ALL_CHARTS = *CHARTS, "models"
 

@@ -1,4 +1,4 @@
-# Archive of a build: one citable file that can be rerun elsewhere.
+# Archive of a build: one citable file with all sources, from which the build can be repeated elsewhere.
 
 import tomllib
 

@@ -1,7 +1,7 @@
-# Compare figures with the reference set in figures/. Only `make accept` writes to it, with a reason.
+# Compare figures with the reference set in figures/. Only `make accept` changes the set, and records the reason.
 
 
-# This rule has no output, so that it always runs. It also prints its result to the terminal.
+# The figure check has no output file, so that it always runs. It also prints the result on the terminal.
 rule figure_check:
     input:
         [getattr(rules, name).output for name in (*config["figures"], *CHARTS)],

@@ -1,4 +1,4 @@
-# Shared by all rules: paths, the validated config, fingerprints of code, and the SPECs of figures.
+# Definitions for all rules: paths, the validated config, fingerprints of code, and the SPECs of figures.
 
 import importlib.util
 import inspect
@@ -13,7 +13,8 @@ from types import SimpleNamespace
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import listfiles, validate
 
-# Snakemake evaluates a module under the name of the module; since 9.27 `__name__` is None in the main workflow.
+# In a workflow that is included as a module, `__name__` is the name of the module. In the main workflow, it is
+# "snakemake.workflow", or None since Snakemake 9.27.
 IS_MODULE = __name__ not in ("snakemake.workflow", None)
 
 
@@ -24,17 +25,17 @@ def refuse(message):
 
 
 def checkout_path(path):
-    """Return the path of a file of the checkout, relative in the checkout itself, so that it can be moved."""
+    """Return the path of a file in the checkout; it is relative if builds run there, so that the folder can be moved."""
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
-# Use the library of this checkout, also in jobs; for rules from a git source, use the installed library.
+# Use the library of this checkout. If the rules come from a git source without src/, use the installed library.
 SRC = Path(inspect.currentframe().f_code.co_filename).parents[2] / "src"
 if SRC.is_dir():
     sys.path.insert(0, str(SRC))
 elif importlib.util.find_spec("vibroimpact_pipeline") is None:
     refuse("vibroimpact_pipeline: not installed. Install vibroimpact[pipeline] of the same commit with pip.")
-# Quote the path of Python, which may contain spaces.
+# Quote the path of Python, since it may contain spaces.
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
@@ -58,8 +59,8 @@ if not os.access(".", os.W_OK):
 STUDIES = (ROOT / "workflow/rules/studies").is_dir()
 
 
-# Config files: config/config.yaml and config/studies.yaml, each from the working directory if it exists there, otherwise
-# from the checkout. Entries of --configfile and --config override them.
+# Config files are config/config.yaml and config/studies.yaml. Each is read from the working directory if it exists there,
+# otherwise from the checkout. Entries of --configfile and --config override those of the files.
 def config_file(path):
     return path if Path(path).is_file() and not IS_MODULE else checkout_path(path)
 
@@ -68,7 +69,7 @@ CONFIG_FILES = [config_file(f"config/{name}.yaml") for name in ("config", "studi
 
 
 def config_files():
-    """Return the config files; later files override earlier ones."""
+    """Return the paths of all config files to read; later files override earlier files."""
     given = workflow.config_settings
     if IS_MODULE:
         return CONFIG_FILES
@@ -76,7 +77,7 @@ def config_files():
 
 
 def checked_config(given):
-    """Return the validated config with defaults; without Pydantic, validate it with the JSON Schemas."""
+    """Return the validated config with defaults; without Pydantic, it is validated with the JSON Schemas."""
     if not WITH_MODEL:
         given, rest = with_cases(given), {}
         schemas = ROOT / "workflow/schemas"
@@ -102,13 +103,13 @@ if WITH_MODEL:
     try:
         SOURCES = [
             (file, read(file)) for file in config_files()
-        ]  # before Snakemake reads them, since its messages are longer
+        ]  # read here, before Snakemake reads them, because its error messages are longer
     except ConfigError as error:
         refuse(error)
 
 
 def code(script, *others):
-    """Return the fingerprint of a script and of modules that it does not import by name, such as figures."""
+    """Return `params.code` for a script and further roots of `code_of`, such as modules that it imports by their name."""
     return code_of(f"workflow/scripts/{script}.py", "environment.lock", *others)
 
 
@@ -130,13 +131,13 @@ def spec(figure):
 
 
 def figure_files(stem, tables):
-    """Return the files of a figure by kind: pictures, provenance record and tables."""
+    """Return the path of each file of a figure by kind: pictures, provenance record and tables."""
     kinds = {kind: f"{stem}.{kind}" for kind in ("png", "pdf", "svg")} | {"provenance": f"{stem}.provenance.json"}
     return kinds | {name: table["file"] for name, table in tables.items()}
 
 
 def in_report(outputs, category, caption="../../report/caption.rst"):
-    """Mark picture and plotted table for `snakemake --report`; `caption` is relative to the file of the rule."""
+    """Mark picture and plotted table for `snakemake --report`; the path `caption` is relative to the file of the rule."""
     marked = {
         kind: report(path, caption=caption, category=category, labels={"name": Path(path).stem, "kind": kind})
         for kind, path in outputs.items()
@@ -146,7 +147,7 @@ def in_report(outputs, category, caption="../../report/caption.rst"):
 
 
 def entries(paths):
-    """Return entries of the config by path; * stands for all settings of a section."""
+    """Return the config entries at the given paths, by path; * stands for all settings of a section."""
     found = {}
     for path in paths:
         section, _, name = path.rpartition(".")
@@ -156,9 +157,10 @@ def entries(paths):
 
 
 def figure_params(figure, paths, case=None, systems=False, decides=()):
-    """Return the params of a figure: settings, named by the last key of their path, and parameters of its systems.
+    """Return the params of a figure: its settings by the last key of their path, the parameters of its systems, and more.
 
-    The param `config` lists all entries on which the figure depends, including those of its inputs (`decides`).
+    The param `config` contains all config entries on which the figure depends, including entries that only affect its
+    inputs (`decides`).
     """
     settings = entries(paths)
     drawn_by, shared = spec(figure)["module"], map(module_of, spec(figure)["shares"])
@@ -172,27 +174,27 @@ def figure_params(figure, paths, case=None, systems=False, decides=()):
 
 
 def files(figure, *marks, folder="figures"):
-    """Return the outputs of a figure: .png, .pdf, .svg, .csv, .provenance.json and tables; `marks` as in `in_report`."""
+    """Return the outputs of a figure, pictures, provenance record and tables; `marks` are arguments of `in_report`."""
     made = figure_files(f"results/{folder}/{figure}", spec(figure)["tables"])
     return in_report(made, *(marks or ("Figures of the chapter",)))
 
 
 def chart(figure, settings={}, decides={}, *shown):
-    """Return the params of a chart of accuracy: its settings, the config entries that affect it, and the code of its job."""
+    """Return the params of an accuracy chart: its settings, the config entries that affect it, and the code of its job."""
     known = {"figure": figure, "module": module_of(figure), "settings": settings, "config": decides}
     return known | {"code": code("figure", module_of(figure), *shown)}
 
 
 def of_case(figure, paths):
-    """Return the paths of results for the case and model of a figure."""
+    """Return the paths of results with the case and model of a figure filled in; none if the figure has no case."""
     shown = SCENES.get(figure, {})
     return {name: path.format_map(shown) for name, path in paths.items()} if "case" in shown else {}
 
 
 def scene(figure, *others):
-    """Return the params of a figure: its settings, other settings by path, and the system of its case.
+    """Return the params of a figure: its settings, further settings at the paths `others`, and the system of its case.
 
-    For a simulated motion, model and settings of the run belong to the inputs.
+    For a simulated motion, model and settings of the run are left out, since they only affect the inputs.
     """
     if figure not in SCENES:
         return {"settings": absent(figure)}
@@ -208,7 +210,7 @@ NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "n
 
 
 def by_notebook(figures):
-    """Return the notebooks of figures, each with the figures whose pages it makes."""
+    """Return, for each notebook, those of the given figures that it has a page for."""
     found = {}
     for figure in figures:
         if notebook := spec(figure).get("notebook"):
@@ -217,19 +219,19 @@ def by_notebook(figures):
 
 
 def page_inputs(figure):
-    """Return the files that the notebook of a page reads, by name: tables and picture of its figure, other results."""
+    """Return the files that a notebook reads for the page of a figure, by name: tables, picture and other results."""
     tables = {name: table["file"] for name, table in spec(figure)["tables"].items()}
     return {"png": f"results/figures/{figure}.png"} | tables | of_case(figure, READ.get(spec(figure)["notebook"], {}))
 
 
 def read_by(notebook, figures):
-    """Return the inputs of the job that makes the pages of figures: their notebook, and the files that it reads."""
+    """Return the inputs of the job that executes a notebook for figures: the notebook, and all files that it reads."""
     read = sorted({path for figure in figures for path in page_inputs(figure).values()})
     return {"notebook": checkout_path(NOTEBOOKS[notebook]), "read": read}
 
 
 def pages(figures):
-    """Return the outputs of that job by figure, and by figure the config entry and the parameters of its notebook."""
+    """Return two mappings by figure for such a job: path of the page; config entry and parameters of the notebook."""
     outputs = {figure: f"results/notebooks/{figure}.html" for figure in figures}
     given = {}
     for figure in figures:
@@ -246,7 +248,7 @@ def titled(figure):
 
 
 def modelled(figure, entry):
-    """Return the model and settings of a figure; for a simulation, the settings of the run."""
+    """Return notebook, model, module, system and settings of a figure; for a simulation, the settings are of the run."""
     known = {"notebook": spec(figure)["notebook"], "model": entry["model"], "module": spec(figure)["module"]}
     settings = {name: value for name, value in entry.items() if name not in ("like", "model", "case")}
     if known["notebook"] == "simulation":
@@ -255,7 +257,7 @@ def modelled(figure, entry):
 
 
 def absent(figure):
-    """Return an input function that raises an error because the figure is not in the config."""
+    """Return an input function that raises an error, for a figure that is missing in the config."""
 
     def refused(wildcards):
         raise WorkflowError(f"figures.{figure}: missing in the config, or its case is missing")
@@ -264,7 +266,7 @@ def absent(figure):
 
 
 def caption(figure):
-    """Return the caption of a figure with its placeholders filled in."""
+    """Return the caption of a figure with all placeholders filled in."""
     params = getattr(rules, figure).params
     known = (titled(figure) if figure in SCENES else {}) | (params.get("system") or config["system"])
     text = with_model(spec(figure)["caption"], known)
@@ -272,19 +274,19 @@ def caption(figure):
 
 
 def left_over():
-    """Return figures of earlier builds that this config does not define."""
+    """Return the names of figures that earlier builds made and this config does not define."""
     found = {wildcards.figure for _, wildcards in listfiles("results/figures/{figure,[^.]+}.provenance.json")}
     return sorted(found.difference(ALL_FIGURES))
 
 
 def study_titles(wildcards):
-    """Return the titles of existing figures of the studies."""
+    """Return the title of each existing figure of the studies by name."""
     others = [name for name in ALL_FIGURES if name not in config["figures"]]
     return {name: spec(name)["title"] for name in others if os.path.isfile(f"results/figures/{name}.svg")}
 
 
 def current_origin(name, wildcards):
-    """Return the current params of a rule, and those of its inputs that are results."""
+    """Return the current params of a rule, and the paths of those inputs that are results (see `made_otherwise`)."""
     if not hasattr(rules, name):
         raise LookupError(name)
     made_by, given = getattr(rules, name), SimpleNamespace(**wildcards)
@@ -293,7 +295,7 @@ def current_origin(name, wildcards):
 
 
 def results_of_a_commit(wildcards):
-    """Return the results of both builds; exit before any job runs if they would not match the commit."""
+    """Return the results of figures and studies; exit before any job runs if the results do not match the commit."""
     from vibroimpact_pipeline.archive import differences, made_otherwise
     from vibroimpact_pipeline.config import checked, merged, read
 
@@ -311,12 +313,12 @@ def results_of_a_commit(wildcards):
     return targets
 
 
-# Rules defined so far belong to another workflow that includes this one as a module.
+# All rules defined up to here belong to another workflow, which includes this workflow as a module.
 OTHERS = {rule.name for rule in workflow.rules}
 
 
 def existing_outputs():
-    """Return the outputs of all rules of this workflow; outputs with wildcards only if they exist."""
+    """Return the outputs of all rules of this workflow; for outputs with wildcards, only the existing files."""
     patterns = [output for rule in workflow.rules if rule.name not in OTHERS for output in rule.output]
     found = [path for pattern in patterns if "{" in pattern for path, _ in listfiles(pattern) if PARTIAL not in path]
     return [pattern for pattern in patterns if "{" not in pattern] + found

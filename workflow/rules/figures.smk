@@ -1,7 +1,7 @@
-# Figures of the chapter. Each has a rule of the same name: `snakemake --cores 2 fig10_06` draws one figure and its inputs.
-# Its module, src/vibroimpact/figures/fig10_06.py, computes the plotted tables from inputs and settings and draws them.
+# Figures of the chapter. Each has a rule of the same name: `snakemake --cores 2 fig10_06` makes one figure and its inputs.
+# A module for each figure, such as src/vibroimpact/figures/fig10_06.py, computes the plotted tables and draws them.
 
-# Settings of each figure by name; the studies add theirs.
+# Config entry of each figure by name; the rules of the studies add further figures.
 SCENES = dict(config["figures"])
 
 POINTS = {"points": "results/fixed_points/{case}.csv"}
@@ -9,7 +9,7 @@ MOTION = {
     "samples": "results/simulations/{case}/{model}/samples.csv",
     "events": "results/simulations/{case}/{model}/events.csv",
 }
-# What a notebook reads beside the files of its figure.
+# READ lists further results that a notebook reads, in addition to the files of its figure.
 ORBITS = {"orbits": "results/orbits/{case}.csv"}
 READ = {
     "fixed_points": POINTS | ORBITS,
@@ -134,7 +134,7 @@ use rule fig10_01 as fig10_11 with:
         "results/logs/figures/fig10_11.log",
 
 
-# Figures of your own, drawn like one of the above.
+# Figures of your own, each drawn like a figure of the chapter.
 for figure in (name for name, own_scene in config["figures"].items() if "like" in own_scene):
 
     rule:
@@ -155,7 +155,7 @@ for figure in (name for name, own_scene in config["figures"].items() if "like" i
             "../scripts/figure.py"
 
 
-# Figures with captions; the studies add theirs.
+# Names of figures with captions; the rules of the studies add further names.
 ALL_FIGURES = list(config["figures"])
 
 if STUDIES:
@@ -166,7 +166,7 @@ if STUDIES:
 config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
 config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}
 
-# Pages of figures: their notebook, executed on the finished tables, the pictures and their inputs.
+# Pages of figures. A job executes one notebook for each of its figures, with the finished tables, picture and inputs.
 for notebook, shown in by_notebook(SCENES).items():
     pages_of, given = pages(shown)
 

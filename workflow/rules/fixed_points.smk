@@ -1,4 +1,4 @@
-# Fixed points of the slow flow (10.23) and exact 1:1 responses of each case, with the verdicts of all criteria.
+# For each case, fixed points of the slow flow (10.23) and exact 1:1 responses, with the verdicts of all criteria.
 
 
 rule fixed_points:

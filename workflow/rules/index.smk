@@ -1,4 +1,4 @@
-# Index page: verdict of the exact system on each figure, and links to all results, including studies if built.
+# Index page: the exact system's verdict on each figure, and links to all results, including those of built studies.
 
 
 rule index:

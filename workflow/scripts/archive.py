@@ -1,4 +1,4 @@
-"""Pack the checkout and the results of both builds into one archive."""
+"""Pack the checkout, and the results of the default build and of the studies, into one archive."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Measure the speed of every method on one motion and of ensembles; print a table and write CSV with versions."""
+"""Measure the speed of every method on one motion, and of many runs; print the results and write CSV with versions."""
 
 import argparse
 from pathlib import Path
@@ -24,7 +24,7 @@ sticking, where the same closed form in C++ takes 99 to 112 ns and one long run 
 
 
 def main(config: dict, output) -> None:
-    """Run the benchmark of a config, print its tables and write them."""
+    """Run the benchmark of a config, print its tables and write them to the file `output`."""
     from vibroimpact.accuracy.benchmark import measure, unavoidable_error
     from vibroimpact.accuracy.throughput import ranges, throughput
     from vibroimpact.accuracy.timing import versions

@@ -9,11 +9,11 @@ import vibroimpact_pipeline  # noqa: F401 (sets the environment, which Numba rea
 from vibroimpact.compile import beforehand, certificates, event_loop
 
 NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"
-"""Modules that jobs import by name, without an import statement."""
+"""Further modules that jobs use although no module of the library imports them."""
 
 
 def other_methods():
-    """Run every other method once, so that it is compiled."""
+    """Run each available method other than the event-driven engine once, so that it is compiled."""
     from vibroimpact.integrators import METHODS
     from vibroimpact.integrators.event_driven import Engine
     from vibroimpact.system import System
@@ -26,7 +26,7 @@ def other_methods():
 
 
 def imports():
-    """Import all modules of jobs once, so that Python caches bytecode and Matplotlib its list of fonts."""
+    """Import all modules that jobs need, so that Python caches their bytecode and Matplotlib its list of fonts."""
     import vibroimpact
 
     library = (module.name for module in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact."))

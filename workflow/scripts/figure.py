@@ -1,6 +1,6 @@
 """Compute and write the tables of one figure, and draw the figure from the written tables.
 
-A figure of an interactive page also writes the data of the page as JSON, and an animated figure a GIF.
+For a figure of an interactive page, the data of the page are also written as JSON; for an animated figure, a GIF.
 """
 
 import json
@@ -16,7 +16,7 @@ from vibroimpact.system import System
 
 
 def arguments(params, inputs) -> dict:
-    """Return the arguments of `compute`: settings, the system of the case or those of all cases, tables."""
+    """Return the arguments of `compute`: settings, the system of one case or the systems of all cases, and tables."""
     given = dict(params.settings)
     if params.get("system"):
         given["system"] = System(**params.system)

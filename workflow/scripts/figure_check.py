@@ -1,4 +1,4 @@
-"""Compare all figures with the reference set; write page, verdicts and summary; exit with 1 if a figure fails."""
+"""Compare all figures with the reference set, write page, verdicts and summary, and exit with 1 if a figure fails."""
 
 import json
 import os
@@ -12,7 +12,7 @@ from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.result_records import replacing
 from vibroimpact_pipeline.specs import spec_of, specs
 
-BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # includes the prefix of a module
+BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # a folder if the workflow is a module with a prefix
 FOLDER = BUILD / snakemake.params.page
 REFERENCE = ROOT / snakemake.params.reference
 TERMINAL = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")

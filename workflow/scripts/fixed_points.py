@@ -1,6 +1,7 @@
-"""Compute fixed points and exact 1:1 responses of one case, with the verdicts of all criteria and proofs, as CSV.
+"""Compute fixed points and exact 1:1 responses for one case, with verdicts of all criteria and proofs; write CSV.
 
-search.json contains the number of Newton starts in the search for asymmetric orbits.
+search.json describes the search for asymmetric orbits: their number, the number of Newton starts, and the smallest
+number of starts that led to the same orbit.
 """
 
 import json

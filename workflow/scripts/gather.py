@@ -1,4 +1,4 @@
-"""Join the tables of all cases: one table of fixed points, one of orbits."""
+"""Join the tables of all cases into one table of fixed points and one table of orbits."""
 
 from vibroimpact_pipeline.jobs import running
 

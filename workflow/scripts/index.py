@@ -1,4 +1,4 @@
-"""Write the index page of the results: the chapter, speed and accuracy, and existing studies."""
+"""Write the index page of the results, with the figures of the chapter, of speed and accuracy, and of studies."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Summarise the work-precision chart and the stress tests by method, and list the recommended methods."""
+"""For each method, summarise the work-precision chart and the stress tests; list the recommended methods."""
 
 from vibroimpact_pipeline.jobs import running
 

@@ -1,6 +1,6 @@
-"""Write the pages of figures: execute their notebook with the parameters, tables and picture of each figure.
+"""Write one page for each figure of a notebook: execute the notebook with the parameters and files of the figure.
 
-Each executed notebook is saved next to the log, cell by cell while it runs, so that it shows where a cell failed.
+Each executed notebook is saved next to the log after every cell, so that it shows where a cell failed.
 """
 
 from pathlib import Path
@@ -19,7 +19,7 @@ SHOWN = "stream", "display_data", "execute_result", "error"
 
 
 class InProcess(Engine):
-    """Execute the cells in this process; a separate kernel process would have to import all modules again."""
+    """Execute cells in this process, since a separate kernel process would have to import all modules again."""
 
     @classmethod
     def execute_managed_notebook(cls, manager, kernel_name, **settings):
@@ -45,12 +45,12 @@ papermill_engines.register("in_process", InProcess)
 
 
 def execute(notebook, executed, parameters: dict):
-    """Execute a notebook with parameters and return it.
+    """Execute a notebook with the given parameters and return the executed notebook.
 
     Raises
     ------
     ValueError
-        If the notebook lacks a parameter (papermill only warns), or if a cell rejects a value.
+        If the notebook lacks a parameter (papermill would only warn), or if a cell raises ValueError.
     papermill.PapermillExecutionError
         If a cell fails.
     """
@@ -70,7 +70,7 @@ def execute(notebook, executed, parameters: dict):
 
 
 def parameters_of(config: dict) -> dict:
-    """Return the parameters of a notebook by name, from the config entries on which its figure depends."""
+    """Return the notebook parameters by name, from the config entries (by path) on which a figure depends."""
     given = {}
     for path, value in config.items():
         name = path.rpartition(".")[2]
@@ -78,7 +78,7 @@ def parameters_of(config: dict) -> dict:
     return given
 
 
-BUILD = snakemake.output[0].rpartition("results/")[0]  # the prefix of a module
+BUILD = snakemake.output[0].rpartition("results/")[0]  # a folder if the workflow is a module with a prefix
 
 with running(snakemake) as out:
     for figure, shown in snakemake.params.pages.items():
@@ -90,7 +90,7 @@ with running(snakemake) as out:
         inputs = {name: BUILD + path for name, path in shown["inputs"].items()}
         done = execute(snakemake.input.notebook, executed, given | {"inputs": inputs})
         injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
-        injected.id = "injected-parameters"  # otherwise random, which would change the page in every build
-        others = snakemake.params.pages.keys() - {figure}  # cells with their names as tags are for their pages
+        injected.id = "injected-parameters"  # a random id would change the page in every build
+        others = snakemake.params.pages.keys() - {figure}  # a cell with a figure as tag is for the page of that figure
         done.cells = [cell for cell in done.cells if not others.intersection(cell.metadata.get("tags", ()))]
         Path(getattr(out, figure)).write_text(page(done, texts["title"]), encoding="utf-8")

@@ -1,6 +1,6 @@
-"""Integrate one case, and write the window after the transient: samples.csv, events.csv and summary.json.
+"""Integrate one case; write samples.csv, events.csv and summary.json for the window after the transient.
 
-strobe.csv contains the state at the start of every forcing cycle of the whole run.
+In addition, strobe.csv contains the state at the start of every forcing cycle, including the transient.
 """
 
 import json
@@ -15,7 +15,7 @@ from vibroimpact.system.state import KINDS, NAMES
 
 
 def summarise(simulated: Window, settings: dict) -> dict:
-    """Return summary statistics of the window: events by kind and module, recurrence errors after 1 to 4 cycles."""
+    """Return for the window: times of both ends, number of events by kind and module, recurrence errors, last state."""
     events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {
         kind: {str(module): int(((events["kind"] == kind) & (events["module"] == module)).sum()) for module in (1, 2)}

@@ -1,5 +1,6 @@
-# Claims of the chapter, judged by the results of earlier stages, or none of them with the reason: they are about the
-# parameters of the chapter, and their checks about the settings of this repository.
+# Judge the claims of the chapter from the results of earlier stages. The claims are about the parameters of the chapter,
+# and the checks are written for the settings of this repository. With other values, no claim is judged, and the reason is
+# stated.
 
 from vibroimpact_pipeline.studies.claims_config import reason_not_judged
 

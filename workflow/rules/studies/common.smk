@@ -1,13 +1,13 @@
-# Shared by the rules of the studies.
+# Definitions for the rules of the studies.
 
-# Relative to the files of the rules.
+# Path of the template for captions, relative to the files of the rules.
 CAPTION = "../../../report/caption.rst"
 
 
 def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=(), folder=None):
-    """Return inputs, outputs and params of a figure, or None if the config lacks an entry that it needs.
+    """Return inputs, outputs and params of a figure, or None if the config lacks an entry that the figure needs.
 
-    A figure with a `folder` of its own is for an interactive page; its module also returns the data of the page.
+    A figure with its own `folder` is for an interactive page; its module also returns the data of the page.
     """
     try:
         case = at(config, case) if case else None
@@ -25,7 +25,7 @@ def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()
 
 
 def sweep_request(sweep):
-    """Return the settings on which the numbers of a sweep depend, as in vibroimpact.studies.sweeps.request."""
+    """Return all settings that affect the numbers of a sweep, in the form of vibroimpact.studies.sweeps.request."""
     spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
     if "regimes" in sweep["observe"]:
         spec["observation"] = config["regimes"]["observation"]
@@ -33,5 +33,5 @@ def sweep_request(sweep):
 
 
 def arithmetic(scene):
-    """Return the model of a simulation to show: reference if the case sets `digits`, otherwise float64."""
+    """Return the model of the simulation that an animation shows: reference if its case sets `digits`, else float64."""
     return "reference" if "digits" in config["cases"][scene["case"]]["simulation"] else "float64"

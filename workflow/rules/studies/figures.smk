@@ -4,9 +4,9 @@
 include: "common.smk"
 
 
-# Arguments of `compute` for each figure: `settings` of the config, named by the last key of their path (* stands for all
+# Arguments of `compute` for each figure: `settings`, config entries named by the last key of their path (* stands for all
 # settings of a section except `case`); `inputs`; the system of a `case`; the `systems` of all cases. A figure is omitted
-# if the config lacks one of these entries or of `needs`.
+# if the config lacks one of these entries or an entry in `needs`.
 COMPANIONS = {
     "companion_10_05": {"settings": ["stability.companion_10_05.C_range"]},
     "companion_10_08": {
@@ -64,7 +64,7 @@ COMPANIONS = {
 }
 
 
-# Machines in SI units, each with a page of its own as the chapter's figures have, and the animations of the report.
+# Machines in SI units, each with its own page like a figure of the chapter, and the animations of the report.
 for name in config["machines"]:
     SCENES[name] = config["machines"][name] | {"like": "machines"}
     COMPANIONS[name] = {"settings": [f"machines.{name}.*"]}

@@ -1,4 +1,4 @@
-# Report: an offline website and a PDF, built from the results of all stages.
+# Build the report, an offline website and a PDF, from the results of all stages.
 
 
 rule report:

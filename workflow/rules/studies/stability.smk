@@ -1,4 +1,4 @@
-# Proofs on the orbits of each case, and verdicts of all criteria over planes of forces and over epsilon.
+# Proofs on the orbits of each case, verdicts of all criteria over both forces and over epsilon, and measures of modulation.
 
 
 rule proofs:
@@ -18,7 +18,7 @@ rule proofs:
         "../../scripts/studies/proofs.py"
 
 
-# Verdicts of the theory over a plane of forcing amplitudes, against exact orbits at several epsilon.
+# Verdicts of the theory and of exact orbits at several epsilon, on a grid of forcing amplitudes.
 rule verdict_grid:
     output:
         **in_report({"csv": "results/verdict_grid.csv"}, "Tables", CAPTION),
@@ -36,7 +36,7 @@ rule verdict_grid:
         "../../scripts/studies/verdict_grid.py"
 
 
-# Measures of modulation and Lyapunov spectra of every case.
+# Measures of modulation, and Lyapunov spectra, for every case.
 rule modulation:
     output:
         measures="results/regimes/modulation.csv",
@@ -54,7 +54,7 @@ rule modulation:
         "../../scripts/studies/modulation.py"
 
 
-# Verdicts on the fixed points of all cases as epsilon decreases.
+# Verdicts on the fixed points of all cases for decreasing epsilon.
 rule verdicts_by_epsilon:
     output:
         csv="results/verdicts_by_epsilon.csv",

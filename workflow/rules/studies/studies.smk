@@ -1,4 +1,5 @@
-# Studies beyond the chapter: `snakemake --cores 2 studies`. Delete every folder and file named `studies` to remove them.
+# Studies beyond the chapter: `snakemake --cores 2 studies`. To remove the studies, delete all folders and files named
+# `studies`.
 
 
 include: "stability.smk"
@@ -11,7 +12,7 @@ READ_BY_FIGURES = {path for figure in ALL_FIGURES for path in getattr(rules, fig
 SIMULATED = {Path(path).parent.as_posix() for path in READ_BY_FIGURES if "results/simulations/" in path}
 
 
-# Machine-readable description of the columns of all tables.
+# Machine-readable description of all columns in all tables.
 rule datapackage:
     input:
         rules.index.input,

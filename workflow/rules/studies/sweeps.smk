@@ -1,5 +1,6 @@
-# Parameter sweeps over a grid: snakemake sweep_NAME. A sweep is split into tiles, one job each. Their number follows from
-# the predicted cost (vibroimpact.studies.sweeps.cost) or from `--set-scatter NAME=8`; it does not change the table.
+# Parameter sweeps over a grid: snakemake sweep_NAME. A sweep is split into tiles, one job each. The number of tiles
+# follows from the predicted cost (vibroimpact.studies.sweeps.cost) or from `--set-scatter NAME=8`. It does not affect the
+# table.
 
 from vibroimpact.studies.sweeps.cost import points, tiles
 
@@ -70,7 +71,7 @@ for name, sweep in SWEEPS.items():
             "../../scripts/figure.py"
 
 
-# Figures of all sweeps that no companion figure draws.
+# Figure of each sweep that no companion figure draws.
 rule sweeps:
     input:
         [

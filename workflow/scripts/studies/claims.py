@@ -1,4 +1,4 @@
-"""Judge the claims of the chapter by the results of the build; write claims.json."""
+"""Judge the claims of the chapter from the results of the build, and write claims.json."""
 
 import json
 from pathlib import Path

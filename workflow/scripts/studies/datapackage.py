@@ -1,4 +1,4 @@
-"""Write the data package of the tables of a build, which describes every column."""
+"""Write the data package of a build, which describes every column of every table."""
 
 import csv
 import json
@@ -14,7 +14,7 @@ import yaml
 
 
 def header(path):
-    """Return the names of the columns of a CSV file."""
+    """Return the column names of a CSV file."""
     with open(path, encoding="utf-8", newline="") as table:
         return next(csv.reader(table))
 
@@ -23,7 +23,7 @@ with running(snakemake) as out:
     specs, data = read(ROOT)
     made = {figure: spec_of(figure, scene, specs) for figure, scene in snakemake.params.figures.items()}
     cited = yaml.safe_load(Path(snakemake.input.citation).read_text(encoding="utf-8"))
-    build = snakemake.output.json.removesuffix("results/datapackage.json")  # the prefix of a module
+    build = snakemake.output.json.removesuffix("results/datapackage.json")  # a folder for a module with a prefix
     headers = {path.removeprefix(build): header(path) for path in snakemake.input if path.endswith(".csv")}
     package = data_package(headers, files(specs | made, data), data["units"], cited)
     text = json.dumps(package, indent=1, ensure_ascii=False, allow_nan=False) + "\n"

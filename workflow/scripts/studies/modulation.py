@@ -1,4 +1,4 @@
-"""Write measures of modulation and Lyapunov spectra of all cases to three CSV files."""
+"""Write three CSV files for all cases: measures of modulation, the same by window, and Lyapunov spectra."""
 
 from vibroimpact_pipeline.jobs import running
 

@@ -1,8 +1,8 @@
-"""Write the proofs on fixed points and orbits of all cases as JSON.
+"""Write proofs on the fixed points and orbits of all cases as JSON.
 
-Interval arithmetic proves that the lists of fixed points, including asymmetric ones, and of symmetric orbits are
-complete. The list of asymmetric orbits is not proved complete; the smallest number of Newton starts that led to one of
-them indicates how likely another orbit was missed.
+Interval arithmetic proves that three lists are complete: symmetric fixed points, asymmetric fixed points, and
+symmetric orbits. The list of asymmetric orbits is not proved complete. Each of its orbits was reached from a number of
+Newton starts; the smallest of these numbers indicates how likely it is that another orbit was missed.
 """
 
 import dataclasses
@@ -25,7 +25,7 @@ CERTIFIED = {
 
 
 def proofs_of(system, table, search) -> dict:
-    """Return the proofs for one case; for asymmetric orbits, the search effort."""
+    """Return the proofs for one case, and for asymmetric orbits the effort of the search."""
     proofs = {name: prove(system) for name, prove in CERTIFIED.items()}
     return {
         **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},

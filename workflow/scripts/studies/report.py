@@ -1,4 +1,4 @@
-"""Build the report from results: an offline website, and its article as PDF."""
+"""Build the report, an offline website and an article as PDF, from results."""
 
 import json
 import shutil
@@ -17,7 +17,7 @@ from vibroimpact.studies.claims.judge import NOT_JUDGED
 
 
 def collect(results, figures, tables, folder: Path) -> None:
-    """Copy figures, their notebooks and additional tables to the report."""
+    """Copy figures, their notebook pages and further tables to the folder of the report."""
     for part in ("figures", "notebooks", "data"):
         (folder / part).mkdir(parents=True)
     for figure in figures:
@@ -31,7 +31,7 @@ def collect(results, figures, tables, folder: Path) -> None:
 
 
 def version(root) -> str:
-    """Return commit and date of the checkout, if available."""
+    """Return a text with commit and date of the checkout, or with the reason why the commit is unknown."""
     try:
         described = git("describe", "--always", "--dirty=, with uncommitted changes", root=root)
     except GitRefused:
@@ -42,7 +42,7 @@ def version(root) -> str:
 
 
 def groups(figures: list[str], charts: list[str], config: dict) -> dict[str, list[str]]:
-    """Return the figures of the report in groups, in the order of display."""
+    """Return the figures of the report by group; groups and figures are in the order of display."""
     chapter = [figure for figure in figures if figure.startswith("fig10_")]
     companions = [figure for figure in figures if figure.startswith("companion_")]
     return {

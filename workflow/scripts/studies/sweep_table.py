@@ -1,4 +1,4 @@
-"""Join the tiles of a sweep into one table with a row per point, and write it as NetCDF over the grid."""
+"""Join the tiles of a sweep into one table with one row per point; write CSV, and NetCDF on the grid of the axes."""
 
 import sys
 

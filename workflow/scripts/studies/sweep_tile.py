@@ -1,4 +1,4 @@
-"""Compute one tile of a sweep as CSV, one row per point."""
+"""Compute one tile of a sweep, and write it as CSV with one row per point."""
 
 from vibroimpact_pipeline.jobs import running
 

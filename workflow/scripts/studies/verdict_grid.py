@@ -1,4 +1,4 @@
-"""Write the verdicts on every fixed point over a grid of forcing amplitudes and several epsilon as CSV."""
+"""Write a CSV table of the verdicts on all fixed points, on a grid of forcing amplitudes for several epsilon."""
 
 from vibroimpact_pipeline.jobs import running
 

@@ -1,4 +1,4 @@
-"""Write the verdicts on the fixed points of all cases at several epsilon as CSV."""
+"""Write a CSV table of the verdicts on the fixed points of all cases, for several epsilon."""
 
 from vibroimpact_pipeline.jobs import running
 
