@@ -1,20 +1,20 @@
 SHELL := /bin/bash
 CORES ?= 2
 RUNS ?= 20000
-# Temporary files are stored in the checkout, not in the temporary folder of the machine.
+# Temporary files are stored in the checkout, not in the temporary folder of the system.
 TEMPORARY = TMPDIR="$(CURDIR)/.cache"
 PIN = $(TEMPORARY) .venv/bin/uv pip compile --universal --generate-hashes --python-version 3.11 --no-annotate --no-header \
 	--no-emit-find-links --no-emit-index-url --cache-dir .cache/uv
 unexport PYTHONDONTWRITEBYTECODE PYTHONHOME CDPATH
 export OMP_NUM_THREADS := 1
 export WHEELS
-# Snakemake fails if neither HOME nor the user database defines a home directory.
+# Set HOME if it is undefined, since Snakemake fails if neither HOME nor the user database defines a home directory.
 export HOME ?= $(CURDIR)/.cache/home
 
 .PHONY: help figures studies check-figures check-studies accept report archive benchmark attack test test-quick test-all explore lock wheels cluster-tools development clean set-up matrix dist release
 .DEFAULT_GOAL := help
 
-# Show a progress bar in a terminal, plain lines elsewhere, and the full output of Snakemake with V=1.
+# In a terminal, a build shows a progress bar, elsewhere plain lines, and with V=1 the full output of Snakemake.
 BUILD = .venv/bin/snakemake --cores $(CORES) $(if $(V),--quiet host,$$([ ! -t 2 ] || echo --logger rich))
 
 help:  ## show this help
@@ -27,38 +27,38 @@ help:  ## show this help
 figures: set-up  ## build the figures of the chapter and the work-precision charts into results/
 	@$(BUILD)
 
-studies: set-up  ## build the studies: sweeps, maps, companion figures, claims, proofs, machines
+studies: set-up  ## build the studies (sweeps, maps, companion figures, claims, proofs, machines) into results/
 	@$(BUILD) -- studies
 	@$(BUILD)
 
-check-figures: set-up  ## compare the chapter's figures with the reference set figures/ (STRICT=1: fail if pixels are not comparable)
+check-figures: set-up  ## compare the chapter's figures with the reference set figures/ (STRICT=1: other library versions fail)
 	@$(BUILD) -- figure_check$(if $(STRICT),_strict)
 
-check-studies: set-up  ## compare the figures of the studies with figures/studies/
+check-studies: set-up  ## compare the figures of the studies with the reference set figures/studies/
 	@$(BUILD) -- study_check$(if $(STRICT),_strict)
 
-report: development  ## build figures, studies and the report, results/report/index.html, with a PDF
+report: development  ## build figures, studies and the report: results/report/index.html, and an article as PDF
 	@$(BUILD) -- report
 
-archive: development  ## pack sources, results and metadata into one citable file in results/archive/
+archive: development  ## pack sources, results and metadata into one citable file, in results/archive/
 	@$(BUILD) -- archive
 
 accept: export REASON := $(REASON)
-accept: set-up  ## accept new figures into the reference set (REASON="why", FIGURES="fig10_06 ...", PICTURES=1: pictures only)
+accept: set-up  ## accept new figures into the reference set (REASON="why", FIGURES="fig10_06 ...", PICTURES=1: only pictures)
 	.venv/bin/python -m vibroimpact_pipeline.figure_check.accept --reason "$$REASON" $(if $(PICTURES),--pictures) $(FIGURES)
 
-benchmark: set-up  ## measure time per impact and error of every method (1 to 2 minutes, one core)
+benchmark: set-up  ## measure time per impact and error of every method (1 to 2 minutes on one core)
 	.venv/bin/python workflow/scripts/benchmark.py
 
-attack: development  ## stress-test the error estimates of runs, 20 000 runs of each kind (RUNS=20000; 15 minutes on one core)
+attack: development  ## stress-test the error estimates of runs with 20 000 runs of each kind (RUNS=20000; 15 minutes on one core)
 	.venv/bin/pytest -s tests/exact/engine/test_attack.py --attack=$(RUNS)
 
-# Tests that need no build of the figures: formulas, orbits, core of the engine, config, map of the repository.
+# Tests that do not build figures: formulas, orbits, core of the engine, config, map of the repository.
 QUICK = $(addprefix tests/,system theory exact/orbits \
 	$(addprefix exact/engine/test_,$(addsuffix .py,simulation contact coincident_events certificate)) integrators/test_contact_laws.py \
 	figures/test_specs.py figures/test_notebooks.py pipeline/test_config_reading.py docs/test_map.py) \
 	$(wildcard $(addprefix tests/studies/,sweeps absorbers regimes/test_classification.py report/test_report_text.py))
-# Import contracts of the chapter, and of the studies if they are there.
+# Check the import contracts of the chapter, and those of the studies if the studies are installed.
 CONTRACTS = for config in pyproject.toml $(wildcard tests/studies/importlinter.toml) ; do .venv/bin/lint-imports --config $$config || exit; done
 
 test-quick: development  ## run linters and the tests of formulas, orbits, engine and config (less than a minute)
@@ -75,12 +75,12 @@ test: development  ## run linters and the test suite, including one run of the p
 	.venv/bin/pytest --numprocesses 2 --dist worksteal
 
 test-all: export THOROUGH := 1
-test-all: test  ## run `test` and the slow tests: Slurm with faults, byte-identical rebuild, all kinds of faults
+test-all: test  ## run `test` with all slow tests: Slurm with faults, a byte-identical rebuild, all kinds of faults
 
-# Tools that need no place in the lock.
+# Run a tool that is not in the locks.
 TOOL = $(TEMPORARY) .venv/bin/uv tool run --cache-dir .cache/uv
 
-matrix: set-up  ## set up, build and test on each Python with locked, lowest and newest packages (NOX="--python 3.12 -k lock")
+matrix: set-up  ## set up, build and test with each Python and locked, lowest and newest packages (NOX="--python 3.12 -k lock")
 	$(TOOL) nox==2026.10.20 --session matrix --envdir .cache/nox $(NOX)
 
 dist: set-up  ## build wheel and source distribution into dist/ and check their metadata
@@ -96,25 +96,25 @@ explore: development  ## run property-based tests with new random examples (SEED
 	.venv/bin/pytest --numprocesses 2 -m hypothesis --hypothesis-profile explore --hypothesis-seed $$seed \
 		|| { echo "To repeat these examples: $$again"; exit 1; }
 
-# Use the versions of environment.lock, and omit its packages.
+# Options to use the versions in environment.lock, but to leave out its packages, which are installed already.
 BESIDE = --constraint environment.lock $$(sed -n 's/^\([a-z][^=]*\)==.*/--no-emit-package \1/p' environment.lock)
-lock: set-up  ## update the locks: environment.lock (builds), development.lock (report, tests), cluster.lock (clusters)
+lock: set-up  ## update all locks: environment.lock (builds), development.lock (report, tests), cluster.lock (Slurm)
 	$(PIN) --upgrade --extra pipeline --extra integrators --extra set-up pyproject.toml -o environment.lock
 	sed -i '1i # Read by pip and uv: pip install --require-hashes --no-deps -r environment.lock (workflow/set_up.sh does it).' environment.lock
 	$(PIN) --upgrade --all-extras --excludes <(printf '%s\n' snakemake-executor-plugin-slurm jupyterlab) \
 		$(BESIDE) pyproject.toml -o development.lock
 	$(PIN) --upgrade --extra cluster $(BESIDE) --constraint development.lock pyproject.toml -o cluster.lock
 
-wheels:  ## download all packages to a folder for set-up without network (WHEELS=folder)
+wheels:  ## download all packages to a folder, for a set-up without network (WHEELS=folder)
 	@test -n "$$WHEELS" || { echo "WHEELS: not set, expected a folder: make wheels WHEELS=folder" >&2; exit 1; }
 	WHEELS= workflow/set_up.sh
 	workflow/pip.sh download --require-hashes --no-deps --no-build-isolation --dest "$$WHEELS" \
 		-r environment.lock -r development.lock -r cluster.lock
 
-cluster-tools:  ## install the Slurm plugin of Snakemake, cluster.lock (repeat after each set-up; docs/running.md)
+cluster-tools:  ## install the Slurm plugin of Snakemake from cluster.lock (repeat after each set-up; see docs/running.md)
 	@workflow/set_up.sh cluster
 
-development:  ## install the packages for report, archive and tests, development.lock (done automatically by these commands)
+development:  ## install the packages of development.lock; report, archive and tests do this automatically
 	@workflow/set_up.sh development
 
 clean:  ## delete results and caches; keep the environment

@@ -1,6 +1,6 @@
-"""Metadata that hatchling takes from elsewhere when it builds: the long description and the project's addresses.
+"""Add metadata from other files when hatchling builds the project: long description and addresses.
 
-Where the project lives is said once, as `repository-code` in CITATION.cff; while it is not, there are no addresses.
+The address of the repository is the entry `repository-code` of CITATION.cff. Without it, no addresses are added.
 """
 
 import re
@@ -9,12 +9,12 @@ from pathlib import Path
 from hatchling.metadata.plugin.interface import MetadataHookInterface
 
 LINK = re.compile(r"(!?)\[([^\]]*)\]\((?!\w+:|#)([^)]+)\)")
-"""A relative link or picture of Markdown: mark of a picture, text, target."""
+"""Matches a relative link or picture in Markdown; the groups are the mark of a picture, the text and the target."""
 REPOSITORY = re.compile(r'^repository-code: "?([^"\s]+)"?$', re.MULTILINE)
 
 
 def long_description(readme: str, repository: str | None, version: str) -> str:
-    """Return a README whose relative links lead into the repository at a version; without one, only their texts."""
+    """Return a README with links into the repository at a version; without repository, links become plain text."""
 
     def absolute(link):
         picture, text, target = link.groups()
@@ -25,7 +25,7 @@ def long_description(readme: str, repository: str | None, version: str) -> str:
 
 
 class Metadata(MetadataHookInterface):
-    """Add the long description and the addresses of the project to its metadata."""
+    """Add the long description and the addresses of the project to the metadata."""
 
     def update(self, metadata):
         root = Path(self.root)

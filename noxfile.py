@@ -1,4 +1,4 @@
-"""Set up, build and test a clone of this checkout for each Python and set of packages (make matrix)."""
+"""Set up, build and test a clone of this checkout with each Python version and set of packages (make matrix)."""
 
 import shutil
 from pathlib import Path
@@ -8,7 +8,7 @@ import nox
 ROOT = Path(__file__).parent
 PYTHONS = nox.project.python_versions(nox.project.load_toml(ROOT / "pyproject.toml"))
 PACKAGES = [nox.param(None, id="lock"), nox.param("lowest-direct", id="lowest"), nox.param("highest", id="newest")]
-"""Resolution strategy of uv for each set of packages; None uses the locks."""
+"""For each set of packages, the resolution strategy of uv; None means that the locks are used."""
 PIN = (
     *("pip", "compile", "pyproject.toml", "--output-file", "environment.lock", "--upgrade", "--all-extras"),
     *("--generate-hashes", "--no-annotate", "--no-emit-find-links", "--no-emit-index-url", "--quiet"),
@@ -22,7 +22,7 @@ nox.options.download_python = "never"
 @nox.session(python=PYTHONS)
 @nox.parametrize("strategy", PACKAGES)
 def matrix(session, strategy):
-    """Run the make targets in a clone, with locked, lowest or newest packages."""
+    """Run the make targets in a clone with locked, lowest or newest packages."""
     clone = Path(session.create_tmp()) / "clone"
     shutil.rmtree(clone, ignore_errors=True)
     session.run("git", "clone", "--quiet", ROOT, clone, external=True)
@@ -30,7 +30,7 @@ def matrix(session, strategy):
     with session.chdir(clone):
         if strategy:
             Path("development.lock").write_text("", encoding="utf-8")
-            # As `make lock` does, without packages that no target needs.
+            # Resolve as `make lock` does, but without packages that none of the targets needs.
             Path("excluded.txt").write_text("snakemake-executor-plugin-slurm\njupyterlab\n", encoding="utf-8")
             pin = *PIN, "--resolution", strategy, "--excludes", "excluded.txt", "--python", python
             session.run(ROOT / ".venv/bin/uv", *pin, external=True)

@@ -1,4 +1,4 @@
-"""Results of others by the public functions, a function for each row of published.md."""
+"""Compute published results of others with the public functions; each row of published.md has a function here."""
 
 import numpy as np
 from scipy.optimize import brentq
@@ -7,17 +7,17 @@ import vibroimpact as vi
 
 
 def wall(F, omega, c, kappa):
-    """Return an oscillator of mass and stiffness 1; a ball of 1e12 boxes is its wall. Lengths are in units of 50."""
+    """Return an oscillator with mass and stiffness 1 and a ball of mass 1e12 as wall; the unit of length is 50."""
     return vi.PhysicalSystem.single(M=1, m=1e12, k=1, c=c, F=F, L=50, kappa=kappa, omega=omega).dimensionless()
 
 
 def speeds(orbit):
-    """Return the speeds with which the oscillator meets its wall."""
+    """Return the speeds at which the oscillator hits the wall."""
     return 50 * abs(orbit.run.events["state"][:, 4]) / orbit.system.kappa
 
 
 def sector(r, clearance=0.3):
-    """Return a sector of the chain; in phase the coupling does not act."""
+    """Return one sector of the chain without coupling, which has no effect if all sectors move in phase."""
     given = dict(M=0.98, m=0.02, k=1, c=0.002, F=0.002, kappa=0.8)
     return vi.PhysicalSystem.single(**given, L=clearance, omega=r).dimensionless()
 
@@ -28,15 +28,15 @@ def resonant(system):
 
 
 def flight(stiffness, x, V):
-    """Return time and box place of the impact after a flight with the speed V from an impact at the box place x."""
+    """Return time and box displacement of the next impact; the last impact was at x, and the ball flies at speed V."""
     cell = vi.PhysicalSystem.single(M=1, m=0.3, k=stiffness, c=0, F=0, kappa=1 - 1e-12).dimensionless()
-    v = V / stiffness**0.5  # the unit of time is that of the box
+    v = V / stiffness**0.5  # the unit of time follows from the frequency of the box
     impact = vi.simulate(cell, [x, x - 1, 0, 0, -0.3 * v, v, 0, 0], 9).events[0]
     return impact["tau"] / stiffness**0.5, impact["state"][0]
 
 
 def half_period(stiffness, V, low, high):
-    """Return the time between the impacts of a free motion that is its own mirror image half a period later."""
+    """Return the time between impacts in a free motion that is mirrored after half a period; its x is in [low, high]."""
     x = brentq(lambda x: flight(stiffness, x, V)[1] + x, low, high)
     return flight(stiffness, x, V)[0]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Run pip of .venv, or uv if the first argument is `uv`. Of the user's settings, only those on the location of packages and
-# on the network apply: `user` or `target` would install elsewhere, `constraint` or `only-binary` reject locked packages.
+# Run pip of .venv, or uv if the first argument is `uv`. From the user's settings, only the network and the sources of packages
+# are used: `user` or `target` would install elsewhere, and `constraint` or `only-binary` would reject locked packages.
 set -euo pipefail
 unset CDPATH
 cd -P -- "$(dirname -- "$0")/.."
@@ -12,8 +12,8 @@ for name in "${!PIP_@}"; do
     key=${key,,}
     [[ ${key//_/-} =~ ^($reach|cache-dir|config-file)$ ]] || unset "$name"
 done
-# Read the settings of configuration files. The section [install] overrides [global], and variables override both. `user`
-# has another meaning for `pip config`.
+# Read the settings from configuration files. The section [install] overrides [global], and variables override both.
+# PIP_USER=0 is set because `user` has another meaning for `pip config`.
 while IFS== read -r key value; do
     name=${key^^}
     name=PIP_${name//-/_}
@@ -25,7 +25,7 @@ export PIP_CONFIG_FILE=/dev/null TMPDIR="$PWD/.cache" PIP_CACHE_DIR="${PIP_CACHE
 if [[ ${1:-} != uv ]]; then
     exec .venv/bin/python -I -m pip --disable-pip-version-check "$@"
 fi
-# Translate the settings to options of uv.
+# Translate the settings into options of uv.
 set -f
 options=()
 for pair in default-index:INDEX_URL index:EXTRA_INDEX_URL find-links:FIND_LINKS; do

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Create .venv from environment.lock unless it is up to date, and add the packages of a further lock if given
+# Create .venv from environment.lock unless it is up to date, and add the packages of a further lock if its name is given
 # (`workflow/set_up.sh development`). Only one set-up runs at a time; an interrupted set-up starts over.
-# With WHEELS=folder, all packages are installed from that folder, which `make wheels` fills, without network.
+# With WHEELS=folder, all packages are installed without network from this folder, which `make wheels` fills.
 set -euo pipefail
-# PYTHONHOME, PYTHONPATH or PYTHONUSERBASE would add modules, variables of uv would change the packages, and CDPATH the folder.
+# Unset variables that would interfere: PYTHONHOME, PYTHONPATH and PYTHONUSERBASE would add modules, variables of uv would
+# change the packages, and CDPATH would change the folder.
 for name in "${!PYTHON@}" "${!UV_@}" CDPATH; do
     [[ $name == PYTHON ]] || unset "$name"
 done
@@ -16,7 +17,7 @@ find_python() {
     local candidate
     for candidate in ${PYTHON:-.venv/bin/python python3 python3.13 python3.12 python3.11 python3.14}; do
         if "$candidate" -c "$usable" 2>/dev/null; then
-            # In a virtual environment, return its base interpreter.
+            # If the candidate is in a virtual environment, return its base interpreter.
             "$candidate" -c 'import sys; print(getattr(sys, "_base_executable", sys.executable))'
             return
         fi
@@ -37,7 +38,7 @@ elif ((status)); then
     echo "This file system does not support locks: do not start another set-up of this checkout." >&2
 fi
 
-# done_with STEP STAMP: return 0 if the step was finished with the same stamp.
+# done_with STEP STAMP: return 0 if the step has been finished with the same stamp.
 done_with() {
     [[ -f .venv/.$1 && "$(cat ".venv/.$1")" == "$2" ]]
 }
@@ -58,8 +59,8 @@ if [[ -n "${WHEELS:-}" ]]; then
     source=(--no-index --find-links "$WHEELS")
 fi
 
-# install ARGUMENTS: use uv, which is several times faster; use pip with WHEELS, or if uv fails.
-# Bytecode is compiled on import.
+# install ARGUMENTS: install with uv, which is several times faster than pip; use pip with WHEELS, or if uv fails.
+# Bytecode is compiled later, on import.
 install() {
     set -- install --no-compile --no-deps --no-build-isolation "${source[@]}" "$@"
     if [[ -z "${WHEELS:-}" && -x .venv/bin/uv ]]; then
@@ -77,12 +78,13 @@ if ! done_with complete "$complete"; then
     echo "Setting up .venv with $("$python" --version) (about a minute, once)"
     echo "1 of 3  installing $(grep -c '^[a-z].*==' environment.lock) packages of environment.lock"
     "$python" -m venv --clear .venv
-    # Packages without a wheel are built with the locked setuptools, not the newest.
+    # Install the locked setuptools first, so that packages without a wheel are not built with the newest version.
     install --require-hashes --requirement <(sed -En '/^(setuptools|uv)==/,/[^\\]$/p' environment.lock)
     install --require-hashes --requirement environment.lock
     echo "2 of 3  installing this project"
     install --editable .
-    # The path is relative because Python before 3.13 decodes this file by the locale, which may not support an absolute path.
+    # The path is relative because Python before 3.13 decodes this file in the encoding of the locale, which may lack
+    # characters of the absolute path.
     echo ../../../../src >.venv/lib/python3.*/site-packages/_vibroimpact.pth
     check
     echo "3 of 3  compiling the simulation, its error estimates and other methods (half a minute)"

@@ -1,4 +1,4 @@
-// Drawing tools of the interactive pages: marks, charts, the two boxes on their springs, and a clock.
+// Drawing tools for the interactive pages: marks, charts, the two boxes on springs, and a clock.
 "use strict";
 
 function mark(parent, kind, name, attributes = {}, text = "") {
@@ -13,7 +13,7 @@ function mark(parent, kind, name, attributes = {}, text = "") {
 const set = (element, attributes) => { for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value); };
 const dataOf = (root) => JSON.parse(document.getElementById(root.dataset.source).textContent);
 
-// A chart in units of page pixels, so that its text keeps its size.
+// A chart with coordinates in page pixels, so that text has the same size at any width.
 class Chart {
   constructor(svg, height) {
     Object.assign(this, { svg, fixed: height, left: 46, right: 14, top: 8, bottom: 22 });
@@ -35,7 +35,7 @@ class Chart {
   }
 }
 
-const FLASH = 0.12; // duration of the flash of a wall after an impact [cycles]
+const FLASH = 0.12; // time for which a wall flashes after an impact [cycles]
 
 // Two boxes on springs, each with its ball.
 class Machine {
@@ -84,7 +84,7 @@ class Machine {
   }
 }
 
-// Call `passed` with the seconds between two frames while the clock runs; `button` starts and stops it.
+// A clock that calls `passed` with the time between two frames [s] while it runs; `button` starts and stops the clock.
 class Clock {
   constructor(button, passed) {
     Object.assign(this, { button, passed });

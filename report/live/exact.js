@@ -1,27 +1,27 @@
 // The two-module system (10.2), integrated exactly from event to event: impact, chatter, sticking and release.
 //
 // Between events the boxes obey a linear equation with a sinusoidal force. Their motion over a step is a power series that
-// is exact to rounding, so that the gap between ball and wall is a polynomial. All its turning points are found before its
-// zeros, so that no crossing is missed, however shallow. A test compares this program with the engine of the library
-// (src/vibroimpact/exact/engine).
+// is exact to rounding, so that the gap between ball and wall is a polynomial. The turning points of the gap are found
+// first, and then a zero between two turning points, so that even a shallow crossing is not missed. A test compares this
+// program with the engine of the library (src/vibroimpact/exact/engine).
 "use strict";
 
 const VibroImpact = (() => {
   const DEGREE = 16, STEP = 0.5, ROUNDING = 4 * Number.EPSILON;
-  const NEGLIGIBLE = 1e-18, LOW = 1e-12; // thresholds for completing a chatter: change of the state, height of a hop
-  const MOST_EVENTS = 100000; // maximum in one call of advance
+  const NEGLIGIBLE = 1e-18, LOW = 1e-12; // limits for completing a chatter: change of the state, height of a hop
+  const MOST_EVENTS = 100000; // maximum number of events in one call of advance
 
   const value = (c, t) => c.reduceRight((sum, coefficient) => sum * t + coefficient, 0);
   const derivative = (c) => c.slice(1).map((coefficient, k) => (k + 1) * coefficient);
 
-  // True if a polynomial certainly has no zero on [0, T]: its first coefficient outweighs the others.
+  // Return true if a polynomial certainly has no zero on [0, T], because its first coefficient outweighs all others.
   function hasNoZero(c, T) {
     let others = 0;
     for (let k = c.length - 1; k > 0; k--) others = (others + Math.abs(c[k])) * T;
     return Math.abs(c[0]) > others;
   }
 
-  // Find the zero of a polynomial between two places of opposite sign, by Newton's method safeguarded by bisection.
+  // Find the zero of a polynomial between two places with opposite signs, by Newton's method safeguarded by bisection.
   function zeroBetween(c, a, b) {
     const slope = derivative(c), sign = Math.sign(value(c, a)) || -Math.sign(value(c, b));
     let t = 0.5 * (a + b);
@@ -36,7 +36,7 @@ const VibroImpact = (() => {
     return t;
   }
 
-  // Find all sign changes of a polynomial in (0, T), ascending; between two turning points there is at most one.
+  // Find all sign changes of a polynomial in (0, T), ascending. Between two turning points there is at most one change.
   function zeros(c, T) {
     if (c.length < 2 || hasNoZero(c, T)) return [];
     const ends = [0, ...zeros(derivative(c), T), T], found = [];
@@ -46,7 +46,7 @@ const VibroImpact = (() => {
     return found;
   }
 
-  // Find the first time in (0, T] at which an initially positive polynomial becomes negative, or Infinity.
+  // Find the first time in (0, T] at which an initially positive polynomial becomes negative; Infinity if there is none.
   function firstFall(c, T) {
     if (hasNoZero(c, T) && c[0] > 0) return Infinity;
     let before = 0;
@@ -67,16 +67,16 @@ const VibroImpact = (() => {
     return { e, kappa, K, C, omega, f: [e * f10_hat, e * f20_hat], step: STEP / fastest, period: 2 * Math.PI / omega };
   }
 
-  // A run from a state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] at tau = 0. `events` grows; the caller may clear it.
+  // A run from a state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] at tau = 0. Events are appended to `events`, which may be cleared.
   class Run {
     constructor(parameters, state) {
       this.system = coefficients(parameters);
       [this.X, this.Y] = [[state[0], state[2]], [state[1], state[3]]];
       [this.V, this.U] = [[state[4], state[6]], [state[5], state[7]]];
-      this.stuck = [0, 0]; // the wall, +1 or -1, that each ball sticks to
-      this.touching = [0, 0]; // the wall that each ball touches while it leaves or rests
+      this.stuck = [0, 0]; // for each ball, the wall, +1 or -1, to which it sticks; 0 if it flies
+      this.touching = [0, 0]; // for each ball, the wall that it touches after an impact or a release; else 0
       this.tau = 0;
-      this.phase = 0; // of the force, modulo 2 pi
+      this.phase = 0; // phase of the force, modulo 2 pi
       this.events = [];
       this.resolve(-1);
     }
@@ -92,7 +92,7 @@ const VibroImpact = (() => {
       this.resolve(-1);
     }
 
-    // Compute the power series of X1 and X2 for the balls that stick.
+    // Compute the power series of X1 and X2, given the walls to which the balls stick.
     series(stuck) {
       const { e, K, C, f, omega } = this.system, a = [[this.X[0], this.V[0]], [this.X[1], this.V[1]]];
       const mass = stuck.map((wall) => (wall ? 1 + e : 1)), turn = [Math.sin(this.phase), Math.cos(this.phase)];
@@ -106,7 +106,7 @@ const VibroImpact = (() => {
       return a;
     }
 
-    // Thresholds below which an acceleration (tiny) and a gap (blur) of module i are rounding errors.
+    // Return the magnitude of rounding errors in module i, of an acceleration (tiny) and of a gap (blur).
     tiny(i) {
       const { K, C, f } = this.system, { X, V } = this;
       return ROUNDING * (Math.abs(f[i]) + [0, 1].reduce((sum, j) => sum + Math.abs(K[i][j] * X[j]) + Math.abs(C[i][j] * V[j]), 0));
@@ -116,7 +116,7 @@ const VibroImpact = (() => {
       return ROUNDING * (2 + [...this.X, ...this.V, this.Y[i], this.U[i]].reduce((sum, x) => sum + Math.abs(x), 0));
     }
 
-    // Find the time of the next event of module i within T, or Infinity: an impact, or the release of a sticking ball.
+    // Find the time until the next event of module i, an impact or the release of a sticking ball; Infinity if beyond T.
     next(i, series, T) {
       const a = series[i], wall = this.stuck[i];
       if (wall) return firstFall(derivative(derivative(a)).map((force) => wall * force), T);
@@ -125,7 +125,7 @@ const VibroImpact = (() => {
         let gap = a.map((coefficient) => -side * coefficient);
         gap[0] = 1 - side * (this.X[i] - this.Y[i]);
         gap[1] = -side * (this.V[i] - this.U[i]);
-        if (this.touching[i] === side) { // divide out the zero at the start
+        if (this.touching[i] === side) { // divide the polynomial by t, because the gap is zero at the start
           gap = gap.slice(1);
           if (gap[0] === 0) gap = gap.slice(Math.abs(2 * gap[1]) <= this.tiny(i) ? 2 : 1);
         }
@@ -169,7 +169,7 @@ const VibroImpact = (() => {
       if (completed[0] || completed[1]) for (const i of [0, 1]) if (this.stuck[i] && !completed[i]) this.rest(i, false);
     }
 
-    // Apply Newton's impact law with conserved momentum (system/restitution.py) if a flying ball hits a wall. Return true if it does.
+    // If a flying ball hits a wall, apply Newton's impact law with conserved momentum (system/restitution.py) and return true.
     meet(i, due) {
       const { e, kappa } = this.system, W = this.X[i] - this.Y[i], dW = this.V[i] - this.U[i], wall = W > 0 ? 1 : -1;
       if (!due && 1 - wall * W > this.blur(i)) return false;
@@ -192,7 +192,7 @@ const VibroImpact = (() => {
       this.V[i] = this.U[i] = this.V[i] - (e * (this.V[i] - this.U[i])) / (1 + e);
     }
 
-    // A ball at rest on a wall sticks while the force presses it on, and is released when the force changes sign.
+    // Make a ball at rest on a wall stick if the force presses it to the wall; release it when the force changes sign.
     rest(i, pulled) {
       const wall = this.stuck[i] || (this.V[i] === this.U[i] ? this.touching[i] : 0);
       if (!wall) return;
@@ -211,7 +211,7 @@ const VibroImpact = (() => {
     }
 
     // Complete the chatter of ball i if its remaining hops are negligible. Each hop is kappa times as long as the previous
-    // one, so that they end after 2 u / (a (1 - kappa)). Return true if the chatter was completed.
+    // hop, so that all hops together take 2 u / (a (1 - kappa)). Return true if the chatter was completed.
     complete(i) {
       const { e, kappa, K } = this.system, series = this.series(this.stuck), jet = series[i], wall = this.touching[i];
       const push = 2 * wall * jet[2], speed = -wall * (this.V[i] - this.U[i]), height = (speed * speed) / (2 * push);

@@ -1,4 +1,4 @@
-// Show fixed points on the slow invariant manifold, exact orbits and their multipliers for the value of f20 at the slider.
+// For the value of f20 at the slider, show fixed points on the slow invariant manifold, exact orbits and their multipliers.
 "use strict";
 
 const WIDTH = 360, HEIGHT = 290, LEFT = 44, BOTTOM = 38, TOP = 30, RIGHT = 10;
@@ -37,7 +37,7 @@ class Plane {
     this.layer = mark(svg, "g", "", {});
   }
 
-  // Place letters below the curve, outside the bend; place the second of two overlapping letters above it.
+  // Place each letter below the curve, outside the bend; if two letters would overlap, place the second above the curve.
   show(points, module) {
     this.layer.replaceChildren();
     let last = -Infinity;
@@ -55,7 +55,7 @@ class Plane {
   }
 }
 
-// Branches of exact orbits: C of module 2 against the force, with a line at the value of the slider.
+// Chart of the branches of exact orbits: C of module 2 against the force, with a line at the value of the slider.
 class Branches {
   constructor(svg, { values, orbits }) {
     const all = orbits.flatMap((list, index) => list.map((orbit) => ({ ...orbit, value: values[index] })));
@@ -80,7 +80,7 @@ class Branches {
   }
 }
 
-// Multipliers of the exact orbits and unit circle; multipliers beyond the frame are drawn at its edge, with their moduli.
+// Chart of the unit circle and the multipliers of exact orbits; those beyond the frame are at its edge, with their modulus.
 class Circle {
   constructor(svg, { orbits }) {
     this.orbits = orbits;
@@ -136,7 +136,7 @@ class ForceSweep {
     return gaps.indexOf(Math.min(...gaps));
   }
 
-  // Assign a letter to each branch (track): its letter at the initial force, or the next free letter.
+  // Assign a letter to each branch (track): the letter of its fixed point at the initial force, or else the next free letter.
   branchNames(start) {
     const names = new Map(this.data.points[start].map(({ track, label }) => [track, label]));
     for (const { track } of this.data.points.flat()) {

@@ -1,4 +1,4 @@
-// Show a simulated motion, with W of both modules against time.
+// Show a simulated motion as an animation, with W of both modules against time.
 "use strict";
 
 class Motion extends Chart {

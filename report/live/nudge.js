@@ -1,10 +1,11 @@
-// Show a predicted motion after a small perturbation: the distance grows with the multiplier until flights are asymmetric.
+// Show a predicted motion after a small perturbation. The distance from the prediction grows by the multiplier in each
+// period, until flights become asymmetric.
 "use strict";
 
 const SECONDS = 10;
 
 class Dots extends Chart {
-  // ticks: [value, text] of the vertical axis; at: maps a value to a position between 0 and 1.
+  // ticks: pairs [value, text] of the vertical axis; at: function that maps a value to a position between 0 and 1.
   constructor(svg, cycles, ticks, at) {
     super(svg, 200);
     Object.assign(this, { cycles, ticks, at, left: 40, bottom: 34 });

@@ -2,12 +2,12 @@
 "use strict";
 
 const STEPS = 160; // steps per cycle; a frame advances by one or more steps
-const SETTLED = 400, SKIPPED = 200, KEPT = 5; // cycles: before the page opens, of the skip button, of the drawn history
+const SETTLED = 400, SKIPPED = 200, KEPT = 5; // numbers of cycles: run before the page opens, skipped by the button, kept to draw
 const SPEED = 0.5; // initial speed of both balls in a case
-const REPEATS = 2e-3; // tolerance for the distance of states one period apart
+const REPEATS = 2e-3; // a motion repeats if the distance between states one period apart is smaller
 const niceAbove = (x) => [0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32].find((end) => end >= x) ?? 2 * x;
 
-// Chart of a quantity over the last cycles: exact values, and the prediction of the theory, which extends into the future.
+// Chart of a quantity over the last cycles: exact values, and the prediction of the theory, which also covers the next moments.
 class Strip extends Chart {
   constructor(svg, height, walls) {
     super(svg, height);
@@ -30,7 +30,7 @@ class Strip extends Chart {
 
   x(time) { return this.width - this.right - ((this.now + this.ahead - time) / this.cycles) * this.inner[0]; }
 
-  // samples: [time in cycles, value]; predicted: values over one cycle, or null; impacts: their times.
+  // samples: pairs [time in cycles, value]; predicted: values over one cycle, if any; impacts: times of impacts.
   show(now, samples, predicted, impacts = []) {
     const end = this.walls ? this.end : niceAbove(Math.max(0.1, ...samples.map(([, v]) => Math.abs(v)), ...(predicted ?? []).map(Math.abs)));
     if (end !== this.end) { this.end = end; this.layout(); }
@@ -55,7 +55,7 @@ class Strip extends Chart {
   }
 }
 
-// The plane of both forces, a cell per run of the sweep; a click or an arrow key chooses a cell.
+// Map of both forces with one cell for each point of the sweep; a click or an arrow key chooses a cell.
 class RegimeMap extends Chart {
   constructor(parts, data, choose) {
     super(parts.map, 0);
@@ -112,7 +112,7 @@ class RegimeMap extends Chart {
   }
 }
 
-// Prediction of the theory for module 2 over one cycle, (10.9) and (10.10), from C, B and psi of a fixed point.
+// Compute the prediction of the theory for module 2 over one cycle, (10.9) and (10.10), from C, B and psi of a fixed point.
 function predicted({ C, B, psi, ...point }, { epsilon, kappa }) {
   const rho = (2 * (1 - kappa)) / (Math.PI * (1 + kappa)), theta = Math.atan2(1 - C, rho * C);
   const U = Array.from({ length: STEPS }, (_, k) => B * Math.sin((2 * Math.PI * k) / STEPS - psi));
@@ -158,7 +158,7 @@ class Play {
     }
   }
 
-  // Take the forces, and the fixed points of the theory there if they are not those of a case.
+  // Set the forces and restart; `points` are the fixed points at these forces if the forces are not those of a case.
   take([f10_hat, f20_hat], cycles, points = []) {
     this.parameters = { ...this.data.system, f10_hat, f20_hat };
     this.there = { parameters: this.parameters, points: points.map((point) => predicted(point, this.parameters)) };
@@ -195,7 +195,7 @@ class Play {
     this.show();
   }
 
-  // Update the sliders and the predictions, which exist only for the cases of the config and the cells of the map.
+  // Update sliders and predictions. Predictions exist only for the cases of the config and the cells of the map.
   changed() {
     const { parts, data, parameters } = this, { f10_hat, f20_hat, kappa } = parameters;
     for (const [part, value] of [["f1", f10_hat], ["f2", f20_hat], ["kappa", kappa], ["start", this.speed]]) {
@@ -211,7 +211,7 @@ class Play {
     this.show();
   }
 
-  // Number of cycles after which the section repeats, or 0.
+  // Return the number of cycles after which the Poincaré section repeats, or 0 if it does not repeat.
   get repeats() {
     const points = this.sections, near = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]) < REPEATS;
     if (points.length < 20) return 0;

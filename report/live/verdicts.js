@@ -1,4 +1,4 @@
-// Show the points that a criterion calls stable in the plane of forces, and their exact stability, for each epsilon.
+// For each epsilon, show the points in the plane of forces that a criterion calls stable, and their exact stability.
 "use strict";
 
 class Verdicts extends Chart {
@@ -36,7 +36,7 @@ class Verdicts extends Chart {
   show() {
     const index = Number(this.slider.value), points = this.data[this.criterion][index], epsilon = String(this.data.epsilon[index]);
     this.front.replaceChildren();
-    const size = (0.36 * this.inner[0]) / this.data.points; // marks of one cell are drawn side by side
+    const size = (0.36 * this.inner[0]) / this.data.points; // small enough to draw the marks of one cell side by side
     const seen = {}, is = (verdict) => points.filter((point) => point[2] === verdict).length;
     for (const [f1, f2, verdict] of points) {
       const nth = (seen[`${f1},${f2}`] = (seen[`${f1},${f2}`] ?? -1) + 1), [x, y] = this.place(f1, f2), at = x + (nth - 0.25) * 0.8 * size;

@@ -1,4 +1,4 @@
-"""Companion: how fast a ball meets its wall in a motion with two impacts per cycle."""
+"""Companion: speed at which a ball hits its wall in a motion with two impacts per cycle."""
 
 import numpy as np
 import pandas as pd
@@ -22,7 +22,7 @@ SPEC = {
 
 
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
-    """The relative speed W' just before an impact for 0 <= C <= C_max, by (10.12) and (10.14); columns C, speed."""
+    """Return the relative speed W' just before an impact for 0 <= C <= C_max, from (10.12) and (10.14)."""
     C = np.linspace(0.0, C_max, 101)
     return curve("speed", "before impact", C=C, speed=4 * C / (np.pi * (1 + kappa)))
 
