@@ -36,7 +36,7 @@ def flight(stiffness, x, V):
 
 
 def half_period(stiffness, V, low, high):
-    """Return the time between impacts in a free motion that is mirrored after half a period; its x is in [low, high]."""
+    """Return the time between impacts in a free motion that is mirrored after half a period; x is in [low, high]."""
     x = brentq(lambda x: flight(stiffness, x, V)[1] + x, low, high)
     return flight(stiffness, x, V)[0]
 

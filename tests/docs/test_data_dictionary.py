@@ -1,4 +1,4 @@
-"""The data dictionary has every file and column that the default build makes, and says nothing else of them."""
+"""Test that the data dictionary describes exactly the files and columns of the default build."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What the data dictionary says of columns, computed anew from other columns of a build."""
+"""Test statements of the data dictionary on columns against other columns of a build."""
 
 import json
 
@@ -27,7 +27,7 @@ def columns(table, name, ends=(1, 2)):
 
 
 def test_C_of_an_orbit_is_half_of_what_the_saw_tooth_covers(table):
-    """On a flight of a part u of the period with speed v the ball goes u T v, and back with the other speed."""
+    """In a flight that takes the fraction u of the period T at speed v, the ball covers u T v, and the same back."""
     orbits = table("orbits.csv")
     for module in (1, 2):
         plus, minus = (orbits[f"speed{module}_{side}"] for side in ("plus", "minus"))
@@ -49,7 +49,7 @@ def test_phases_are_fractions_and_symmetric_orbits_meet_the_other_wall_half_a_pe
 
 
 def test_an_orbit_is_a_motion_with_the_impacts_and_multipliers_that_its_row_names(table):
-    """The motion itself, integrated from the state of the library's orbit in the same place of the list."""
+    """The motion is integrated from the state of the library's orbit with the same index."""
     for case, rows in table("orbits.csv").groupby("case", sort=False):
         for (_, row), orbit in zip(rows.iterrows(), vi.orbits(SYSTEMS[case]), strict=True):
             if not row["admissible"]:

@@ -1,4 +1,4 @@
-"""The numbers of docs/errata.md on fixed points, computed anew."""
+"""Test the numbers of docs/errata.md on fixed points by computing them."""
 
 import re
 

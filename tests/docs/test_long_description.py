@@ -1,4 +1,4 @@
-"""What a package index shows, as hatchling builds it; its links are read by an independent parser of Markdown."""
+"""Test the long description that a package index shows; an independent Markdown parser reads its links."""
 
 import importlib.util
 import subprocess
@@ -19,14 +19,14 @@ REPOSITORY = "https://code.example.org/somebody/vibroimpact"
 
 
 def targets(markdown) -> list[tuple[str, str]]:
-    """Kind and target of every link and picture."""
+    """Return kind and target of each link and picture."""
     tokens = [inner for token in MarkdownIt().enable("table").parse(markdown) for inner in token.children or ()]
     attributes = {"link_open": "href", "image": "src"}
     return [(token.type, token.attrs[attributes[token.type]]) for token in tokens if token.type in attributes]
 
 
 def metadata(root, folder) -> list:
-    """Metadata of source distribution and wheel of a checkout."""
+    """Return the metadata in the source distribution and in the wheel of a checkout."""
     build = [sys.executable, "-m", "hatchling", "build", "-d", str(folder)]
     subprocess.run(build, cwd=root, check=True, capture_output=True)
     with tarfile.open(next(folder.glob("*.tar.gz"))) as archive:
@@ -55,7 +55,7 @@ def test_no_link_of_the_long_description_is_relative_and_addresses_follow_from_t
 
 
 def test_without_a_repository_no_link_is_relative_either():
-    """The texts of links stay, and absolute links and code, too."""
+    """The texts of relative links are kept, and so are absolute links and code."""
     readme = "[a](docs/a.md) ![b](b.png) [c](https://example.org) [d](#e) `[f]` `'.[g]'`"
     assert hatch_build.long_description(readme, None, "1") == "a b [c](https://example.org) [d](#e) `[f]` `'.[g]'`"
 

@@ -1,4 +1,4 @@
-"""The map of the house: what README and CONTRIBUTING name is there, and every page is found from the README."""
+"""Test that everything named in README and CONTRIBUTING exists, and that the README leads to every page."""
 
 import ast
 import re
@@ -22,13 +22,13 @@ def test_every_page_is_linked_from_the_readme(page):
 
 @pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", *(f"docs/{page}" for page in PAGES)])
 def test_links_lead_somewhere(page):
-    """Those to the studies as far as there are any."""
+    """Links to the studies are tested only if the studies are installed."""
     links = [(ROOT / page).parent / link for link in LINK.findall((ROOT / page).read_text(encoding="utf-8"))]
     assert [link for link in links if not link.exists() and not is_of_studies(link)] == []
 
 
 def is_of_studies(path) -> bool:
-    """Whether a file or folder is of the layer that this checkout may lack."""
+    """Return True if a file or folder belongs to the studies, which this checkout may lack."""
     return any(name.partition(".")[0] == "studies" for name in path.parts) and not LAYER.exists()
 
 
@@ -40,7 +40,7 @@ def test_the_map_names_what_is_there():
 
 
 def test_the_quick_tests_are_there():
-    """`make test-quick` as it would run pytest, and the file that tells of it."""
+    """The paths that `make test-quick` passes to pytest exist."""
     told = subprocess.run(["make", "-n", "test-quick"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     paths = re.findall(r" (tests/\S+)", told)
     assert len(paths) > 10
@@ -49,7 +49,7 @@ def test_the_quick_tests_are_there():
 
 
 def docstrings(path) -> dict[str, str]:
-    """Docstrings of the functions and classes of a module, methods as Class.method."""
+    """Return the docstring of each function, class and method (Class.method) of a module by name."""
     found = {}
     for node in ast.parse(path.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
@@ -61,7 +61,7 @@ def docstrings(path) -> dict[str, str]:
 
 
 def cited(text) -> set[int]:
-    """Numbers of the equations of chapter 10 in a text; a range (10.4)-(10.6) stands for all of them."""
+    """Return the numbers of the chapter's equations in a text; a range (10.4)-(10.6) gives all its equations."""
     numbers = {int(number) for number in re.findall(r"\(10\.(\d+)\)", text)}
     for first, last in re.findall(r"\(10\.(\d+)\)[-–]\(10\.(\d+)\)", text):
         numbers |= set(range(int(first), int(last) + 1))

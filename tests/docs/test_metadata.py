@@ -1,4 +1,4 @@
-"""What describes the project to others: citation, deposit, catalog, changelog, and the files of .github."""
+"""Test the metadata of the project: citation, deposit, catalog, changelog, and the files in .github."""
 
 import json
 import re
@@ -19,14 +19,14 @@ def text(name):
 
 
 def bibtex(entry) -> dict[str, str]:
-    """Type, key and fields of a BibTeX entry, without the braces that keep words together."""
+    """Return type, key and fields of a BibTeX entry, without braces around words."""
     kind, key = re.match(r"@(\w+)\{(\w+),", entry).groups()
     fields = dict(re.findall(r"^  (\w+) = \{(.*)\},$", entry, re.MULTILINE))
     return {"type": kind, "key": key} | {name: re.sub("[{}]", "", value) for name, value in fields.items()}
 
 
 def described(root):
-    """pyproject's project, CITATION.cff, .zenodo.json, codemeta.json and CITATION.bib, each by a parser of its own."""
+    """Return the parsed contents of pyproject.toml, CITATION.cff, .zenodo.json, codemeta.json and CITATION.bib."""
     texts = [(root / name).read_text(encoding="utf-8") for name in PLACES]
     parsers = (lambda text: tomllib.loads(text)["project"], yaml.safe_load, bibtex, json.loads, json.loads)
     return [parse(text) for parse, text in zip(parsers, texts, strict=True)]

@@ -1,4 +1,4 @@
-"""docs/published.md: its functions give the numbers of the page, and closed forms those that it calls published."""
+"""Test docs/published.md: functions give the computed numbers, and closed forms give the published numbers."""
 
 import ast
 import importlib.util
@@ -19,11 +19,11 @@ ROWS = [
 NAMES = [re.fullmatch(r"\[(\w+)\]\(published\.py\)", row[0])[1] for row in ROWS]
 MOST_LINES = 8
 SAME = "the same"
-"""Stands for the published numbers in the column of those computed."""
+"""Text in the column "computed" if the numbers equal those in the column "published"."""
 
 
 def texts(cell):
-    """Numbers of a cell, as written."""
+    """Return the numbers in a cell as they are written."""
     return re.findall(r"-?\d+(?:\.\d+)?", cell.replace("−", "-"))
 
 
@@ -53,24 +53,24 @@ def test_the_function_of_a_row_gives_the_computed_numbers_of_the_page(published,
 
 def test_the_published_numbers_that_are_closed_forms():
     said = [[float(text) for text in texts(row[3])] for row in ROWS]
-    # (64), (66): mu* D / ((1 + mu) m), M = D = 1; (76) at the z that belong to the speeds.
+    # (64), (66): mu* D / ((1 + mu) m) with M = D = 1; (76) at the values of z for both speeds.
     assert said[1] == [pytest.approx(0.3 / 1.3 / (1 + 0.3 / 1.3) / 0.3, abs=5e-5)] * 2
     for value, V in zip(said[2], (0.5, 2.0), strict=True):
         z = value / V
         assert value == pytest.approx(1 / (1 + 0.3 * math.tan(z) / z), abs=5e-4)
-    # The sum of 11 terms that the note sets to 1: p = 0.1, stiffness 2.
+    # The note sets a sum of 11 terms to 1, with p = 0.1 and stiffness 2.
     odd = 2 * np.arange(11) + 1.0
     for omega in said[3]:
         box = 0.8 / (np.pi * omega) / (odd**2 * (odd**2 * omega**2 - 2))
         assert np.pi * 0.1 * 1.3 / 0.3 / (2 * omega) + box.sum() == pytest.approx(1, abs=1e-8)
-    # The quadratic equation of Dux.
+    # Quadratic equation by Dux.
     cases = [(2, 3.7, 0.8, 0.2, 1), (2, 3.7, 0.8, 0.2, -1), *((n, 2 * n, 0.4, 0.001, 1) for n in (1, 2, 5, 10))]
     for value, (n, omega, r, sigma, sign) in zip(said[5], cases, strict=True):
         T, gamma, loss = 2 * np.pi * n / omega, 1 / (1 - omega**2), (1 - r) / omega
         c = math.sin(T) * (1 + r) / (1 - math.cos(T))
         root = math.sqrt((gamma * c) ** 2 - (sigma**2 - gamma**2) * loss**2)
         assert value == pytest.approx(2 * (sign * root - c * sigma) / (c**2 + loss**2), abs=5.1e-6)
-    # Largest clearance on the backbone curve of CC.
+    # Largest clearance on the backbone curve by CC.
     rho, D, a = 2 / np.pi * 0.2 / 1.8, 1e-3, 0.02
     xi = np.geomspace(1.00001 * rho / math.hypot(1, rho), 100, 1_000_000)
     theta = (1 + np.sqrt((1 + rho**2) * xi**2 - rho**2)) / (1 + rho**2)

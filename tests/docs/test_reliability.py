@@ -1,6 +1,6 @@
-"""What docs/engine.md promises: its numbers are those of the tests, or measured anew.
+"""Test the numbers that docs/engine.md states: they equal constants in the tests, or are measured again.
 
-What it says of proofs is tested with the results of a build, in the tests of the studies.
+Statements on proofs are tested with the results of a build, in the tests of the studies.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Every table and number of docs/stability.md, computed anew and compared to as many digits as the page has."""
+"""Test every table and number of docs/stability.md by computing it; all digits on the page are compared."""
 
 import re
 from functools import cache
@@ -24,14 +24,14 @@ ALONE = {**PARAMETERS, "alpha12_hat": 0, "gamma12_hat": 0, "sigma20_hat": 0}
 
 
 def cells(heading):
-    """Rows of the table whose first row begins with a heading, that row first."""
+    """Return the rows of the table whose first row begins with a heading, including this row."""
     text = PAGE[PAGE.index(f"| {heading} |") :].split("\n\n")[0]
     rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in text.splitlines()]
     return [row for row in rows if not set("".join(row)) <= set("-")]
 
 
 def said(text):
-    """The one number that the page has at the group of a pattern, and half a unit of its last digit."""
+    """Return the number that the group of a pattern matches on the page, and half a unit of its last digit."""
     ((whole, *_),) = {found if isinstance(found, tuple) else (found,) for found in re.findall(text, TEXT)}
     return number(whole)
 
@@ -56,7 +56,7 @@ def point_c():
 
 
 def test_multipliers_at_the_limits():
-    """By their sum and product, which a double multiplier does not blur."""
+    """Sum and product of the multipliers are compared, since these are accurate even for a double multiplier."""
     for C, _, mu in cells("$C$")[1:]:
         shown = [float(value.replace("−", "-")) for value in mu.split(", ")]
         expected = impact_multipliers(float(C), 0.65)
@@ -67,7 +67,7 @@ def test_multipliers_at_the_limits():
 def test_largest_C_within_the_walls():
     kappas, C = cells("$\\kappa$")
     for kappa, value in zip(kappas[1:], C[1:], strict=True):
-        # At 0.0867, itself rounded, the value is that of symmetry breaking.
+        # At 0.0867, a rounded value, the multiplier is the one of symmetry breaking.
         assert largest_C(float(kappa)) == pytest.approx(float(value), abs=4e-4 if kappa == "0.0867" else 5.1e-5)
     assert largest_C(1 - 1e-9) == said(r"1 at \$\\kappa\\to0\$ to ([\d.]+) at")
     largest = max(point.C.max() for system in SYSTEMS.values() for point in vi.fixed_points(system))
@@ -123,7 +123,7 @@ def test_the_force_at_which_point_b_passes_a_limit():
 
 @pytest.mark.parametrize("column", range(5))
 def test_C_at_which_the_symmetry_of_a_single_module_breaks(column):
-    """The forcing raised until a half-period multiplier of the upper orbit is -1."""
+    """The force is raised until a half-period multiplier of the upper orbit is -1."""
     epsilons, C = (row[1:] for row in cells("$\\varepsilon$"))
     epsilon = float(epsilons[column])
 
@@ -138,7 +138,7 @@ def test_C_at_which_the_symmetry_of_a_single_module_breaks(column):
 
 
 def test_point_c_of_the_equal_case():
-    """Its distance from the limit, the multiplier of its exact orbit, and the epsilon up to which that is stable."""
+    """Compare distance from the limit, multiplier of the exact orbit, and largest epsilon for a stable orbit."""
     system, C = SYSTEMS["equal"], point_c()
 
     def lowest(epsilon):

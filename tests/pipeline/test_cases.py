@@ -1,4 +1,4 @@
-"""A case may say any parameter of the system: whatever is computed, written or recorded of it has its own."""
+"""Test that a case may override any parameter of the system, and that all results of the case use its values."""
 
 from chapter import FORCES, PARAMETERS
 from configs import GOOD, edited

@@ -1,4 +1,4 @@
-"""The config and the library hold the chapter's numbers."""
+"""Test that config and library contain the numbers of the chapter."""
 
 from chapter import FORCES, PARAMETERS
 from pipeline_trees import ROOT

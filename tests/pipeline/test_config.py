@@ -1,4 +1,4 @@
-"""The config: what is refused, at which key; and whatever is accepted can be built."""
+"""Test which configs are refused, and at which key; any accepted config can be built."""
 
 import copy
 import keyword
@@ -22,7 +22,7 @@ from vibroimpact_pipeline.jobs import with_key
 from vibroimpact_pipeline.specs import case_parameters
 
 THIRD = f"system.sigma20_hat = {(3 * 1.02) ** 2 * 10 - 10}"
-"""Box 2 resonates at three times the frequency of the forcing."""
+"""Edit with which box 2 resonates at three times the forcing frequency."""
 
 
 def test_the_config_of_the_chapter_is_as_it_is_written():
@@ -49,7 +49,7 @@ def test_an_unusual_config_is_accepted(edits):
     [(f"{FREE} & {UNFORCED}", "system.sigma_e_hat"), (f"{UNDAMPED} & system.alpha12_hat = 0 & {THIRD}", "cases.weak")],
 )
 def test_an_undamped_system_without_isolated_responses_is_refused(edits, key):
-    """At a resonance that no force loads, and at one with the third harmonic of the impacts."""
+    """It is at a resonance that no force excites, or at a resonance with the third harmonic of the impacts."""
     found = {key: what for key, what in problems(edited(f"{ONE_CASE} & {edits}")).items() if "unknown" not in what}
     assert (list(found), "resonance" in found[key]) == ([key], True)
 
@@ -60,7 +60,7 @@ def test_numbers_are_read_from_texts():
 
 
 def combined(*texts: str) -> dict:
-    """The config after some files over it."""
+    """Return the config with some further files merged."""
     sources = [("config.yaml", GOOD), *((f"{n}.yaml", yaml.safe_load(text)) for n, text in enumerate(texts, 1))]
     return checked(merged(sources), sources)
 
@@ -89,7 +89,7 @@ def test_a_null_takes_an_entry_of_the_config_before_away(nothing):
     ],
 )  # fmt: skip
 def test_a_null_takes_nothing_else_away(text, key):
-    """Neither what is not there, nor what is needed; the error names the file and the key."""
+    """Entries that do not exist or are required cannot be removed; the error names the file and the key."""
     with pytest.raises(ConfigError, match=rf"\A(2.yaml|config.yaml): {key or 'cases'}") as refusal:
         combined("cases: {weak: {kappa: 0.7}}", text)
     assert "\n" not in str(refusal.value) or key is None
@@ -165,7 +165,7 @@ def test_thousands_of_problems_are_found_within_a_second(place, entry):
 
 @pytest.mark.parametrize("section", ["cases", "figures"])
 def test_a_name_that_means_something_in_python_is_a_name(section):
-    """Names of attributes of the model, keywords and fields of other sections."""
+    """Such names are attributes of the model, Python keywords, and fields of other sections."""
     names = [
         name for name in [*dir(Config), *Config.model_fields, *keyword.kwlist] if re.fullmatch("[a-z][a-z_]+", name)
     ]
@@ -183,7 +183,7 @@ def test_the_import_is_light():
 
 
 def places(value, above=()):
-    """All places in a config, with its mappings and lists."""
+    """Yield the key paths of all values in a config, including mappings and lists."""
     yield above
     items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, item in items:
@@ -222,7 +222,7 @@ def test_whatever_is_done_to_a_config_it_is_accepted_or_refused_in_lines(changes
             inside = at(config, above)
             inside[last if key is None or isinstance(inside, list) else key] = value
         except (LookupError, TypeError):
-            continue  # something above is not there any more
+            continue  # an entry above has been removed already
     problems(config)
 
 

@@ -1,4 +1,4 @@
-"""Files that hold no config: refused in one line that names the file, in time, however they are made."""
+"""Test that any file without a valid config is refused quickly, in one line that names the file."""
 
 import time
 
@@ -45,7 +45,7 @@ UNFIT = {
 
 
 def said(path, content) -> str:
-    """What is said of a file, in a second at most."""
+    """Return the error message for a file; reading it must take at most a second."""
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     started = time.process_time()
     with pytest.raises(ConfigError) as refusal:
@@ -78,7 +78,7 @@ def test_a_file_that_cannot_be_opened_is_refused_in_a_line(name, tmp_path):
 
 
 def test_numbers_are_read_as_they_are_written(tmp_path):
-    """Those that YAML 1.1 reads otherwise are texts in quotes, and have to be good numbers then."""
+    """Numbers that YAML 1.1 would read differently may be quoted texts, which must be valid numbers."""
     numbers = {"0": 0, "-7": -7, "1_000": 1000, "0.25": 0.25, "1.0e-3": 0.001, "0x10": 16, "'0200'": "0200"}
     (tmp_path / "config.yaml").write_text(f"a: [{', '.join(numbers)}]\n")
     assert read(tmp_path / "config.yaml") == {"a": [*numbers.values()]}

@@ -1,4 +1,4 @@
-"""The schema of each config file is that of its model, and Snakemake's own check agrees with the model's."""
+"""Test that the schema of each config file matches its model, and that validation by Snakemake and model agree."""
 
 import pytest
 import yaml
@@ -15,7 +15,7 @@ from vibroimpact_pipeline.config.schema import TARGETS, schema
 
 
 def of_file(config):
-    """The sections of config.yaml, and what no file has."""
+    """Return the sections of config.yaml, and all keys that no config file has."""
     return {name: section for name, section in config.items() if name in Config.model_fields or name not in GOOD}
 
 
@@ -44,7 +44,7 @@ def test_every_number_has_limits_on_both_sides_and_every_key_a_description(model
 
 
 def described(node) -> bool:
-    """Whether a key says what it is, or refers to what does."""
+    """Return True if a key has a description, or refers to a definition with a description."""
     inner = [node, *node.get("anyOf", [])]
     return any("description" in one or "$ref" in one for one in inner)
 

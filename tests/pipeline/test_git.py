@@ -1,4 +1,4 @@
-"""Calls of git: the same answer with any settings of the user; without git, refused and changed are told apart."""
+"""Test calls of git: results do not depend on user settings, and missing, refusing and modified git differ."""
 
 import os
 import re
@@ -43,7 +43,7 @@ LETTERS = "zwei Kästen.txt"
 
 @pytest.fixture
 def repository(tmp_path):
-    """A checkout with a signed commit."""
+    """Return a checkout with a signed commit."""
     root, gpg = tmp_path / "checkout", tmp_path / "gpg"
     gpg.write_text(GPG)
     gpg.chmod(0o755)
@@ -60,7 +60,7 @@ def repository(tmp_path):
 
 @pytest.fixture
 def settings_of_a_user(tmp_path, monkeypatch):
-    """Settings that change what git prints and writes, and variables that name another repository."""
+    """Set options that change the output and files of git, and variables that select another repository."""
     home, other = tmp_path / "home", tmp_path / "other"
     for folder in (home, other):
         folder.mkdir()
@@ -145,7 +145,7 @@ def test_a_copy_without_git_is_told(repository, monkeypatch, place):
 
 @pytest.fixture
 def of_another_owner(repository, tmp_path, monkeypatch):
-    """A checkout that seems to belong to another user, to whom git says what it says then."""
+    """Return a checkout that seems to belong to another user; git refuses it with its own message."""
     program = tmp_path / "bin/git"
     program.parent.mkdir()
     program.write_text(f'#!/bin/sh\nGIT_TEST_ASSUME_DIFFERENT_OWNER=1 exec {shutil.which("git")} "$@"\n')
@@ -171,7 +171,7 @@ def test_a_refusal_is_told_in_one_line_with_what_allows_it(of_another_owner, tmp
 
 
 def test_a_clone_has_the_same_bytes_whatever_is_set_for_line_ends(tmp_path):
-    """A shell does not read scripts with carriage returns; pictures would be spoilt."""
+    """A shell cannot run scripts with carriage returns, and converted pictures would be damaged."""
     root, clone = tmp_path / "checkout", tmp_path / "clone"
     names = [".gitattributes", ".ci/run", "Makefile", "workflow/set_up.sh", "config/config.yaml"]
     names += ["figures/fig10_04.png", "src/vibroimpact_pipeline/html/mathematics/stix_two_math.woff"]
@@ -185,7 +185,7 @@ def test_a_clone_has_the_same_bytes_whatever_is_set_for_line_ends(tmp_path):
 
 
 CALLS = {"py": r"""["']git["']""", "sh": r"(^|[;&|($]|\bexec|\benv|\bthen|\bdo)[ \t]*git\b"}
-"""Commands of git in Python and in shell."""
+"""Patterns of direct git commands in Python and shell files."""
 
 
 def test_one_place_calls_git():

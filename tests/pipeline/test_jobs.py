@@ -1,4 +1,4 @@
-"""The frame of a job: nothing is replaced by a job whose code or inputs are not what they were."""
+"""Test `running`: a job whose code or inputs have changed replaces no result."""
 
 import os
 import shutil
@@ -19,7 +19,7 @@ SCRIPT = Path("workflow/scripts/script.py")
 
 @pytest.fixture
 def job(tmp_path, monkeypatch):
-    """A job of a small checkout, with one input and one output."""
+    """Return a job with one input and one output, in a small checkout."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(code, "ROOT", tmp_path)
     monkeypatch.setattr(code, "SOURCES", tmp_path / "src")
@@ -72,7 +72,7 @@ def add_a_module_that_nothing_imports():
 
 
 def edit_a_style():
-    """Not all of the code is Python: what lies beside a module counts."""
+    """Data files in the folder of a module are part of the code."""
     (theory().parent / "look.mplstyle").write_text("lines.linewidth: 3\n")
 
 
@@ -91,7 +91,7 @@ def edit_under_an_old_date():
 
 
 def edit_the_input():
-    """Another content with a record that fits it: only this job can tell."""
+    """Change the content and write a matching record, so that only the running job can detect the change."""
     INPUT.write_text("0")
     result_records.write_record(INPUT, {"rule": "before", "inputs": {}})
 
@@ -148,7 +148,7 @@ def test_an_output_that_was_not_written_fails_the_job(job):
 
 
 def test_a_job_ends_with_the_process_that_started_it(tmp_path):
-    """Killed outright, the parent tells nobody."""
+    """The parent is killed by SIGKILL, so that it cannot stop the job itself."""
     child = "import time; from vibroimpact_pipeline.jobs import end_with_parent; end_with_parent();"
     child += "open('child', 'w').write(str(__import__('os').getpid())); time.sleep(600)"
     parent = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {child!r}])"

@@ -1,4 +1,4 @@
-"""Results on disk: whole or absent, and trusted only if Snakemake knows them and they are what their job wrote."""
+"""Test that results are complete or absent, and trusted only with Snakemake's record and unmodified content."""
 
 import json
 import os
@@ -14,7 +14,7 @@ from vibroimpact_pipeline import result_records
 
 FIRST, SECOND = "results/a.csv", "results/b/b.csv"
 LONG = f"results/{'long/' * 50}c.csv"
-"""Snakemake cuts its name of this one in two."""
+"""Path of a result; Snakemake splits the long name of its record into two parts."""
 
 
 @pytest.fixture(autouse=True)
@@ -24,12 +24,12 @@ def here(tmp_path, monkeypatch):
 
 @pytest.fixture
 def snakemake():
-    """What Snakemake itself keeps of results, by its own code."""
+    """Return the records of Snakemake itself, managed by the code of Snakemake."""
     return FilePersistence(nolock=True)
 
 
 def as_made(snakemake, path, inputs=()):
-    """A result as its job and then Snakemake leave it."""
+    """Write a result and its records, in the order in which its job and then Snakemake do so."""
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     Path(path).write_text(f"content of {path}")
     digests = {one: result_records.digest_of(one) for one in inputs}
@@ -66,7 +66,7 @@ def edited_under_an_old_date(path, snakemake):
 
 
 def of_another_config(path, snakemake):
-    """What is copied in has an older or a newer date, as it was made before or after."""
+    """Copy another result with its date, which is older or newer."""
     shutil.copy2(FIRST if path != FIRST else SECOND, path)
 
 
@@ -116,7 +116,7 @@ def test_what_was_only_touched_or_copied_is_trusted(made):
 
 
 def test_of_a_job_that_runs_snakemake_knows_more(made, snakemake):
-    """Its result is there before Snakemake's record is: the mark that Snakemake has set itself is left to it."""
+    """The result of a running job may be newer than its records; Snakemake has marked it, so `distrust` skips it."""
     snakemake._mark_incomplete(FIRST, None)
     edited(FIRST, snakemake)
     assert result_records.distrust(made) == []
@@ -168,7 +168,7 @@ def test_what_a_killed_job_has_left_goes_when_the_next_begins():
 
 
 def test_the_disk_holds_content_and_name_before_anything_counts_as_made(monkeypatch):
-    """A power cut after a rename that nothing was flushed before leaves an empty file under the new name."""
+    """Without a flush before a rename, a power failure could leave an empty file under the final name."""
     order = []
     flush, rename = os.fsync, os.replace
     monkeypatch.setattr(

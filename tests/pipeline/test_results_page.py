@@ -1,4 +1,4 @@
-"""The page of results that a build leaves."""
+"""Test the index page of the results of a build."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The built project as a git checkout with its archive, and archives unpacked."""
+"""Make the built project a git checkout with an archive, and unpack archives."""
 
 import os
 import shutil
@@ -13,27 +13,27 @@ IDENTITY = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
 
 
 def git(root: Path, *arguments, **variables) -> str:
-    """Output of a git command that works, as a user without settings calls it."""
+    """Run a git command without user settings, check that it succeeds, and return its output."""
     run = call(*IDENTITY, *arguments, root=root, GIT_CONFIG_GLOBAL=os.devnull, **variables)
     assert run.returncode == 0, run.stderr
     return run.stdout.decode().strip()
 
 
 def commit(root: Path, date: str = COMMITTED) -> None:
-    """Make a folder a git checkout of all that it does not ignore."""
+    """Make a folder a git checkout and commit all files that are not ignored."""
     for command in (["init"], ["add", "--all"], ["commit", "--message", "all"]):
         git(root, *command, GIT_COMMITTER_DATE=date)
 
 
 def checkout(built: Tree, path: Path) -> Tree:
-    """The built project as a checkout with one commit, without an archive of an earlier one."""
+    """Copy the built project to a checkout with one commit and without an archive of an earlier commit."""
     shutil.copytree(built.path, path, symlinks=True, ignore=shutil.ignore_patterns("archive"))
     commit(path)
     return Tree(path)
 
 
 def archive_of(tree: Tree) -> Path:
-    """The one archive of a tree."""
+    """Return the path of the only archive in a tree."""
     (found,) = (tree / "results/archive").glob("*.tar.gz")
     return found
 

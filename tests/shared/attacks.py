@@ -1,4 +1,4 @@
-"""Random systems and starts made to break what a run says of itself, and an observer that shares no code with it."""
+"""Random systems and starts that try to break the error estimates of runs, and an observer with independent code."""
 
 from dataclasses import dataclass
 
@@ -15,13 +15,13 @@ from vibroimpact.exact.engine.flow import RATE, numbers_of
 from vibroimpact.system.state import IMPACT, STICK
 
 ROUNDING = 1e-13
-"""A ball nearer to a wall than this when it turns was just released there."""
+"""Gap below which a turning ball counts as just released from the wall."""
 SLOW = (1e-4, 3e-5)
-"""Impacts that leave a ball slower than this belong to the end of a chatter, which either side may complete."""
+"""Two bounds on the relative speed after an impact; slower impacts may be left out, as they end a chatter."""
 
 
 def random_system(rng):
-    """An ordinary system, its parameters decimals, the same for float64 and for exact rationals."""
+    """Return a system with moderate parameters that are decimals, equal for float64 and exact rationals."""
 
     def within(low, high):
         return round(rng.uniform(low, high), 4)
@@ -34,7 +34,7 @@ def random_system(rng):
 
 
 def random_start(rng):
-    """Boxes and balls somewhere between the walls."""
+    """Return a state with random boxes, and balls at random places between their walls."""
     x, gap, v, u = rng.uniform(-1, 1, (4, 2)) * np.array([[1.5], [0.99], [1], [1.2]])
     return np.array([x[0], x[0] - gap[0], x[1], x[1] - gap[1], v[0], u[0], v[1], u[1]])
 
@@ -43,8 +43,9 @@ def random_start(rng):
 
 
 class Observer(FlightsByHand):
-    """Sees the gaps of a system's motions on a grid, denser where a flight starts, by matrix exponentials of the
-    equations written out.
+    """Compute gaps between balls and walls on a time grid, by matrix exponentials of the equations written out.
+
+    The grid is denser at the start of a flight.
     """
 
     def __init__(self, system):
@@ -55,7 +56,7 @@ class Observer(FlightsByHand):
         self._powers = {}
 
     def _flow(self, stuck, count):
-        """The boxes' rows (count, 4, 6) of the exponentials over the first times of the grid."""
+        """Return the rows for the boxes, shape (count, 4, 6), of the exponentials at the first times of the grid."""
         if stuck not in self._powers:
             fine, rate = int((self.times < self.step).sum()), self.rate(stuck)
             power = np.eye(6)[None]
@@ -66,9 +67,9 @@ class Observer(FlightsByHand):
         return self._powers[stuck][:count]
 
     def nearest_miss(self, run):
-        """Least gap at a turn of a flying ball in its half of the box, over a whole run; inf if there is none.
+        """Return the smallest gap at which a flying ball turns before a wall, over a whole run; inf without turns.
 
-        The nearest turn of the grid is followed up to where the ball is as fast as its box.
+        The smallest gap on the grid is refined to the time at which ball and box have the same velocity.
         """
         turns, walls, state, tau = [], [0, 0], run.start, 0.0
         stops = [*zip(run.events["tau"], run.events, strict=True), (run.cycles * run.system.period, None)]
@@ -90,12 +91,12 @@ class Observer(FlightsByHand):
 
     @staticmethod
     def _chattering(events):
-        """Of each module whether its next event is a stick: the last impacts before that are not listed."""
+        """Return for each module whether its next event is a stick; the last impacts before a stick are not listed."""
         own = [events["kind"][events["module"] == module] for module in (1, 2)]
         return [len(kinds) > 0 and kinds[0] == STICK for kinds in own]
 
     def _turns(self, state, tau, length, stuck):
-        """(gap, module, times around), by cubic interpolation on the grid, of the turns of one flight."""
+        """Yield (gap, module, times around) for each turn in one flight, by cubic interpolation on the grid."""
         count = int(np.searchsorted(self.times, length)) + 1
         boxes = (self._flow(stuck, count).reshape(-1, 6) @ self.lifted(state, tau)).reshape(-1, 4)
         times = self.times[:count]
@@ -109,7 +110,7 @@ class Observer(FlightsByHand):
                 yield 1 - abs(w), i, times[place : place + 2]
 
     def _gap(self, i, around, length, state, tau, stuck):
-        """The gap of the turn of module i between two times of a flight; None if it would be after its end."""
+        """Return the gap at the turn of module i between two times; None if the flight ends before the turn."""
         rate, z = self.rate(stuck), self.lifted(state, tau)
         t = brentq(lambda t: (expm(rate * t) @ z)[2 + i] - state[2 * i + 5], *around, xtol=1e-11)
         if t >= length:
@@ -122,7 +123,7 @@ class Observer(FlightsByHand):
 
 @dataclass(frozen=True)
 class Attack:
-    """A start (8,) at tau0 whose run, one forcing cycle long, ends, starts or turns next to an event."""
+    """A start, shape (8,), at tau0, whose run of one forcing cycle starts or ends next to an event, or nearly grazes."""
 
     kind: str
     system: vi.System
@@ -131,7 +132,7 @@ class Attack:
 
 
 def attacks(rng, count):
-    """Attacks on one random system, at distances from an event of 1e-17 to 1e-7, on either side."""
+    """Yield attacks on one random system, at distances of 1e-17 to 1e-7 before or after an event."""
     system = random_system(rng)
     base = vi.simulate(system, random_start(rng), 6)
     kinds = {"end": _end, "start": _start, "graze": _graze, "rest": _rest}
@@ -144,12 +145,12 @@ def attacks(rng, count):
 
 
 def _later(base, tau0):
-    """The state of a run at a time."""
+    """Return the state of the run `base` at the time tau0."""
     return vi.simulate(base.system, base.start, base.cycles, sample_times=[tau0]).samples[0].copy()
 
 
 def _end(rng, base, distance):
-    """The run ends next to an event."""
+    """Return a start whose run ends next to an event, and its time; None if there is no event."""
     late = base.events[base.events["tau"] > base.system.period + 1e-3]
     if not len(late):
         return None
@@ -158,7 +159,7 @@ def _end(rng, base, distance):
 
 
 def _start(rng, base, distance):
-    """The run starts next to an impact, before it or after it."""
+    """Return a start just before or after an impact, and its time; None if there is no impact."""
     impacts = base.events[base.events["kind"] == IMPACT]
     if not len(impacts):
         return None
@@ -176,7 +177,7 @@ def _start(rng, base, distance):
 
 
 def _graze(rng, base, distance, begin=None):
-    """A ball turns next to a wall: it moves with its box at some time of a run, at this distance from the wall."""
+    """Return a start from which a ball reaches the velocity of its box at `distance` from a wall, and its time."""
     begin = rng.uniform(0, (base.cycles - 1) * base.system.period) if begin is None else begin
     turn = begin + rng.uniform(0.05, 0.5) * base.system.period
     start, later, after = vi.simulate(
@@ -191,7 +192,7 @@ def _graze(rng, base, distance, begin=None):
 
 
 def _rest(rng, base, distance):
-    """The run starts with a ball nearly at rest next to a wall, or exactly so."""
+    """Return a start with a ball at or next to a wall, exactly or nearly at rest there, and its time."""
     state = _later(base, tau0 := rng.uniform(0, base.cycles * base.system.period))
     i, wall = rng.integers(2), rng.choice([-1, 1])
     gap, slip = rng.choice([0.0, abs(distance)]), rng.choice([0.0, distance, 1e3 * distance])
@@ -203,13 +204,15 @@ def _rest(rng, base, distance):
 
 
 def truth(attack, digits=40, cycles=1):
-    """The reference's run of an attack, from exactly its floats."""
+    """Run the reference from the start of an attack, with exactly the same floating-point numbers."""
     return reference_run(attack.system, attack.start, cycles, digits, tau0=attack.tau0)
 
 
 def same_events(one, other):
-    """Whether each module has the same events in the same order, but for the slowest impacts, whichever of two bounds
-    on their speed is taken, and for a stick at the start (the reference does not list one there from the start).
+    """Return True if each module has the same events in the same order in both runs.
+
+    The slowest impacts are ignored, with either of the two bounds SLOW, and so is a stick as the first event, which the
+    reference does not list for a ball that sticks from the start.
     """
     return any(_story(one, slow) == _story(other, slow) for slow in SLOW)
 
@@ -225,7 +228,7 @@ def _story(events, slow):
 
 
 def fast_attack(rng):
-    """A system driven fast and hard: Omega from 2 to 100, forces up to 25 000."""
+    """Return an attack on a system with fast and strong forcing: Omega from 2 to 100, forces up to 25 000."""
     system = random_system(rng)
     omega, forces = 10 ** rng.uniform(0.3, 2), 10 ** rng.uniform(0, 4.4, 2) * rng.choice([-1, 1], 2)
     f1, f2 = np.round(forces / system.epsilon, 4)
@@ -239,8 +242,9 @@ GENES = 21
 
 
 def bred(genes):
-    """An attack and its number of cycles from genes (GENES,) between 0 and 1: epsilon from 1e-5 to 10, a coupling up to
-    k12 = 3e5, Omega from 0.2 to 100, forces from 0.01 to 1000.
+    """Return an attack and its number of cycles for genes, shape (GENES,), between 0 and 1.
+
+    Ranges: epsilon 1e-5 to 10, coupling up to k12 = 3e5, Omega 0.2 to 100, forces 0.01 to 1000.
     """
 
     def power(gene, low, high):
@@ -257,21 +261,22 @@ def bred(genes):
     )  # fmt: skip
     x, gap = (4 * genes[10:12] - 2) * power(genes[18], -2, 1.5), 0.999 * (2 * genes[12:14] - 1)
     v, u = (2 * genes[14:18].reshape(2, 2) - 1) * power(genes[19], -2, 2)
-    if k12 > 10:  # boxes that a stiff spring holds together
+    if k12 > 10:  # a stiff spring keeps both boxes together
         x[1] = x[0] + (x[1] - x[0]) / np.sqrt(k12)
     start = np.array([x[0], x[0] - gap[0], x[1], x[1] - gap[1], v[0], u[0], v[1], u[1]])
     return Attack("bred", system, start, 0.0), int(power(genes[20], 0, 1.5))
 
 
 def in_lanes(system, gene):
-    """The system with Omega within a factor of four of the largest rate of the boxes: an ensemble runs it in lanes."""
+    """Return the system with Omega within a factor of four of the boxes' largest rate; ensembles run it in lanes."""
     (numbers,), _ = numbers_of([system], 2)
     return system.with_(sigma_e_hat=(numbers[RATE] * 3.9 ** (2 * gene - 1) - 1) / system.epsilon)
 
 
 def true_over_told(genes, most_events=150, many=False):
-    """True error of the final state over the told one; None of a run that is not decided, or long. many: that of the
-    state that an ensemble ends in.
+    """Return the ratio of true to estimated error of the final state; None if the run is undecided or long.
+
+    With `many`, the true error is that of the final state of an ensemble.
     """
     try:
         attack, cycles = bred(genes)
@@ -282,12 +287,12 @@ def true_over_told(genes, most_events=150, many=False):
         final = vi.ensemble(system, attack.start, cycles, settle=cycles)["final"] if many else run.final
         true = reference_run(system, attack.start, cycles, 40).final
         return np.abs(final - true).max() / run.certificate.error
-    except (ValueError, ArithmeticError):  # such a system resonates or is not finished; the reference needs more digits
+    except (ValueError, ArithmeticError):  # a resonant system, an unfinished run, or too few digits for the reference
         return None
 
 
 def climbed(rng, draws, steps, ratio=true_over_told, genes=GENES):
-    """Ratios of random draws of genes and of a hill climb from the worst of them."""
+    """Return the ratios for random draws of genes, and for a hill climb from the draw with the largest ratio."""
     drawn = rng.uniform(0, 1, (draws, genes))
     ratios = [ratio(one) for one in drawn]
     worst, best = max(((r, n) for n, r in enumerate(ratios) if r is not None), default=(0.0, 0))
@@ -305,7 +310,7 @@ def climbed(rng, draws, steps, ratio=true_over_told, genes=GENES):
 # -- ensembles --------------------------------------------------------------------------------------------------------
 
 PROMISED = 2.6
-"""True error over the told one (docs/engine.md)."""
+"""Largest ratio of true to estimated error that docs/engine.md states."""
 
 
 def _of_case(name):
@@ -327,13 +332,13 @@ def _near_a_settled_motion(rng, count):
 
 
 def _of_a_sweep(rng, count):
-    """Two starts of each system."""
+    """Return two starts for each of several random systems."""
     systems = [random_system(rng) for _ in range(-(-count // 2))]
     return [systems[n // 2] for n in range(count)], [random_start(rng) for _ in range(count)], 8, 0.3
 
 
 def _admissible(make):
-    """Draw from what makes a system until that is one."""
+    """Call `make` until it returns a valid system."""
     while True:
         try:
             return make()
@@ -357,7 +362,7 @@ def _hostile(rng, count):
 
 
 def _grazing(rng, count):
-    """Within some 1e-13 of a wall, on either side."""
+    """Return starts from which a ball turns at a distance of about 1e-13 before or behind a wall."""
     systems, states = [], []
     while len(states) < count:
         system = random_system(rng)
@@ -377,11 +382,11 @@ ensembles = {
     "hostile": _hostile,
     "grazing": _grazing,
 }
-"""Systems, starts, cycles and tau0 of many runs, as functions of a generator and their number, by the kind of scene."""
+"""For each kind of scene, a function of a random generator and a number: systems, starts, cycles and tau0 of runs."""
 
 
 def low_hops(run, module):
-    """Number of impacts of a module behind which the ball hops, and is never off its wall by more than rounding."""
+    """Return the number of impacts of a module after which the ball hops no higher than rounding errors."""
     mine = run.events[run.events["module"] == module]
     state, box = mine["state"][:-1], 2 * module - 2
     leaves = np.abs(state[:, box + 4] - state[:, box + 5])
@@ -391,10 +396,10 @@ def low_hops(run, module):
 
 
 def unlike_single_runs(systems, states, cycles, tau0=0.0):
-    """Return the runs of an ensemble that are not those of `simulate`: their number and the reason.
+    """Return the index of each run in an ensemble that differs from `simulate`, with the reason.
 
-    Runs that are decided have as many impacts and sticks, but for impacts behind which the ball hops within rounding,
-    and final states that differ by less than the promised error.
+    Decided runs must have the same numbers of impacts and sticks, except impacts before hops within rounding. Their
+    final states must differ by less than PROMISED times the estimated error.
     """
     found, decided = [], 0
     for n, outcome in enumerate(vi.ensemble(systems, states, cycles, tau0)):

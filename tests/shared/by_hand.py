@@ -1,11 +1,11 @@
-"""The equations (10.2) of the boxes written out, so that what checks the engine shares no code with it."""
+"""Equations (10.2) of the boxes written out, so that checks of the engine share no code with the engine."""
 
 import numpy as np
 from scipy.linalg import expm
 
 
 class BoxesByHand:
-    """Matrices of one system: stiffness, damping (2, 2), force (2,), and the forcing frequency omega."""
+    """Matrices of one system: stiffness and damping, shape (2, 2), force, shape (2,), and forcing frequency omega."""
 
     def __init__(self, system):
         e, a = system.epsilon, system.epsilon * system.alpha12_hat
@@ -17,7 +17,7 @@ class BoxesByHand:
         self.omega = 1 + e * system.sigma_e_hat
 
     def rate(self, stuck):
-        """Rate matrix (6, 6) of [X1, X2, X1', X2', sin, cos]; a box moves its ball where that is stuck."""
+        """Return the rate matrix (6, 6) of [X1, X2, X1', X2', sin, cos]; a box carries its ball if the ball sticks."""
         mass = np.where(stuck, 1 + self.epsilon, 1.0)
         rate = np.zeros((6, 6))
         rate[:2, 2:4] = np.eye(2)
@@ -29,13 +29,16 @@ class BoxesByHand:
 
 
 class FlightsByHand(BoxesByHand):
-    """States of one system without events, by scipy's matrix exponential; walls: the wall each ball sticks to, or 0."""
+    """States of one system between events, by SciPy's matrix exponential.
+
+    `walls` contains, for each ball, the wall to which it sticks, or 0.
+    """
 
     def lifted(self, state, tau):
         return np.array([*state[[0, 2, 4, 6]], np.sin(self.omega * tau), np.cos(self.omega * tau)])
 
     def flow(self, state, walls, tau, t):
-        """State a time t later."""
+        """Return the state after the time t without events."""
         z, later = expm(self.rate([w != 0 for w in walls]) * t) @ self.lifted(state, tau), np.empty(8)
         later[[0, 2, 4, 6]] = z[:4]
         for i, wall in enumerate(walls):
@@ -45,5 +48,5 @@ class FlightsByHand(BoxesByHand):
         return later
 
     def acceleration(self, state, walls, tau):
-        """Box accelerations, shape (2,)."""
+        """Return the accelerations of both boxes, shape (2,)."""
         return (self.rate([w != 0 for w in walls]) @ self.lifted(state, tau))[2:4]

@@ -1,4 +1,4 @@
-"""The chapter's numbers as section 10.4 prints them; `tests/pipeline/test_chapter.py` holds the config to them."""
+"""Numbers printed in section 10.4; `tests/pipeline/test_chapter.py` compares the config with them."""
 
 PARAMETERS = {
     "epsilon": 0.1,

@@ -1,4 +1,4 @@
-"""What Numba has compiled of the checkout, for a copy of the library with the same content elsewhere."""
+"""Share code that Numba has compiled for the checkout with copies of the library that have the same content."""
 
 import os
 import shutil
@@ -13,9 +13,9 @@ KEPT = "__pycache__"
 
 
 def share(library: Path, cache: Path | None = None) -> None:
-    """Put the code of this checkout where Numba looks for that of another copy, as far as there is any.
+    """Link existing compiled code of this checkout to the folder in which Numba looks for that of the copy `library`.
 
-    cache: the folder that NUMBA_CACHE_DIR names there; None for the copy's own.
+    cache: value of NUMBA_CACHE_DIR for the copy; None if Numba uses the folder in the copy.
     """
     for source in LIBRARY.rglob("__init__.py"):
         for folder in (LIBRARY / KEPT).glob("compiled-*"):
@@ -26,7 +26,7 @@ def share(library: Path, cache: Path | None = None) -> None:
 
 
 def _link(source, target):
-    """A second name for a file, which Numba never changes but replaces; a copy on another file system."""
+    """Make a hard link, since Numba replaces files but never modifies them; copy to another file system."""
     Path(target).unlink(missing_ok=True)
     try:
         os.link(source, target)
@@ -35,7 +35,7 @@ def _link(source, target):
 
 
 def _subfolder(source):
-    """Where Numba keeps what it compiles of the package of a source, good for every copy with the same content."""
+    """Return the subfolder in which Numba stores compiled code for the package of a source file."""
     return _CacheLocator.get_suitable_cache_subpath(str(source))
 
 
@@ -69,9 +69,9 @@ print(*sorted(name for name, _ in signatures() - before), sep="\\n")
 
 
 def compiled_late(calls: str) -> list[str]:
-    """Functions of the engine that calls of the library compile after all is compiled that is beforehand.
+    """Return the engine functions that calls of the library still compile after `vibroimpact.compile` has run.
 
-    calls: Python that has vi, np, a `system`, a `start` and `undamped(system)`.
+    calls: Python code that may use vi, np, `system`, `start` and `undamped(system)`.
     """
     code, environment = COMPILED.replace("CALLS", calls), {"PYTHONPATH": ":".join(sys.path)}
     run = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)

@@ -1,4 +1,4 @@
-"""The config of the checkout, and edits of it."""
+"""Config of the checkout, and edited copies of this config."""
 
 import copy
 import re
@@ -15,7 +15,7 @@ LAUGHS = "a0: &a0 [ha, ha]\n" + "".join(f"a{n}: &a{n} [{', '.join([f'*a{n - 1}']
 
 
 def malformed(path: Path) -> list[list[str]]:
-    """Edits of a list of malformed configs, and the keys that are told."""
+    """Return the edits in a list of malformed configs, and the keys that errors must name."""
     lines = path.read_text(encoding="utf-8").splitlines()
     return [line.split(" -> ") for line in lines if not line.startswith("#")]
 
@@ -48,11 +48,11 @@ UNUSUAL = [
     "figures.case = {like: fig10_08, model: float64, case: weak}",
     "figures.conditions = {like: fig10_08, model: float64}",
 ]
-"""Configs as `edited` makes them: refused with the keys that are told, and accepted."""
+"""Edits for `edited` that give unusual but valid configs, in contrast to TABLE."""
 
 
 def edited(edits: str) -> dict:
-    """The good config after edits "place = YAML", several with " & " between them; the value ... deletes."""
+    """Return the valid config after edits "place = YAML", which are joined by " & "; the value ... deletes an entry."""
     config = copy.deepcopy(GOOD)
     for edit in edits.split(" & "):
         place, _, value = edit.partition(" =")
@@ -68,7 +68,7 @@ def edited(edits: str) -> dict:
 
 
 def problems(config: dict) -> dict[str, str]:
-    """What is wrong with a config by its key, each in one line that can be printed."""
+    """Return the problems of a config by key, and check that each is one printable line."""
     try:
         checked(config)
     except ConfigError as refusal:

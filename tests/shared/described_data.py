@@ -1,4 +1,4 @@
-"""The files of a build beside the data dictionary."""
+"""Compare the files of a build with the data dictionary."""
 
 import csv
 from pathlib import Path
@@ -12,14 +12,14 @@ SEPARATORS = {".csv": ",", ".tsv": "\t"}
 
 
 def made_by(tree: Tree) -> dict[str, Path]:
-    """The data of a build, without the report's copies: paths from the checkout."""
+    """Return the data files of a build, without copies in the report, by path relative to the checkout."""
     data = [path for path in (tree / "results").rglob("*") if path.suffix in (*SEPARATORS, ".json")]
     named = {str(path.relative_to(tree.path)): path for path in sorted(data)}
     return {name: path for name, path in named.items() if not name.startswith("results/report/")}
 
 
 def table(path) -> tuple[list[str], list[dict]]:
-    """Header and rows of a table."""
+    """Return the header and the rows of a table."""
     with open(path, encoding="utf-8", newline="") as file:
         lines = (line for line in file if not line.startswith("#"))
         rows = csv.DictReader(lines, delimiter=SEPARATORS[path.suffix])
@@ -27,23 +27,23 @@ def table(path) -> tuple[list[str], list[dict]]:
 
 
 def not_once(made: dict[str, Path]) -> dict[str, int]:
-    """Files that the dictionary has not, or more than once."""
+    """Return the files that the dictionary does not describe exactly once, with the number of descriptions."""
     found = {name: sum(file.has(name) for file in FILES) for name in made}
     return {name: count for name, count in found.items() if count != 1}
 
 
 def columns(made: dict[str, Path]) -> tuple[dict, dict]:
-    """Columns of each table as it is, and as the dictionary has it."""
+    """Return, for each table, the columns in the file, and the columns in the dictionary."""
     found = {name: table(path)[0] for name, path in made.items() if path.suffix in SEPARATORS}
     said = {name: list(file.columns) for name in found for file in FILES if file.has(name)}
     for name in said:
-        if name.startswith("results/sweeps/"):  # the columns of what each observes
+        if name.startswith("results/sweeps/"):  # columns depend on the observations of the sweep
             said[name] = [column for column in said[name] if column in found[name]]
     return found, said
 
 
 def other_values(made: dict[str, Path]) -> tuple[int, dict]:
-    """Number of columns whose values the dictionary lists, and what they have besides."""
+    """Return the number of columns with listed values, and the values in these columns that are not listed."""
     listed, found = {}, {}
     for name, path in made.items():
         for file in FILES:
@@ -56,7 +56,7 @@ def other_values(made: dict[str, Path]) -> tuple[int, dict]:
 
 
 def of_another_unit(made: dict[str, Path]) -> list[tuple[str, str]]:
-    """Columns that hold something else than their unit says."""
+    """Return the columns whose values do not fit the unit."""
     found = []
     for name, path in made.items():
         rows = table(path)[1] if path.suffix in SEPARATORS else []
@@ -70,7 +70,7 @@ def of_another_unit(made: dict[str, Path]) -> list[tuple[str, str]]:
 
 
 def _unit_of(values) -> str:
-    """Text, truth or numbers, as the values of a column are."""
+    """Return whether the values of a column are text, truth values or numbers."""
     if values <= {"True", "False"}:
         return "true or false"
     try:

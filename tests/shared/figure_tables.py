@@ -1,4 +1,4 @@
-"""Tables of figures at the chapter's parameters, in the form of the pipeline's, and colours in grey print."""
+"""Tables of figures at the chapter's parameters, in the format of the pipeline, and lightness of colours."""
 
 import numpy as np
 import pandas as pd
@@ -16,7 +16,7 @@ def system_of(case):
 
 
 def table_of_points(system):
-    """Fixed points in the form of the pipeline's table."""
+    """Return the fixed points of a system in the format of the pipeline's table."""
     points = vi.fixed_points(system)
     table = pd.DataFrame(
         {
@@ -29,7 +29,7 @@ def table_of_points(system):
 
 
 def tables_of_run(system, start, transient, window, per_cycle):
-    """Samples and events of a simulation in the form of the pipeline's tables."""
+    """Return samples and events of a simulation in the format of the pipeline's tables."""
     times = (transient + np.arange(window * per_cycle + 1) / per_cycle) * system.period
     run = vi.simulate(system, start, transient + window, sample_times=times)
     samples = pd.DataFrame({"tau": times, **dict(zip(NAMES, run.samples.T, strict=True))})
@@ -40,7 +40,7 @@ def tables_of_run(system, start, transient, window, per_cycle):
 
 
 def lightness(colour):
-    """CIE L* of a colour, 0 to 100: what is left of it in grey print."""
+    """Return the lightness CIE L* of a colour, 0 to 100, which is all that grey print shows."""
     channels = np.array(to_rgb(colour))
     linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
     return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16

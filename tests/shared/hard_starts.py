@@ -1,9 +1,11 @@
-"""Random systems and starts that are hard to begin with: on walls or next to them, almost at rest, uncoupled or hardly
-coupled, unforced, undamped, without any rebound to speak of, stiff, driven fast or hard.
+"""Random systems and starts that are difficult for the engine.
+
+Starts are on walls or next to walls, or almost at rest. Systems are uncoupled or almost uncoupled, unforced, undamped,
+almost without rebound, stiff, or have fast or strong forcing.
 
     .venv/bin/python tests/shared/hard_starts.py 20000 --first 0
 
-runs so many of them and prints what went wrong, by the number of the example.
+runs 20 000 examples and prints all faults, each with the number of the example.
 """
 
 import argparse
@@ -17,12 +19,12 @@ from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.state import IMPACT, STICK
 
 TINY = [0.0, 1e-300, 1e-60, 1e-50, 1e-40, 1e-30, 1e-20, 1e-16, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3]
-KNOWN = 1e-9  # how well the state of a row must be the one that the row before flows into, per unit of its size
-PER_RATE = 1e-5  # and how much worse per unit of the norm of the rate matrix, whose exponential loses digits by it
+KNOWN = 1e-9  # tolerance for the state in a row against the flow from the previous row, relative to its size
+PER_RATE = 1e-5  # relative increase of this tolerance per unit of the norm of the rate matrix
 
 
 def example(number):
-    """(system, start, tau0) of an example."""
+    """Return (system, start, tau0) for the example of a number."""
     rng = np.random.default_rng(number)
 
     def size(low, high, *others):
@@ -47,7 +49,7 @@ def example(number):
 
 
 def faults(number, cycles=1):
-    """Names of what is wrong with the run of an example; (none) if all is well."""
+    """Yield the name of each fault in the run of an example."""
     system, start, tau0 = example(number)
     try:
         run = vi.simulate(system, start, cycles, tau0)
@@ -62,10 +64,10 @@ def faults(number, cycles=1):
 
 
 def departures(run):
-    """How far the state in each row is from the one that the row before flows into by a matrix exponential.
+    """Yield for each row the distance between its state and the flow from the previous row by a matrix exponential.
 
-    Left out is what changes by itself: at an impact the velocities of its module; from the last impact of a chatter to
-    its end, where rows show the ball at rest on its wall, those and the ball.
+    Components that jump are left out: at an impact, the velocities of the module; from the last listed impact of a
+    chatter to its end, velocities and displacement of the ball, since the row shows the ball at rest on its wall.
     """
     walls, state, tau, flights = [0, 0], run.start, run.tau0, FlightsByHand(run.system)
     size = 1.0 + np.abs(run.start).max() + np.abs(run.system.forcing).max()

@@ -1,4 +1,4 @@
-"""A real browser without a window: the Chromium of this machine, led by Playwright."""
+"""Run pages in a browser without a window, the installed Chromium, controlled by Playwright."""
 
 import json
 import shutil
@@ -18,9 +18,9 @@ FLAGS = [
     "--no-first-run",
 ]
 TROUBLE = ("error", "warning", "assert")
-"""Kinds of messages on the console that a page must not have."""
+"""Types of console messages that a page must not cause."""
 AXE = Path(axe_playwright_python.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
-"""The rules of axe-core, by which browsers judge if everybody can read a page."""
+"""Script of axe-core, which tests the accessibility of a page."""
 TWO_FRAMES = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
@@ -30,7 +30,7 @@ def executable() -> str | None:
 
 
 class Browser:
-    """One browser with one page. What goes wrong on it is collected in `problems`, every request in `requests`."""
+    """One browser with one page. All problems of the page are collected in `problems`, all requests in `requests`."""
 
     def __init__(self, path: str):
         self.problems, self.requests = [], []
@@ -47,7 +47,7 @@ class Browser:
         self._playwright.stop()
 
     def open(self, url: str, width: int = 1200, height: int = 900):
-        """Load a page in a window of this size, and wait until it has loaded and drawn."""
+        """Open a page in a window of the given size, and wait until the page is loaded and drawn."""
         self.page.set_viewport_size({"width": width, "height": height})
         self.problems.clear()
         self.requests.clear()
@@ -55,22 +55,22 @@ class Browser:
         self.run(TWO_FRAMES)
 
     def resize(self, width: int, height: int = 900):
-        """Give the window another size, and wait until the page has heard of it and drawn."""
+        """Resize the window, and wait until the page is redrawn."""
         self.page.set_viewport_size({"width": width, "height": height})
         self.run(TWO_FRAMES)
 
     def run(self, expression: str):
-        """The value of a JavaScript expression on the page, a promise awaited.
+        """Return the value of a JavaScript expression on the page; a promise is awaited.
 
         Raises
         ------
         playwright.sync_api.Error
-            It throws.
+            If the expression throws an error.
         """
         return self.page.evaluate(expression)
 
     def barriers(self, **options) -> list[tuple[str, str]]:
-        """Return what axe finds serious or critical on the page, rule and place; `options` choose the rules."""
+        """Return rule and place of each serious or critical finding of axe; `options` select the rules."""
         self.run(AXE)
         options = json.dumps({"resultTypes": ["violations"], **options})
         found = self.run(f"axe.run({options}).then(result => result.violations)")
@@ -82,7 +82,7 @@ class Browser:
         ]
 
     def press(self, key: str, times: int = 1):
-        """Press a key on what has the focus."""
+        """Press a key in the focused element."""
         for _ in range(times):
             self.page.keyboard.press(key)
 

@@ -1,4 +1,4 @@
-"""Texts made to be more than text, and what is live on a page."""
+"""Texts that try to inject markup or scripts, and checks for active content on a page."""
 
 import re
 from html.parser import HTMLParser
@@ -10,14 +10,14 @@ HOSTILE = (
     r"`a``<marquee onclick=RUN>` `b`{=html} {#id onclick=RUN} | ::: *c* **d** $e$ \( \end{x} #read('x') "
     "&lt; </script> --> {{ 7 * 7 }} {% if %}"
 ).replace("RUN", RUN)
-"""Ends attributes, elements, spans of code, cells and formulas, in HTML, Markdown, TeX, Typst and templates."""
+"""Text that would end attributes, elements, code, cells and formulas in HTML, Markdown, TeX, Typst and templates."""
 STATEMENT = (
     f"Words of the repository, with $C_1$; what is live in them is none: <script>{RUN}</script> [x](javascript:{RUN})"
 )
-"""In Markdown, as claims and notebooks have them."""
+"""Hostile text in Markdown, as it could occur in claims and notebooks."""
 DATA = {"type": "application/json"}
 KINDS = ("iframe", "object", "embed", "base", "form", "marquee")
-"""Elements that no page has of its own."""
+"""Elements that no page contains by itself."""
 MARKS = (
     "<!-- ¦ &amp; ¦ &#60;b> ¦ a\n\n# b ¦ - a ¦ 1. a ¦ > a ¦ ```\n<b>\n``` ¦ ~~~ ¦ [a]: b ¦ <http://a.b> ¦ a@b.c ¦ "
     "\\<b> ¦ \\\\(x\\\\) ¦ $x$ ¦ $$x$$ ¦ ^a^ ¦ ~a~ ¦ ::: ¦ --- ¦ a  \nb ¦ | ¦ +-+ ¦ é — ² ¦ @a [@b] ¦ [^1]"
@@ -26,7 +26,7 @@ TEXTS = [HOSTILE, *(HOSTILE[start : start + 25] for start in range(0, len(HOSTIL
 
 
 class Markup(HTMLParser):
-    """What is live on a page: elements by their kind, attributes that are programs, where links lead; and its text."""
+    """Parsed page: elements, attributes with scripts, targets of links, texts, and content security policy."""
 
     def __init__(self, html: str):
         super().__init__()
@@ -50,7 +50,7 @@ class Markup(HTMLParser):
 
 
 def assert_nothing_is_live(markup, scripts=0):
-    """No element, attribute or link but those of the page, and a policy that lets nothing else run."""
+    """Check that a page has only its own elements, attributes and links, and a policy that lets nothing else run."""
     odd = [values for tag, values in markup.elements if tag in KINDS]
     assert [values for values in odd if values.get("action") != "search.html"] == []
     programs = [values for tag, values in markup.elements if tag == "script" and not values.items() >= DATA.items()]

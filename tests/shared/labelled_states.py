@@ -1,4 +1,4 @@
-"""One state with its components labelled in many ways, and labels that are not those of a state."""
+"""One state with its components labelled in different ways, and labels that are not valid for a state."""
 
 from collections import namedtuple
 
@@ -13,7 +13,7 @@ SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 START = [0.1, -0.2, 0.3, 0.05, 0.4, -0.6, 0.7, 0.8]
 STATE = dict(zip(NAMES, START, strict=True))
 SHUFFLED = ["X1", "X2", "Y1", "Y2", "dX1", "dX2", "dY1", "dY2"]
-"""An order in which a state read by position is another admissible one."""
+"""Order of components in which a state that is read by position would be another admissible state."""
 PRIMED = [name if len(name) == 2 else f"{name[1:]}'" for name in SHUFFLED]
 VALUES = [STATE[name] for name in SHUFFLED]
 ROW = pd.Series(VALUES, SHUFFLED)

@@ -1,4 +1,4 @@
-"""The rules of the workflow for a config, loaded in this process, and the SPECs of figures beside them."""
+"""Load the rules of the workflow for a config in this process, and compare them with the SPECs of figures."""
 
 import inspect
 from importlib import import_module
@@ -19,7 +19,7 @@ DATA = yaml.safe_load((ROOT / "report/data.yaml").read_text(encoding="utf-8"))
 
 
 def rules(folder: Path, config: dict | None = None) -> dict:
-    """The rules for a config, by name."""
+    """Return the rules for a config by name."""
     given = folder / "config.yaml"
     given.write_text(yaml.safe_dump(config or GOOD), encoding="utf-8")
     settings = ConfigSettings(configfiles=[given], replace_workflow_config=True)
@@ -34,22 +34,22 @@ def rules(folder: Path, config: dict | None = None) -> dict:
 
 
 def drawn(folder: str) -> list[str]:
-    """The figures of a reference set."""
+    """Return the names of the figures in a reference set."""
     return sorted(path.stem for path in (ROOT / folder).glob("*.png"))
 
 
 def published(folder: str) -> list[tuple[str, str]]:
-    """The figures of a reference set that have tables, with the file of each."""
+    """Return figure and file name for each table in a reference set."""
     return [(name, file) for name in drawn(folder) for file, _ in compared_files(name, SPECS[name]).values()]
 
 
 def made(found: dict, target: str) -> set[str]:
-    """The figures that a target asks for."""
+    """Return the figures on which a target depends."""
     return {Path(path).stem for path in found[target].input if path.endswith(".png")}
 
 
 def assert_compute_takes(figure: str, rule) -> None:
-    """`compute` of a figure has the arguments that its rule gives, and no other without a default."""
+    """Check that the rule of a figure passes valid arguments to `compute`, and all that have no default."""
     arguments = inspect.signature(import_module(module_of(figure)).compute).parameters
     given = {
         *rule.input.keys(),
@@ -61,7 +61,7 @@ def assert_compute_takes(figure: str, rule) -> None:
 
 
 def assert_declared(folder: str, figure: str, file: str) -> None:
-    """Every column of a published table is declared, and every declared one is there, with values of its unit."""
+    """Check that the SPEC declares exactly the columns of a published table, and that values fit their units."""
     (name,) = (name for name, (kept_as, _) in compared_files(figure, SPECS[figure]).items() if kept_as == file)
     table, declared = read(ROOT / folder / file), columns(SPECS[figure]["tables"][name], each(DATA["shared"]))
     assert list(table) == list(declared)
@@ -78,7 +78,7 @@ def assert_declared(folder: str, figure: str, file: str) -> None:
 
 
 def without(*place: str) -> dict:
-    """The config without an entry."""
+    """Return the config without an entry."""
     config = yaml.safe_load(yaml.safe_dump(GOOD))
     section = config
     for key in place[:-1]:

@@ -1,5 +1,7 @@
-"""Commands in surroundings of their own: another user, other disks, no network. Linux may not allow that: then a test
-that needs it is skipped."""
+"""Run commands in Linux namespaces, as another user, with other mounts, or without network.
+
+If the system does not allow namespaces, the tests that need them are skipped.
+"""
 
 import subprocess
 
@@ -7,7 +9,7 @@ import pytest
 
 
 def unshared(*options: str) -> list[str]:
-    """What to put before a command: `unshare` with options."""
+    """Return the words to put before a command: `unshare` with options."""
     command = ["unshare", *options]
     if subprocess.run([*command, "true"], stderr=subprocess.DEVNULL, check=False).returncode:
         pytest.skip(f"{' '.join(command)} is not allowed here")
@@ -15,10 +17,10 @@ def unshared(*options: str) -> list[str]:
 
 
 def mounted(script: str) -> list[str]:
-    """The same with mounts that a line of shell makes before, relative to where the command starts."""
+    """Return such words for a command after mounts by a shell script, which runs in the folder of the command."""
     return [*unshared("--mount"), "sh", "-c", f'{script} && cd "$PWD" && exec "$@"', "sh"]
 
 
 def read_only(folder: str) -> list[str]:
-    """The same with a folder that nobody can write to."""
+    """Return such words for a command while nobody can write to a folder."""
     return mounted(f"mount --bind {folder} {folder} && mount -o remount,bind,ro {folder}")

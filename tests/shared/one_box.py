@@ -1,6 +1,7 @@
-"""Undamped boxes without force or coupling, one or both with its ball moving, kappa next to 1: nothing is forgotten.
+"""Compute motions of boxes without damping, force or coupling in closed form with 45 digits.
 
-Its motion in closed form with 45 digits: the gap is monotone between the times at which box and ball are equally fast.
+Restitution is next to 1, so that errors do not decay. One or both balls move. Between the times at which box and ball
+are equally fast, the gap is monotone, so that no impact is missed.
 """
 
 import math
@@ -17,7 +18,7 @@ DEFECTS = (2**-53, 2**-52, 3 * 2**-53, 2**-51, 2**-50, 1e-14, 1e-12, 1e-10, 1e-8
 
 
 def one_box(epsilon, kappa, sigma_e_hat, gamma2_hat=0.25):
-    """The system: two boxes without coupling, of which the second may be damped."""
+    """Return a system of two boxes without coupling; only the second box may be damped."""
     return vi.System(
         epsilon=epsilon, kappa=kappa, alpha12_hat=0, gamma1_hat=0, gamma2_hat=gamma2_hat, gamma12_hat=0, sigma20_hat=0,
         sigma_e_hat=sigma_e_hat, f10_hat=0, f20_hat=0,
@@ -25,7 +26,7 @@ def one_box(epsilon, kappa, sigma_e_hat, gamma2_hat=0.25):
 
 
 def motion(system, start, cycles):
-    """Number of impacts and final state [X1, Y1, X1', Y1'] (arb) from a start (4,) off the walls."""
+    """Return number of impacts and final state [X1, Y1, X1', Y1'] (arb) for a start (4,) between the walls."""
     with ctx.workprec(BITS):
         epsilon, kappa, impacts, wall = arb(system.epsilon), arb(system.kappa), 0, 0
         impulse = epsilon * (1 + kappa) / (1 + epsilon)
@@ -46,7 +47,7 @@ def motion(system, start, cycles):
 
 
 def _next_wall(x, y, v, u, left, wall):
-    """Time of the next impact to float accuracy and its wall, 0 if there is none until just after the end."""
+    """Return time (to float accuracy) and wall of the next impact; the wall is 0 without an impact before the end."""
 
     def gap(t):
         return x * math.cos(t) + v * math.sin(t) - y - u * t
@@ -66,7 +67,7 @@ def _next_wall(x, y, v, u, left, wall):
 
 
 def _refined(x, y, v, u, guess, wall):
-    """Time of an impact by Newton's method."""
+    """Return the time of an impact, refined by Newton's method."""
     t = arb(guess)
     for _ in range(12):
         s, c = t.sin_cos()
@@ -78,10 +79,10 @@ def _refined(x, y, v, u, guess, wall):
 
 
 def judged(system, start, cycles, second=(0, 0, 0, 0), many=False):
-    """True error of the final state over the told one of a decided run, else None; its events must be the true ones.
+    """Return the ratio of true to estimated error of the final state; None if the run is undecided.
 
-    second: start of box 2 and its ball, which move as those of box 1 do in an undamped system; many: judge the state
-    that an ensemble ends in.
+    The number of impacts must be exact. second: start of box 2 and its ball, which obey the same equations as box 1 in
+    an undamped system. many: use the final state of an ensemble.
     """
     starts = np.array([start, second], dtype=float)
     state = [*starts[:, :2].ravel(), *starts[:, 2:].ravel()]
@@ -101,7 +102,7 @@ def judged(system, start, cycles, second=(0, 0, 0, 0), many=False):
 
 
 def true_over_told(genes, most_impacts=30_000, many=False):
-    """`judged` for genes (GENES,) between 0 and 1; None of a run that is not decided, or long."""
+    """Return the ratio of `judged` for genes (GENES,) between 0 and 1; None if the run is undecided or long."""
     epsilon, omega, size = 10 ** (-2 + 3 * genes[1]), 10 ** (-0.5 + 0.8 * genes[2]), 10 ** (-1 + 2.2 * genes[3])
     starts, both, cycles = [], genes[9] > 0.5, int(10 ** (1.5 + 1.5 * genes[8]))
     for four in (genes[4:8], genes[[6, 4, 5, 7]] if both else 0.5 * np.ones(4)):
@@ -114,5 +115,5 @@ def true_over_told(genes, most_impacts=30_000, many=False):
         defect = DEFECTS[int(9.999 * genes[0])]
         system = one_box(epsilon, 1 - defect, (omega - 1) / epsilon, 0.0 if both else 0.25)
         return judged(system, starts[0], cycles, starts[1], many)
-    except (ValueError, ArithmeticError):  # such a system resonates, or the run has too many events
+    except (ValueError, ArithmeticError):  # a resonant system, or a run with too many events
         return None

@@ -1,4 +1,4 @@
-"""A Slurm of one machine, for tests: with keys, ports and a folder of its own, all on the loopback address."""
+"""Run Slurm on this machine for tests, with its own keys, ports and folder, on the loopback address only."""
 
 import os
 import shutil
@@ -12,7 +12,7 @@ from pathlib import Path
 DAEMONS = "munged", "slurmctld", "slurmd"
 COMMANDS = "sacct", "sbatch", "scancel", "scontrol", "sinfo", "squeue", "srun"
 PATIENCE = 300
-"""Seconds after which nothing is waited for any more: some ten times what a loaded machine needs."""
+"""Maximum waiting time [s], about ten times longer than needed on a loaded machine."""
 CONFIG = """
 ClusterName=local
 SlurmctldHost={host}(127.0.0.1)
@@ -46,13 +46,13 @@ PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
 
 
 def missing() -> list[str]:
-    """What a Slurm of one machine needs and is not here."""
+    """Return the names of requirements of Slurm that this machine lacks."""
     rights = [] if os.geteuid() == 0 else ["the rights of root"]
     return rights + [command for command in (*DAEMONS, *COMMANDS, "mungekey") if not shutil.which(command)]
 
 
 def until(true: Callable[[], object], what: str):
-    """Wait until something is true, which it becomes within minutes on any machine."""
+    """Wait until a condition is true, which takes at most minutes on any machine."""
     end = time.monotonic() + PATIENCE
     while not (found := true()):
         assert time.monotonic() < end, f"waited {PATIENCE} s for {what}"
@@ -61,7 +61,7 @@ def until(true: Callable[[], object], what: str):
 
 
 class Slurm:
-    """Daemons and the commands that speak with them."""
+    """Daemons of Slurm, and its commands."""
 
     def __init__(self, folder: Path):
         self.folder = folder
@@ -85,7 +85,7 @@ class Slurm:
         self.path = f"{self.bin}:{os.environ['PATH']}"
 
     def start(self) -> None:
-        """All daemons, until the node takes jobs."""
+        """Start all daemons, and wait until the node accepts jobs."""
         key = self.folder / "munge.key"
         run("mungekey", "--create", f"--keyfile={key}")
         files = {"key-file": key} | {name: self.folder / f"munge.{name}" for name in ("socket", "pid-file", "log-file")}
@@ -103,20 +103,20 @@ class Slurm:
         end(self.folder / "slurmctld.pid")
 
     def stop(self) -> None:
-        """End all daemons and all jobs, whatever state they are in."""
+        """End all daemons and all jobs in any state."""
         self("scancel", "--full", "--signal=KILL", "--user=root")
         for name in ("slurmd.pid", "slurmctld.pid", "munge.pid-file"):
             end(self.folder / name)
 
     def __call__(self, *command) -> str:
-        """What a command of Slurm says; nothing where it fails."""
+        """Return the output of a Slurm command, or an empty text if the command fails."""
         said = subprocess.run(
             [self.bin / command[0], *command[1:]], capture_output=True, text=True, check=False, timeout=PATIENCE
         )
         return said.stdout.strip()
 
     def running(self) -> list[str]:
-        """The numbers of the jobs that run, each task of an array by its own."""
+        """Return the numbers of running jobs; each task of an array has its own number."""
         return self("squeue", "--noheader", "--array", "--states=RUNNING", "--format=%i").split()
 
 
@@ -125,7 +125,7 @@ def run(*command):
 
 
 def end(pid_file):
-    """End the process of a pid file, if it is alive, by force if it does not go."""
+    """End the process of a pid file if it is alive, and kill it if it does not end."""
     if not pid_file.exists() or not (text := pid_file.read_text().strip()):
         return
     pid = int(text)
@@ -140,7 +140,7 @@ def end(pid_file):
 
 
 def free_ports(count: int) -> list[int]:
-    """Ports that nobody listens on."""
+    """Return ports on which no process listens."""
     sockets = [socket.socket() for _ in range(count)]
     for each in sockets:
         each.bind(("127.0.0.1", 0))

@@ -1,4 +1,4 @@
-"""Notebooks as a reader opens them: parameters edited by hand, run in one kernel after another."""
+"""Run notebooks as a reader would, with edited parameters; all notebooks run in one kernel, one after another."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from pipeline_trees import ROOT
 
 
 def edited(name: str, edits: dict[str, str]) -> list:
-    """The code cells of a notebook, with texts of its parameters cell replaced."""
+    """Return the code cells of a notebook, with edits of the cell of parameters."""
     cells = nbformat.read(ROOT / f"notebooks/{name}.ipynb", as_version=4).cells
     cells = [cell for cell in cells if cell.cell_type == "code"]
     (parameters,) = (cell for cell in cells if "parameters" in cell.metadata.get("tags", []))
@@ -20,9 +20,9 @@ def edited(name: str, edits: dict[str, str]) -> list:
 
 
 def printed(runs: dict[str, tuple[str, dict[str, str]]], folder: Path) -> dict[str, str]:
-    """All that notebooks show, by the keys of `runs`; each is a name with edits. Images show as "<picture>".
+    """Return all outputs of notebooks by the keys of `runs`, whose values are (name, edits); images are "<picture>".
 
-    One kernel, started in the folder, runs them all, with nothing left of one when the next begins.
+    One kernel, started in the folder, runs all notebooks; its variables are deleted before the next notebook.
     """
     opened = {key: [nbformat.v4.new_code_cell("%reset -f"), *edited(*run)] for key, run in runs.items()}
     cells = [cell for part in opened.values() for cell in part]

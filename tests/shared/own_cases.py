@@ -1,4 +1,4 @@
-"""Configs with cases and figures of one's own, as edits of the files of a tree."""
+"""Configs with your own cases and figures, made by edits of the files in a tree."""
 
 from collections.abc import Callable
 
@@ -19,17 +19,17 @@ OWN_FIGURES = {
     "still_planes": {"like": "fig10_06", "model": "slow_flow", "case": "still", "C_max": [2.5, 3.5]},
     "still_motion": {"like": "fig10_08", "model": "float64", "case": "still"},
 }
-"""Each kind of notebook that takes a case; `still` is too weakly driven to have a fixed point or an impact."""
+"""Figures for each notebook with a case; the force of `still` is too small for fixed points and impacts."""
 
 
 def renamed(config, old, new):
-    """A config in which a case has another name, everywhere."""
+    """Return a config in which a case is renamed everywhere."""
     text = yaml.safe_dump(config, sort_keys=False)
     return yaml.safe_load(text.replace(f"case: {old}\n", f"case: {new}\n").replace(f"  {old}:\n", f"  {new}:\n"))
 
 
 def without_case(config, case):
-    """A config without a case and what shows it."""
+    """Delete a case and the entries that show it from a config, in place."""
     del config["cases"][case]
     for section in (config["figures"], config["accuracy"]["problems"]):
         for name in [name for name, scene in section.items() if scene.get("case") == case]:
@@ -37,13 +37,13 @@ def without_case(config, case):
 
 
 def edit(tree: Tree, name: str, change: Callable[[dict], dict | None]) -> None:
-    """Change a config file of a tree by a function of it."""
+    """Change a config file in a tree by a function of its content."""
     config = yaml.safe_load((tree / name).read_text(encoding="utf-8"))
     (tree / name).write_text(yaml.safe_dump(change(config) or config, sort_keys=False), encoding="utf-8")
 
 
 def own(config):
-    """Two cases and four figures more; one case of the chapter renamed, one gone; one problem."""
+    """Add two cases and four figures, rename and remove a case of the chapter, and keep one test problem."""
     config = renamed(config, "unequal", "uneven")
     without_case(config, "weak")
     config["accuracy"]["problems"] = {"transient": config["accuracy"]["problems"]["transient"]}
@@ -54,7 +54,7 @@ def own(config):
 
 
 def single(config):
-    """The case `equal` alone, under another name, with the chapter's figures of it."""
+    """Return a config with only the case `equal`, renamed, and its figures of the chapter."""
     for case in ("unequal", "weak"):
         without_case(config, case)
     return renamed(config, "equal", "alone")

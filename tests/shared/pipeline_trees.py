@@ -1,4 +1,4 @@
-"""Copies of the project to build in, and what is made once for all test processes."""
+"""Copies of the project in which tests run builds; some are made only once for all test processes."""
 
 import fcntl
 import multiprocessing
@@ -31,11 +31,11 @@ CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")
 FORKS.set_forkserver_preload(["snakemake.cli", "matplotlib.figure", "matplotlib.style"])
-"""Processes that have imported these already: most of what commands of a second spend their time on."""
+"""Context for processes that have these modules imported, which takes most of the time of short commands."""
 
 
 class Tree:
-    """A directory with everything that a build needs."""
+    """A directory with all files that a build needs."""
 
     def __init__(self, path: Path):
         self.path = path
@@ -44,7 +44,7 @@ class Tree:
         return self.path / name
 
     def snakemake(self, *arguments, check=True, prefix=(), **environment) -> str:
-        """Output of one Snakemake call, started by the command `prefix`; a variable that is None is not set."""
+        """Run Snakemake after the words `prefix`, and return its output; a variable that is None is unset."""
         if prefix or environment:
             run = self.start(*arguments, prefix=prefix, **environment)
             output = run.communicate()[0]
@@ -55,7 +55,7 @@ class Tree:
         return output
 
     def start(self, *arguments, prefix=(), **environment) -> subprocess.Popen:
-        """A Snakemake call in the background, in a process group of its own; a variable that is None is not set."""
+        """Start Snakemake in the background in its own process group; a variable that is None is unset."""
         return subprocess.Popen(
             [*prefix, *SNAKEMAKE, *arguments],
             cwd=self.path,
@@ -67,11 +67,11 @@ class Tree:
         )
 
     def dry_run(self, *arguments) -> str:
-        """Output of one Snakemake call that builds nothing, with the library of the tree."""
+        """Return the output of a dry run of Snakemake with the library of the tree."""
         return self.snakemake("--dry-run", *arguments, check=False)
 
     def planned(self, *arguments) -> set[str]:
-        """Rules that a build would run, but for the targets that only gather."""
+        """Return the rules that a build would run, without targets that only collect files."""
         output = self.dry_run(*arguments, "--quiet", "host")
         assert self.returncode == 0, output
         rules = {
@@ -82,7 +82,7 @@ class Tree:
         return rules - {"all", "figures", "stability", "companions", "accuracy", "sweeps", "studies"}
 
     def edit(self, name, old, new):
-        """Replace a text that must be there in a file of the tree."""
+        """Replace a text in a file of the tree; the file must contain the text."""
         text = (self / name).read_text(encoding="utf-8")
         assert old in text
         (self / name).write_text(text.replace(old, new), encoding="utf-8")
@@ -95,7 +95,7 @@ def copied(source: Path, path: Path) -> Tree:
 
 
 def with_results(source: Path, path: Path) -> Tree:
-    """A copy that starts from what the source has built, if that is whole: the build of the copy makes the rest."""
+    """Copy a tree with its results and their records, so that a build in the copy makes only the rest."""
     tree = copied(source, path)
     if (source / "results").exists():
         shutil.copytree(source / "results", path / "results", symlinks=True)
@@ -106,14 +106,14 @@ def with_results(source: Path, path: Path) -> Tree:
 
 
 def whole_copy(source: Tree, path: Path) -> Tree:
-    """A copy of a tree with its results, and with what is compiled of it."""
+    """Copy a tree with its results and its compiled code."""
     shutil.copytree(source.path, path, symlinks=True, ignore=shutil.ignore_patterns("locks", "compiled-*"))
     share(path / "src/vibroimpact")
     return Tree(path)
 
 
 def without_studies(tree: Tree) -> Tree:
-    """A tree after every folder and file called `studies` in it is deleted."""
+    """Delete every folder and file named `studies` in a tree, and return the tree."""
     for path in [*tree.path.rglob("studies"), *tree.path.rglob("studies.*")]:
         if ".snakemake" not in path.parts:
             shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
@@ -121,7 +121,7 @@ def without_studies(tree: Tree) -> Tree:
 
 
 def run_module(tree: Path, module: str, *arguments: str) -> tuple[int, str]:
-    """Exit status and output of `python -m module` in a tree, with the library of the tree."""
+    """Run `python -m module` in a tree with the library of the tree; return exit status and output."""
     with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
         process = FORKS.Process(target=_run_module, args=(tree, output.name, module, arguments))
         process.start()
@@ -140,9 +140,9 @@ def _run_module(tree, output, module, arguments):
 
 
 def made_once(tmp_path_factory, name: str, copy: Callable[[Path], object], *targets) -> Tree:
-    """A tree that is copied and built by the first test process to ask for it. Read it, do not change it.
+    """Return a tree that the first test process copies and builds. Tests may read it, but must not change it.
 
-    A build that fails is not tried again.
+    A failed build is not repeated.
     """
     shared = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:

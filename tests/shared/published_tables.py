@@ -1,4 +1,4 @@
-"""The published tables, and the figure check on changes of them."""
+"""Published tables, and the figure check on changed copies."""
 
 import numpy as np
 
@@ -9,20 +9,20 @@ from vibroimpact_pipeline.figure_check.table_distances import KINDS, OTHERS, tab
 from vibroimpact_pipeline.specs import each, specs
 
 FOLDERS = {path.name.removesuffix(".csv"): path.parent for path in sorted((ROOT / "figures").rglob("*.csv"))}
-"""Folders of the reference sets by table."""
+"""Folder of the reference set of each table, by the name of the table."""
 COLUMNS = {
     file.removesuffix(".csv"): each(spec["tables"][name]["columns"])
     for figure, spec in specs().items()
     for name, (file, _) in compared_files(figure, spec).items()
     if file.removesuffix(".csv") in FOLDERS
 }
-"""Columns by name of each published table."""
+"""Columns of each published table, by the name of the table."""
 DECIDED_BY_ROUNDING = {"rounding", "certificate", "amplitudes", "extremes", "peaks", "shares", "spreads"}
 DECIDED_BY_ROUNDING |= {"measured error", "order", "of the machine"}
 
 
 def tables_in(folder: str) -> list[str]:
-    """The tables of a reference set."""
+    """Return the names of the tables in a reference set."""
     return [name for name in COLUMNS if FOLDERS[name] == ROOT / folder]
 
 
@@ -31,14 +31,14 @@ def published(name):
 
 
 def differs(name, change):
-    """True if the check tells a published table from what `change` makes of it, and not from itself."""
+    """Return True if the check detects the change of a published table, after a check of the unchanged table."""
     old, columns = published(name)
     assert table_differences(old, old.copy(), columns)[0] == []
     return table_differences(old, change(old.copy()), columns)[0] != []
 
 
 def by_kind(name):
-    """(column, kind, rows) of a published table, rows that are not blank."""
+    """Yield (column, kind, rows that are not blank) for each column and kind in a published table."""
     table, columns = published(name)
     for column, entry in columns.items():
         kinds = entry.get("compared", ())
@@ -53,14 +53,14 @@ def by_kind(name):
 
 
 def numbers(name):
-    """(column, rows) of the numbers of a published table that rounding does not decide."""
+    """Yield (column, rows) for the numbers in a published table that do not depend on rounding."""
     for column, kind, rows in by_kind(name):
         if kind not in DECIDED_BY_ROUNDING and "rows" not in KINDS[kind]["limits"]:
             yield column, rows
 
 
 def unnoticed(name, without=()):
-    """The numbers of a published table, of the largest and the middle one of each column, that may be 1 % off."""
+    """Return (column, row) of numbers that may be wrong by 1 %; in each column, largest and middle number are tried."""
     old, columns = published(name)
     assert table_differences(old, old.copy(), columns)[0] == []
     found = []
@@ -75,7 +75,7 @@ def unnoticed(name, without=()):
 
 
 def kinds_used() -> set[str]:
-    """The kinds of comparison that SPECs name."""
+    """Return the kinds of numbers that SPECs name in `compared`."""
     used = set()
     for spec in specs().values():
         for table in spec["tables"].values():

@@ -1,4 +1,4 @@
-"""The schema of a config file beside its model."""
+"""Compare the schema of a config file with its model."""
 
 import json
 
@@ -10,7 +10,7 @@ from vibroimpact_pipeline.config.reading import ConfigError, merged
 from vibroimpact_pipeline.config.schema import schema
 
 MODELS = {"condition", "value_error", "finite_number"}
-"""Errors that are found by the model alone."""
+"""Types of errors that only the model detects."""
 
 
 def check_of(model) -> Draft202012Validator:
@@ -18,10 +18,10 @@ def check_of(model) -> Draft202012Validator:
 
 
 def refused_by_both(model, configs, of_file) -> int:
-    """Number of configs that a model refuses for one value of its file, all of which its schema refuses.
+    """Return the number of configs with an invalid value for the model; check that the schema refuses them all.
 
-    Conditions across values are the model's alone, and so are limits of numbers in texts. of_file: function of a whole
-    config that returns the part of the file.
+    Conditions across values, and limits of numbers that are given as text, are left out, since only the model checks
+    them. of_file: function that returns the part of a whole config that belongs to the file.
     """
     refused, check = 0, check_of(model)
     for config in configs:
@@ -31,7 +31,7 @@ def refused_by_both(model, configs, of_file) -> int:
             values = of_file(whole)
             model.model_validate(of_file(with_cases(whole)), context=[*cases])
         except ConfigError:
-            continue  # values that no config has
+            continue  # the config contains values that no config can have
         except ValidationError as error:
             told = [found for found in error.errors() if found["loc"][-1:] != ("case",)]  # which may be the default
             if any(found["type"] not in MODELS and not isinstance(found["input"], str) for found in told):

@@ -1,4 +1,4 @@
-"""Scripts of the workflow, run as Snakemake runs them."""
+"""Run scripts of the workflow as Snakemake runs them."""
 
 import os
 import runpy
@@ -9,7 +9,7 @@ from pipeline_trees import ROOT
 
 
 class Given(dict):
-    """A mapping whose entries are attributes, too, as Snakemake has them."""
+    """A mapping whose entries are also attributes, as in Snakemake."""
 
     __getattr__ = dict.__getitem__
 
@@ -18,7 +18,7 @@ class Given(dict):
 
 
 def run(name: str, folder: Path, params: dict, outputs: dict, inputs=(), **wildcards) -> None:
-    """Run a script in a folder, with paths from there."""
+    """Run a script in a folder; paths are relative to the folder."""
     before = Path.cwd()
     os.chdir(folder)
     try:

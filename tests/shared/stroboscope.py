@@ -1,4 +1,4 @@
-"""A period of a 1:1 motion in arbitrary precision: modes between impacts, impacts by Newton's method."""
+"""Compute a period of a 1:1 motion in arbitrary precision, by modes between impacts and Newton's method at impacts."""
 
 import mpmath
 import numpy as np
@@ -6,13 +6,13 @@ import numpy as np
 from vibroimpact.system.matrices import rate_matrix
 
 ORDER = [0, 2, 4, 6, 1, 3, 5, 7]
-"""Of the states here: X1, X2, X1', X2', Y1, Y2, Y1', Y2'."""
+"""Order of the components of states in this module: X1, X2, X1', X2', Y1, Y2, Y1', Y2'."""
 
 
 class Stroboscope:
-    """The state a period later. Its derivative is taken by central differences: no saltation matrix is needed.
+    """Map of a state to the state one period later; central differences give its derivative without saltation matrices.
 
-    phases, speeds: of the impacts met last and of the flights they start, in the order of time.
+    phases, speeds: phases of the impacts in the last period, and speeds of the balls after them, in order of time.
     """
 
     def __init__(self, orbit):
@@ -55,7 +55,7 @@ class Stroboscope:
         return mpmath.matrix([[column[row] for column in columns] for row in range(8)])
 
     def closed(self, state):
-        """The periodic state near this one, by Newton's method with one derivative, and the derivative there."""
+        """Return the periodic state near a state, by Newton's method with a fixed derivative, and its derivative."""
         inverse = (mpmath.eye(8) - self.jacobian(state)) ** -1
         for _ in range(6):
             state = state + inverse * (self(state) - state)

@@ -1,4 +1,4 @@
-"""Systems whose fixed points are looked for, as changes of the chapter's."""
+"""Systems in which tests search for fixed points, each given by changes of the chapter's parameters."""
 
 import numpy as np
 
@@ -34,7 +34,7 @@ def everything(system):
 
 
 def single_module(e, force, kappa):
-    """Real C of one uncoupled module: B^2 |e + N|^2 = f^2, a quadratic in C."""
+    """Return the real solutions C for one uncoupled module: B^2 |e + N|^2 = f^2, a quadratic equation in C."""
     rate = 8 / np.pi**2 - e * (1 + 2j * (1 - kappa) / (np.pi * (1 + kappa)))
     roots = np.roots([abs(rate) ** 2, 2 * (e * np.conj(rate)).real, abs(e) ** 2 - force**2])
     return np.sort(roots.real) if np.isreal(roots).all() else np.empty(0)

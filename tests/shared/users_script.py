@@ -1,4 +1,4 @@
-"""A user's script with the public names, which a strict type checker accepts."""
+"""A user's script that calls the public names and passes a strict type checker."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The tables that the stability figures read, made anew."""
+"""Compute the tables that the stability figures read."""
 
 import pandas as pd
 
@@ -8,7 +8,7 @@ from vibroimpact.exact.orbits.search import orbits
 
 
 def verdicts_of(systems):
-    """Rows of fixed points, and of exact orbits, of all systems (by case)."""
+    """Return the table rows for the fixed points and for the exact orbits of all systems, given by case."""
     exact = {case: orbit_rows(case, orbits(system)) for case, system in systems.items()}
     points = []
     for case, system in systems.items():

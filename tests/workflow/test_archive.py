@@ -1,4 +1,4 @@
-"""An archive is the same each time, and in an empty place it makes a figure again, byte by byte."""
+"""Test that an archive is reproducible, and that it rebuilds a figure with identical bytes in an empty folder."""
 
 import hashlib
 import json
@@ -20,11 +20,11 @@ from vibroimpact_pipeline.result_records import digest_of, record_of, write_reco
 FIGURE = "results/figures/fig10_04"
 HERE = str(Path(sys.executable).parent)
 SET_UP = ["make set-up", ". .venv/bin/activate"]
-"""What the test does not do: it has an environment."""
+"""Commands of docs/running.md that the tests skip, since they already have an environment."""
 
 
 def commands() -> list[str]:
-    """What docs/running.md says to do in the unpacked folder."""
+    """Return the commands that docs/running.md lists for the unpacked folder, without SET_UP."""
     (block,) = re.findall(r"In the unpacked folder .*?```\n(.*?)```", (ROOT / "docs/running.md").read_text(), re.DOTALL)
     lines = block.splitlines()
     assert lines[: len(SET_UP)] == SET_UP
@@ -33,7 +33,7 @@ def commands() -> list[str]:
 
 @pytest.fixture
 def elsewhere(archived, tmp_path):
-    """The archive unpacked inside a repository that has nothing to do with it."""
+    """Return the folder of the archive, unpacked inside an unrelated repository."""
     (tmp_path / "file").touch()
     commit(tmp_path)
     return unpacked(archive_of(archived), tmp_path)
@@ -46,7 +46,7 @@ def test_the_name_tells_version_and_commit(archived):
 
 
 def test_results_on_demand_stay_out(tmp_path, monkeypatch):
-    """They may be of an older commit; a second output of a rule that is needed goes in."""
+    """They may be from an older commit. A second output of a needed rule is included."""
     monkeypatch.chdir(tmp_path)
     made = {"table.csv": ("solve", []), "figure.png": ("draw", ["table.csv"]), "figure.csv": ("draw", ["table.csv"])}
     for name, (rule, inputs) in (made | {"report.html": ("report", ["figure.png"])}).items():
@@ -61,7 +61,7 @@ TABLE, PICTURE = "results/table.csv", "results/figure.png"
 
 @pytest.fixture
 def made(tmp_path, monkeypatch):
-    """A table and a picture of it, and what their rules make them with."""
+    """Write a table and its picture with records; return the current params and inputs of their rules."""
     monkeypatch.chdir(tmp_path)
     Path("results").mkdir()
     now = {"solve": ({"system": {"kappa": 0.65}, "code": {"fingerprint": "a"}}, []), "draw": ({"config": {}}, [TABLE])}
@@ -131,7 +131,7 @@ def test_a_result_that_was_made_otherwise_is_named(made, change):
 
 
 def test_a_config_of_the_command_line_is_not_that_of_the_commit(tree):
-    """Nothing is built for an archive that would say what is not so."""
+    """The archive would claim the wrong config, so nothing is built."""
     commit(tree.path)
     said = tree.dry_run("--config", "figures={fig10_04: {C_max: 3.0}}", "--", "archive")
     assert tree.returncode == 1
@@ -153,7 +153,7 @@ def test_a_config_of_the_command_line_is_not_that_of_the_commit(tree):
     ids=["config", "code"],
 )
 def test_results_of_another_commit_are_refused_before_anything_is_built(rebuilt, file, old, new, told):
-    """Also where Snakemake is to look at dates only."""
+    """The changes are also found if Snakemake compares only dates."""
     rebuilt.edit(file, old, new)
     commit(rebuilt.path)
     said = rebuilt.dry_run("--rerun-triggers", "mtime", "--", "archive")
@@ -172,7 +172,7 @@ def test_the_language_of_the_workflow_has_its_version(tmp_path):
 
 @pytest.mark.thorough
 def test_the_same_bytes_twice(archived, tmp_path):
-    """In another place, with other settings of the user."""
+    """The second archive is made in another folder, with other settings of the user."""
     tree = whole_copy(archived, tmp_path / "tree")
     shutil.rmtree(tree / "results/archive")
     tree.snakemake("archive", TZ="Asia/Tokyo", LC_ALL="C", PYTHONHASHSEED="1")
@@ -191,14 +191,14 @@ def test_the_commands_of_the_readme_make_a_figure_again(elsewhere):
     )
     assert done.returncode == 0, done.stdout + done.stderr
     made = {path for path in before if path.read_bytes() != before[path]}
-    assert made <= {elsewhere / f"{FIGURE}.provenance.json"}  # which tells the commit, if there was one
+    assert made <= {elsewhere / f"{FIGURE}.provenance.json"}  # it contains the commit, if there was one
     assert (elsewhere / f"{FIGURE}.png").stat().st_mtime > (elsewhere / "README.md").stat().st_mtime
     assert "made from commit unknown (without git)" in done.stdout
     assert done.stdout.endswith("No differences: this checkout makes the same figure.\n")
 
 
 def test_elsewhere_results_are_there_to_read_and_do_not_count_as_made(elsewhere):
-    """Nobody knows there what they were made with."""
+    """Without their records, the origin of the results is unknown."""
     assert {"fig10_04", "simulation", "work_precision"} <= elsewhere.planned()
 
 
@@ -217,7 +217,7 @@ def test_elsewhere_there_is_no_archive_without_git(elsewhere):
 
 
 def test_a_container_has_the_checkout_that_an_archive_needs():
-    """Docker reads patterns as git does, but for those without a slash, which git also finds further below."""
+    """Docker reads patterns like git, except patterns without a slash, which git also applies in subfolders."""
     if not (ROOT / ".git").exists():
         pytest.skip("not a git checkout")
     assert git(ROOT, "ls-files", "--cached", "--ignored", "--exclude-from=.dockerignore") == ""

@@ -1,4 +1,4 @@
-"""With Snakemake alone installed, the workflow parses, is linted, listed and planned; a build says what is missing."""
+"""Test that Snakemake alone can parse, lint, list and plan the workflow, and that a build names missing packages."""
 
 import subprocess
 import venv
@@ -11,7 +11,7 @@ from pipeline_trees import ROOT
 
 
 def closure(name, known):
-    """The distributions that one needs, with their own needs."""
+    """Return the distributions that a distribution requires, directly or indirectly."""
     if name in known:
         return known
     known.add(name)
@@ -27,7 +27,7 @@ def closure(name, known):
 
 @pytest.fixture(scope="module")
 def bare(tmp_path_factory):
-    """Runs Snakemake in an environment that has what it needs itself, and nothing else."""
+    """Return a function that runs Snakemake in an environment with only Snakemake and its requirements."""
     folder = tmp_path_factory.mktemp("bare")
     venv.create(folder / "venv", with_pip=False)
     python = folder / "venv/bin/python"

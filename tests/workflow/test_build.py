@@ -1,4 +1,4 @@
-"""One whole build: complete, explained, recorded, and with nothing to do a second time; then after a change."""
+"""Test one whole build: it is complete, described and recorded, a second build does nothing, a change is rebuilt."""
 
 import json
 
@@ -127,7 +127,7 @@ def test_a_figure_unlike_its_reference_fails_the_check_alone_which_says_how_to_a
 
 @pytest.mark.thorough
 def test_two_builds_give_the_same_bytes(built, tree):
-    """But for what holds run times."""
+    """Files with run times are excepted."""
     tree.snakemake()
     sums = [
         {

@@ -1,4 +1,4 @@
-"""The rules from a git source, in a directory without a checkout beside it, with the wheel installed."""
+"""Test the rules from a git source, in a directory without a checkout and with the wheel installed."""
 
 import json
 import os
@@ -13,7 +13,7 @@ from compiled_code import share
 from pipeline_trees import ROOT, SNAKEMAKE, Tree
 
 FIGURE, TABLE = "fig10_03", "results/fixed_points/equal.csv"
-"""One that a notebook of the package draws, and one of a script; both in seconds."""
+"""A figure with a page from a packaged notebook, and a table from a script; both take seconds."""
 OUTER = """
 module vibroimpact:
     snakefile: github("owner/vibroimpact", path="workflow/Snakefile", {ref})
@@ -24,7 +24,7 @@ use rule * from vibroimpact as chapter_*
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory):
-    """The folder of an installed wheel."""
+    """Return the folder of an installed wheel."""
     folder = tmp_path_factory.mktemp("wheel")
     build = [sys.executable, "-m", "hatchling", "build", "--target", "wheel", "--directory", folder / "dist"]
     subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
@@ -37,7 +37,7 @@ def wheel(tmp_path_factory):
 
 @pytest.fixture
 def outer(tree, tmp_path, wheel):
-    """Runs another workflow that has the rules from a commit of its repository; GitHub is a folder of this machine."""
+    """Return a function that runs a workflow with rules from a git commit; a local folder stands for GitHub."""
     commit(tree.path)
     folder = Tree(tmp_path / "outer")
     folder.path.mkdir()

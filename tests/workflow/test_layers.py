@@ -1,4 +1,4 @@
-"""The chapter does without the studies: every folder and file of that name can be deleted."""
+"""Test that the chapter does not need the studies: every folder and file named `studies` can be deleted."""
 
 import os
 import re
@@ -13,7 +13,7 @@ import vibroimpact as vi
 from pipeline_trees import ROOT, Tree, whole_copy
 
 QUICK = "pipeline/test_config_schema", "pipeline/test_chapter", "figures/test_specs", "docs/test_map"
-"""Tests of what the layer adds to, in the first place."""
+"""Default tests to run without the studies: tests of parts that the studies extend."""
 AWARE = {
     "src/vibroimpact/__init__.py",
     "src/vibroimpact/__init__.pyi",
@@ -26,14 +26,14 @@ AWARE = {
     "workflow/rules/common.smk",
     "workflow/rules/figures.smk",
 }
-"""Files that name what is in the layer, and look first if it is there."""
+"""Files that refer to parts of the studies, after a check that the studies are installed."""
 LAYER = re.compile(r"\bstudies[/.](?!smk\b|yaml\b)\w|\b(?:from|import) studies\b|\bstudies\.(?:smk|yaml)\b")
 LAZY = {name for name, module in vi._PUBLIC.items() if module.startswith("vibroimpact.studies")}
-"""Public names that need the layer."""
+"""Public names that need the studies."""
 
 
 def sources():
-    """Texts of the chapter's layer by path."""
+    """Yield path and text of each file outside the studies."""
     for top in ("src", "workflow", "tests", "notebooks"):
         for path in sorted((ROOT / top).rglob("*")):
             name = path.relative_to(ROOT)
@@ -52,14 +52,14 @@ def test_nothing_of_the_chapter_names_what_is_in_the_layer():
 
 @pytest.fixture
 def chapter_alone(alone, tmp_path) -> Tree:
-    """The built chapter without the studies, with the tests that are left."""
+    """Return the built chapter and its tests without the studies."""
     tree = whole_copy(alone, tmp_path / "tree")
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__", "studies"))
     return tree
 
 
 def run(tree, *arguments):
-    """Run Python in the tree with its own library."""
+    """Run Python in a tree with the library of the tree."""
     environment = os.environ | {"PYTHONPATH": str(tree / "src"), "PYTHONDONTWRITEBYTECODE": "1", "THOROUGH": ""}
     command = [sys.executable, *arguments]
     return subprocess.run(command, cwd=tree.path, env=environment, capture_output=True, text=True, check=False)

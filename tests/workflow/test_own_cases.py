@@ -1,4 +1,4 @@
-"""A config with cases and figures of one's own: built and checked to the end, and told from the chapter's."""
+"""Test a whole build and check for a config with your own cases and figures, which are told from the chapter's."""
 
 import pytest
 

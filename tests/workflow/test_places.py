@@ -1,4 +1,4 @@
-"""The pipeline builds the same bytes wherever it lies, wherever it works, and whoever calls it."""
+"""Test that builds give the same bytes in any checkout path and working directory, for any user and caller."""
 
 import json
 import os
@@ -11,7 +11,7 @@ from namespaces import unshared
 from pipeline_trees import ROOT, Tree, run_module
 
 FIGURE = "fig10_04"
-"""A figure with a table, made in a second."""
+"""A figure with a table, built in a second."""
 KINDS = "csv", "png", "pdf", "svg"
 
 
@@ -20,7 +20,7 @@ def files_of(figure, results):
 
 
 def record_of(figure, results):
-    """Where a figure comes from, but for its run time and what git says: not every copy has a history."""
+    """Return the provenance of a figure without run time and git data, since not every copy has a history."""
     record = json.loads((results / f"figures/{figure}.provenance.json").read_text())
     return {name: value for name, value in record.items() if name not in ("seconds", "commit", "tree")}
 
@@ -58,7 +58,7 @@ def test_from_a_read_only_tree_without_a_home(tree, built, tmp_path):
 
 
 def with_tree_read_only(elsewhere, tree, *arguments, **environment):
-    """One Snakemake call elsewhere, while nobody can write to the tree: for root that takes a mount of its own."""
+    """Run Snakemake elsewhere while nobody can write to the tree; for root, this requires a read-only mount."""
     if os.geteuid():
         subprocess.run(["chmod", "--recursive", "a-w", tree.path], check=True)
         elsewhere.snakemake(*arguments, **environment)
@@ -85,7 +85,7 @@ use rule * from weaker as weaker_*
 
 
 def test_as_a_module_of_another_workflow(tree, built, tmp_path):
-    """Twice, with two sets of parameters side by side; the config of the other workflow is not mistaken for ours."""
+    """The outer workflow includes it twice, with two sets of parameters, and has its own, unrelated config."""
     outer = Tree(tmp_path / "another workflow")
     (outer / "config").mkdir(parents=True)
     (outer / "config/config.yaml").write_text("samples: 3\nvibration: {system: {kappa: 0.65}}\n")
@@ -112,7 +112,7 @@ def test_index_and_check_of_a_module_stay_below_its_prefix(tree, tmp_path):
 
 @pytest.mark.thorough
 def test_in_a_long_path_with_a_space_and_letters_that_the_locale_lacks(tree, built, tmp_path):
-    """Sockets have names of 107 characters at most, the line that starts a script 127 or 255."""
+    """Names of sockets have at most 107 characters, and the first line of a script 127 or 255."""
     there = Tree(tree.path.rename(long(tmp_path, 150) / "zwei Kästen"))
     temporary = long(tmp_path, 200)
     there.snakemake("fig10_03", prefix=[interpreter_in(there)], TMPDIR=str(temporary), LC_ALL="C")
@@ -121,14 +121,14 @@ def test_in_a_long_path_with_a_space_and_letters_that_the_locale_lacks(tree, bui
 
 
 def long(folder, length):
-    """A new folder below another one, with a path of so many characters."""
+    """Create a folder below another folder, with a path of `length` characters."""
     path = folder / (max(1, length - len(str(folder)) - 1) * "x")
     path.mkdir()
     return path
 
 
 def interpreter_in(tree):
-    """The interpreter by a path inside a tree."""
+    """Return a path inside a tree that leads to the Python interpreter."""
     (tree / ".venv").symlink_to(sys.prefix)
     return tree / ".venv/bin/python"
 
@@ -180,7 +180,7 @@ def test_a_user_without_a_name_or_a_home(tree):
 
 
 def test_jobs_use_the_library_beside_the_rules_and_the_interpreter_of_snakemake(tree, tmp_path):
-    """Not the library that is installed, which is that of this checkout, nor a kernel or a backend of the user."""
+    """They do not use the installed library, which is that of this checkout, or kernels and backends of the user."""
     module = "src/vibroimpact/figures/fig10_04.py"
     tree.edit(module, "def compute(", "import sys\n\nprint('by', sys.executable, __file__)\n\n\ndef compute(")
     kernel = tmp_path / "data/kernels/python3/kernel.json"

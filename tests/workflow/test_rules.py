@@ -1,4 +1,4 @@
-"""Each rule names the code that its results depend on, so that a change of it makes them anew."""
+"""Test that each rule names the code on which its results depend, so that changed code reruns the rule."""
 
 import ast
 import re
@@ -9,7 +9,7 @@ from pipeline_trees import ROOT
 
 
 def rules():
-    """Yield every script of a rule with the script whose code the params of the rule name."""
+    """For each rule, yield its script and the script that its params name for the fingerprint."""
     for file in sorted((ROOT / "workflow/rules").rglob("*.smk")):
         for rule in re.split(r"\n+ *(?:use )?rule\b.*", file.read_text(encoding="utf-8"))[1:]:
             if script := re.search(r'"(?:\.\./)+scripts/([\w/]+)\.py"', rule):
@@ -25,14 +25,14 @@ def test_a_rule_names_the_code_of_its_script(script, named):
 
 @pytest.mark.parametrize("script", sorted({script for script, _ in rules()}))
 def test_nothing_follows_the_work_of_a_job(script):
-    """A job ends with `running`: a line after it, such as the exit status of a check, would not run."""
+    """The process ends with the block of `running`; a line below, such as a check's exit status, would not run."""
     last = ast.parse((ROOT / f"workflow/scripts/{script}.py").read_text(encoding="utf-8")).body[-1]
     assert isinstance(last, ast.With)
     assert ast.unparse(last.items[0].context_expr) == "running(snakemake)"
 
 
 def test_all_scripts_of_the_workflow_were_read():
-    """But those that no rule runs; the chapter may have no figure that is made by a script alone."""
+    """`benchmark` and `compile` are excepted, since no rule runs them."""
     folder = ROOT / "workflow/scripts"
     scripts = {path.relative_to(folder).with_suffix("").as_posix() for path in folder.rglob("*.py")}
     assert {script for script, _ in rules()} | {"figure"} == scripts - {"benchmark", "compile"}

@@ -1,4 +1,4 @@
-"""Random examples are the same in every run, whatever else has been imported."""
+"""Test that random examples are the same in every run, whichever modules have been imported before."""
 
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
@@ -10,7 +10,7 @@ CONSTANTS = range(1_234_567, 1_234_667)
 
 
 def drawn():
-    """The examples of a test."""
+    """Return the examples that a test draws."""
     examples = []
 
     @settings.get_profile("same")

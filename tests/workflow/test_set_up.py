@@ -1,4 +1,4 @@
-"""Set-up: done once, from the lock alone, started over if it was killed, and one line where it cannot work."""
+"""Test the set-up: it runs once, uses only the lock, starts over if killed, and explains a failure in one line."""
 
 import ast
 import hashlib
@@ -55,7 +55,7 @@ esac
 
 @pytest.fixture
 def recording(tree):
-    """The environment of a set-up that installs nothing."""
+    """Return variables for a set-up that only records calls and installs nothing."""
     (tree / "recording").write_text(RECORDING)
     (tree / "recording").chmod(0o755)
     return {"PYTHON": str(tree / "recording")}
@@ -74,7 +74,7 @@ def start(tree, *lock, **environment):
 
 
 def set_up(tree, *lock, expected=0, **environment):
-    """Output of a set-up that ends with an exit status."""
+    """Run a set-up, check its exit status and return its output."""
     run = start(tree, *lock, **environment)
     output = run.communicate()[0]
     assert run.returncode == expected, output
@@ -103,14 +103,14 @@ def test_a_killed_set_up_starts_over_and_a_finished_one_does_not(tree, recording
 
 
 def test_a_moved_checkout_is_set_up_again(tree, recording, tmp_path):
-    """The environment holds absolute paths."""
+    """The environment contains absolute paths."""
     set_up(tree, **recording)
     moved = tree.path.rename(tmp_path / "moved")
     assert "1 of 3" in set_up(Tree(moved), PYTHON=str(moved / "recording"))
 
 
 def installs(tree) -> list[str]:
-    """What was installed from a lock: the program, its arguments and the number of packages."""
+    """For each installation from a lock, return the program, its arguments and the number of packages."""
     return [call for call in (tree / "calls").read_text().splitlines() if "--requirement" in call]
 
 
@@ -158,7 +158,7 @@ def test_a_second_lock_that_was_not_installed_is_tried_again(tree, recording):
 
 
 def test_a_set_up_works_in_its_own_folder_and_without_paths_of_others(tree, recording, tmp_path):
-    """CDPATH leads `cd workflow/..` elsewhere; variables of Python, pip and uv say where packages lie."""
+    """CDPATH would change the target of `cd workflow/..`; variables of Python, pip and uv would change packages."""
     (tmp_path / "elsewhere/workflow").mkdir(parents=True)
     names = ("HOME", "PATH", "USERBASE", "STARTUP", "DONTWRITEBYTECODE")
     set_up(
@@ -200,7 +200,7 @@ trusted-host = of.the.command
 
 
 def test_of_the_settings_of_pip_those_count_that_say_how_to_reach_packages(tree, tmp_path):
-    """As pip itself lists them: in a file or in a variable, which goes before the file."""
+    """They may be set in a file or in a variable, which overrides the file, as `pip config list` shows."""
     (tree / ".venv").symlink_to(sys.prefix)
     (tmp_path / "pip.conf").write_text(PIP_CONF)
     given = {"CONFIG_FILE": str(tmp_path / "pip.conf"), "USER": "1", "TARGET": "/nowhere", "RETRIES": "7"}
@@ -226,7 +226,7 @@ def test_of_the_settings_of_pip_those_count_that_say_how_to_reach_packages(tree,
 
 
 def tiny_wheel(folder) -> str:
-    """Write a package into a folder of an index; return its line in a lock."""
+    """Write a package into the folder of a package index; return its line for a lock."""
     folder.mkdir(parents=True)
     with zipfile.ZipFile(folder / "tiny-1-py3-none-any.whl", "w") as wheel:
         wheel.writestr("tiny-1.dist-info/METADATA", "Metadata-Version: 2.1\nName: tiny\nVersion: 1\n")
@@ -291,12 +291,12 @@ LOCKS = "environment", "development", "cluster"
 
 
 def locked(name) -> set[str]:
-    """The packages of a lock."""
+    """Return the names of the packages in a lock."""
     return {*re.findall(r"^([a-z][^=\s]*)==", (ROOT / f"{name}.lock").read_text(), re.MULTILINE)}
 
 
 def test_the_locks_are_whole():
-    """Every package once, with version and hash, none from its own place, the optional integrator with a marker."""
+    """The locks together have each package once, with version and hash, without URLs, and heyoka with its marker."""
     locks = [locked(name) for name in LOCKS]
     assert sum(map(len, locks)) == len(set().union(*locks))
     text = "".join((ROOT / f"{name}.lock").read_text().replace("\\\n", " ") for name in LOCKS)
@@ -309,14 +309,14 @@ def test_the_locks_are_whole():
 
 
 def test_the_lock_says_what_reads_it():
-    """And `make lock`, which writes it anew, says so again."""
+    """`make lock`, which rewrites the lock, writes the same line."""
     (head,) = re.findall(r"sed -i '1i (#.*)' environment\.lock", (ROOT / "Makefile").read_text())
     assert (ROOT / "environment.lock").read_text().startswith(f"{head}\n")
     assert "pip and uv" in head
 
 
 def requirements(*extras):
-    """The requirements of the library and of some of its extras, of which one may name others."""
+    """Return the requirements of the library and of some extras, including extras that an extra names."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     asked = [*project["dependencies"], *(one for extra in extras for one in project["optional-dependencies"][extra])]
     others = [name for one in asked for name in Requirement(one).extras]
@@ -325,7 +325,7 @@ def requirements(*extras):
 
 FOR_BUILDS = "pipeline", "integrators", "set-up"
 APART = "notebooks", "cluster"
-"""Extras of environment.lock; those that are not in development.lock either."""
+"""FOR_BUILDS: extras in environment.lock. APART: extras in neither environment.lock nor development.lock."""
 
 
 def test_each_lock_has_the_packages_of_its_extras():
@@ -337,7 +337,7 @@ def test_each_lock_has_the_packages_of_its_extras():
 
 
 def imported(path) -> set[str]:
-    """The packages that a module imports, anywhere in it."""
+    """Return the packages that a module imports, including imports in functions."""
     nodes = [*ast.walk(ast.parse(path.read_text(encoding="utf-8")))]
     names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom)}
@@ -354,7 +354,7 @@ def test_builds_import_packages_of_their_lock_only_and_other_jobs_say_what_they_
 
 
 def test_the_conda_environment_has_what_jobs_import():
-    """The library is the one beside the rules; Snakemake starts the jobs from its own environment."""
+    """The library comes from the checkout of the rules, and Snakemake from the environment that starts the jobs."""
     environment = yaml.safe_load((ROOT / "workflow/envs/vibroimpact.yaml").read_text(encoding="utf-8"))
     *_, packages = environment["dependencies"]
     needed = requirements("pipeline", "integrators", "report", "archive")
@@ -368,7 +368,7 @@ def test_the_extra_pipeline_brings_what_a_build_asks_for():
 
 
 def compiled_files(tree) -> dict[str, int]:
-    """The files of compiled code, and when each was written."""
+    """Return the modification time of each file of compiled code."""
     return {str(path): path.stat().st_mtime_ns for path in (tree / "src").rglob("*.nb[ic]")}
 
 

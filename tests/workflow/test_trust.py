@@ -1,4 +1,4 @@
-"""Nothing wrong is called right: what no job of this directory wrote is made anew, orphans replace nothing."""
+"""Test that a build trusts only results of its own jobs: others are rebuilt, and orphaned jobs replace no result."""
 
 import base64
 import json
@@ -17,7 +17,7 @@ SCRIPT = "workflow/scripts/fixed_points.py"
 CONFIG, LINE, OTHER = "config/config.yaml", "f20_hat: 1.0", "f20_hat: 0.97"
 THOROUGH = pytest.mark.thorough
 FIGURE, DRAWING = "fig10_06", "fig10_04"
-"""One that reads tables of jobs before it, and one that reads none."""
+"""A figure that reads results of other jobs, and a figure that reads none."""
 
 
 def remove_all_that_snakemake_knows(tree):
@@ -61,7 +61,7 @@ def edited_under_an_old_date(tree):
 
 
 def with_a_record_without_entries(tree):
-    """And with a date that nothing else has."""
+    """The date of the record changes too."""
     (tree / f".snakemake/sums/{FIXED_POINTS}.json").write_text("{}")
 
 
@@ -93,7 +93,7 @@ def test_a_result_that_is_not_what_its_job_wrote_is_made_anew(rebuilt, damage):
 
 @pytest.mark.parametrize("first", ["this", pytest.param("the other", marks=THOROUGH)])
 def test_results_of_another_config_that_are_copied_in_are_made_anew(rebuilt, tmp_path, first):
-    """With their dates, older or newer ones, and with all that lies below results/."""
+    """They are copied with their dates, which are older or newer, and with everything below results/."""
     other = whole_copy(rebuilt, tmp_path / "other")
     other.edit(CONFIG, LINE, OTHER)
     other.snakemake(FIGURE)
@@ -119,7 +119,7 @@ CHECKOUT = {
     "name", [pytest.param(name, marks=THOROUGH if name == "environment.lock" else ()) for name in CHECKOUT]
 )
 def test_a_file_of_the_checkout_that_is_changed_under_an_old_date_is_seen(rebuilt, name):
-    """As rsync, tar and cp -p leave it."""
+    """rsync, tar and cp -p set such dates."""
     rule = CHECKOUT[name]
     assert "Nothing to be done" in rebuilt.dry_run(rule)
     with open(rebuilt / name, "a") as file:
@@ -153,7 +153,7 @@ while not os.path.exists("go"):
 
 @pytest.fixture
 def held(rebuilt):
-    """The project with a table whose job waits until there is a file `go`, and writes what the config said before."""
+    """Return the project with another config, and with a job that waits for a file `go` before it writes its table."""
     rebuilt.edit(SCRIPT, "    tables.write(", f"    exec({HOLD!r})\n    tables.write(")
     rebuilt.edit(CONFIG, LINE, OTHER)
     return rebuilt
@@ -167,7 +167,7 @@ def wait_for(path, build):
 
 @pytest.fixture(autouse=True)
 def hear_ctrl_c():
-    """A shell that starts the tests in the background has them ignore Ctrl-C, and all that they start."""
+    """Restore the handling of Ctrl-C, which tests and their children ignore if a shell runs them in the background."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -176,7 +176,7 @@ def hear_ctrl_c():
 def test_the_job_of_a_killed_build_does_not_replace_the_next_result(held):
     build = held.start(FIXED_POINTS)
     wait_for(held / "started", build)
-    build.kill()  # Snakemake alone: nobody tells its job
+    build.kill()  # kill only Snakemake, without a signal to its job
     build.wait()
     assert "--unlock" in held.snakemake(FIXED_POINTS, check=False)
     held.snakemake("--unlock")
@@ -185,7 +185,7 @@ def test_the_job_of_a_killed_build_does_not_replace_the_next_result(held):
     held.snakemake(FIXED_POINTS)
     right = (held / FIXED_POINTS).read_bytes()
     (held / "go").touch()
-    time.sleep(2.0)  # as long as the job would need to write, if it were still there
+    time.sleep(2.0)  # enough time for the job to write, if it were still alive
     assert (held / FIXED_POINTS).read_bytes() == right
     assert "Nothing to be done" in held.dry_run(FIXED_POINTS)
 
@@ -252,7 +252,7 @@ def test_a_figure_tells_where_it_comes_from(rebuilt):
 
 @pytest.mark.parametrize("name", [f"{FIGURE}.png", f"{FIGURE}.csv"])
 def test_a_figure_that_was_built_elsewhere_tells_where_it_comes_from(rebuilt, tmp_path, name):
-    """Its inputs lie beside it, whatever the working directory is; files of the checkout lie there."""
+    """Inputs are found relative to the figure, in any working directory, and other files in the checkout."""
     shutil.copytree(rebuilt / "results", elsewhere := tmp_path / "elsewhere/results")
     figure = elsewhere / f"figures/{name}"
     assert origin(rebuilt.path, figure)[0] == 0

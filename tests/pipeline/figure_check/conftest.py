@@ -1,4 +1,4 @@
-"""A small reference set, drawn here, so that its pictures are comparable whatever versions draw."""
+"""Fixtures of a small reference set, drawn in the tests so that its pictures are comparable with any versions."""
 
 import datetime
 import shutil
@@ -14,14 +14,14 @@ from vibroimpact_pipeline.figure_check.check import check, compared_files
 from vibroimpact_pipeline.specs import spec_of, specs
 
 FIGURES = ["fig10_02", "fig10_04", "fig10_06", "fig10_11"]
-"""Without a table, with one, with markers and arrows, with two tables."""
+"""Figures without a table, with one table, with markers and arrows, and with two tables."""
 SPECS = {figure: spec_of(figure, {}, specs()) for figure in FIGURES}
 DAY = datetime.date(2020, 2, 29)
 
 
 @pytest.fixture(scope="session")
 def drawn(tmp_path_factory):
-    """Folders of a reference set, and of a build that agrees with it, its tables those that are published."""
+    """Return a folder with a reference set and a build that match; their tables are the published tables."""
     folder = tmp_path_factory.mktemp("drawn")
     for figure in FIGURES:
         for file, path in compared_files(figure, SPECS[figure]).values():
@@ -35,7 +35,7 @@ def drawn(tmp_path_factory):
 
 
 def redraw(build, figure):
-    """The pictures of a figure of a build, of its tables as they are."""
+    """Redraw the pictures of a figure in a build from the current tables."""
     spec = SPECS[figure]
     tables = {name: read(build / path) for name, (_, path) in compared_files(figure, spec).items()}
     (build / "results/figures").mkdir(parents=True, exist_ok=True)
@@ -44,7 +44,7 @@ def redraw(build, figure):
 
 @pytest.fixture
 def tree(drawn, tmp_path):
-    """A copy: reference, build, results (of pictures), verdict(figure) and redraw(figure)."""
+    """Copy the folder `drawn`; return reference, build, results (its pictures), verdict(figure) and redraw(figure)."""
     shutil.copytree(drawn, tmp_path / "tree")
     reference, build = tmp_path / "tree/figures", tmp_path / "tree/build"
     return SimpleNamespace(

@@ -1,4 +1,4 @@
-"""Accepting a reference: shows what changes, wants a reason, records both, touches nothing else."""
+"""Test `accept`: it shows the changes, requires a reason, records both and modifies nothing else."""
 
 import json
 
@@ -15,7 +15,7 @@ from vibroimpact_pipeline.figure_check.check import SUMS
 
 @pytest.fixture
 def run(tree, capsys):
-    """Changed numbers in figure 10.4; run(arguments) accepts, and returns exit status and what was printed."""
+    """Change numbers of figure 10.4; return a function that runs `accept` and returns exit status and output."""
     path = tree.results / "fig10_04.csv"
     table = tables.read(path)
     tables.write(table.assign(B=1.001 * table["B"]), path)

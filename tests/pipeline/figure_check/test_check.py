@@ -1,4 +1,4 @@
-"""What the figure check lets pass and what not: numbers, drawing code, files, and what is wrong in both."""
+"""Test which changes the figure check accepts: of numbers, drawing code, files, and errors in both sets."""
 
 import json
 import re
@@ -71,7 +71,7 @@ def endless(axes, table, panel):
 
 @pytest.mark.parametrize("change", CHANGES)
 def test_a_change_of_the_drawing_code_is_noticed(tree, monkeypatch, change):
-    """By the picture of a build, whose table is that of the reference."""
+    """The picture in the build is compared, since the tables of build and reference are equal."""
     figure, changed = CHANGES[change]
     changed(monkeypatch)
     tree.redraw(figure)
@@ -81,7 +81,7 @@ def test_a_change_of_the_drawing_code_is_noticed(tree, monkeypatch, change):
 
 
 def test_a_change_of_the_drawing_code_is_noticed_where_a_number_differs_within_its_limit(tree, monkeypatch):
-    """The table of the reference is drawn again."""
+    """The table of the reference is redrawn for the comparison."""
     shift(tree, 5e-10)
     assert tree.verdict("fig10_04")["status"] == "passed"
     monkeypatch.setitem(style.UNSTABLE, "linestyle", "-")
@@ -92,7 +92,7 @@ def test_a_change_of_the_drawing_code_is_noticed_where_a_number_differs_within_i
 
 @pytest.mark.parametrize("kind", ["pdf", "svg"])
 def test_what_only_a_vector_file_would_show_is_noticed(tree, monkeypatch, kind):
-    """Drawing code that draws one kind otherwise: its sum in the reference set is another."""
+    """A changed checksum in the reference set stands for drawing code that draws one kind of file differently."""
     known = json.loads((tree.reference / SUMS).read_text())
     known["fig10_04"][kind] = "0" * 64
     (tree.reference / SUMS).write_text(json.dumps(known))
@@ -105,12 +105,12 @@ def test_one_pixel_of_the_published_picture_is_noticed(tree):
 
 
 def test_other_versions_that_draw_the_same_are_comparable(tree, monkeypatch):
-    """As other versions of NumPy, which the reference set does not even name."""
+    """Versions of other libraries, such as NumPy, are not recorded in the reference set."""
     known = json.loads((tree.reference / SUMS).read_text())
     assert set(known["fig10_04"]["drawn with"]) == {"matplotlib", "freetype"}
     elsewhere(monkeypatch)
     assert tree.verdict("fig10_04")["status"] == "passed"
-    shift(tree, 5e-10)  # the reference's table is drawn, since the new one is another
+    shift(tree, 5e-10)  # the tables differ now, so that the table of the reference is redrawn
     assert tree.verdict("fig10_04")["status"] == "passed"
 
 
@@ -135,7 +135,7 @@ def elsewhere(monkeypatch):
 
 
 def shift(tree, by):
-    """Move the manifold, and draw it so."""
+    """Move the manifold of figure 10.4 in the build, and redraw the picture."""
     path = tree.results / "fig10_04.csv"
     table = tables.read(path)
     tables.write(table.assign(B=table["B"] + by), path)
@@ -155,7 +155,7 @@ def paint(path):
 
 
 def label(path):
-    """Another letter: the words of a picture are outlines."""
+    """Replace a letter in an SVG, where text consists of outlines."""
     text = path.read_text()
     first, *_, last = re.findall(r'(#STIXGeneral-[\w-]+)"/>', text)
     assert first != last
@@ -167,7 +167,7 @@ def move_outline(path):
 
 
 def dashes(path):
-    """In the page's stream: dashed lines made solid."""
+    """Make dashed lines solid in the content stream of a PDF."""
     content = path.read_bytes()
     for stream in re.findall(rb"stream\n(x.*?)\nendstream", content, re.DOTALL):
         solid = re.sub(rb"\[[\d. ]+\] ?[\d.]+ d", b"[] 0 d", zlib.decompress(stream))
@@ -177,7 +177,7 @@ def dashes(path):
 
 
 def dot(path):
-    """A later version of the page's object, as editors append it."""
+    """Append another content object to a PDF, as editors do."""
     more = b"\n99 0 obj\n<< /Length 12 >>\nstream\n0 0 1 1 re f\nendstream\nendobj"
     path.write_bytes(path.read_bytes().replace(b"\nxref", more + b"\nxref"))
 
@@ -252,7 +252,7 @@ def test_a_second_table_is_compared_too(tree):
 
 
 def print_points(tree, above=0.0, **columns):
-    """Three points between the rows of figure 10.4: two of the manifold, (10.16), one on or above B_min, (10.25)."""
+    """Write three points between rows of figure 10.4: two on the manifold (10.16), one at or above B_min (10.25)."""
     rho = 2 * (1 - 0.65) / (np.pi * (1 + 0.65))
     C, series = np.array([0.5512, 1.1313, 1.5151]), ["SIM unstable", "SIM stable", "B_min"]
     B = np.append(np.sqrt(1 - 2 * C + (1 + rho**2) * C**2)[:2], rho / np.sqrt(1 + rho**2) + above)
@@ -307,7 +307,7 @@ def test_a_blank_picture_fails_though_its_reference_is_blank(tree, monkeypatch):
     assert "picture: blank" in tree.verdict("fig10_02")["reasons"]
 
 
-# What is said
+# Messages
 
 
 def test_figures_of_the_reference_that_are_not_made_fail_and_the_worst_comes_first(tree):

@@ -1,4 +1,4 @@
-"""What of a vector picture counts."""
+"""Test which parts of a vector picture affect its checksum."""
 
 import pytest
 

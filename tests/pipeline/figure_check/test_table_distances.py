@@ -1,4 +1,4 @@
-"""How far tables are apart: each measure on numbers whose distance is known, and the published tables, changed."""
+"""Test distances between tables: each measure on numbers with a known distance, and changed published tables."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ BOTH = {"absolute": 0.5, "relative": 0.1}
 
 @pytest.fixture
 def apart(monkeypatch):
-    """apart(measure, old, new, limit): distance of a column between tables of one series."""
+    """Return a function apart(measure, old, new, limit), the distance of a column between tables with one series."""
 
     def apart(measure, old, new, limit=1.0):
         monkeypatch.setitem(KINDS, "kind", {"limits": {measure: limit}})
@@ -49,7 +49,7 @@ def test_classes_are_compared_by_the_rows_that_differ_and_by_the_balance_of_thes
     old, few = np.repeat(["one", "two"], [900, 100]), np.repeat(["one", "two"], [930, 70])
     assert apart("balance", old, few) == pytest.approx(30 / np.sqrt(30))
     assert apart("rows", old, few) == pytest.approx(0.03)
-    elsewhere = np.concatenate([old[-100:], old[:-100]])  # as many of each class
+    elsewhere = np.concatenate([old[-100:], old[:-100]])  # moved rows, with equal numbers in each class
     assert (apart("balance", old, elsewhere), apart("rows", old, elsewhere)) == (0, pytest.approx(0.2))
     counts, more = np.full(50, 2.0), np.repeat([2.0, 3.0], [44, 6])
     assert apart("balance", counts, more) == pytest.approx(np.sqrt(6))
@@ -57,7 +57,7 @@ def test_classes_are_compared_by_the_rows_that_differ_and_by_the_balance_of_thes
 
 
 def test_a_balance_is_as_rare_as_the_same_tosses_of_a_coin(apart):
-    """60 rows move, 45 of them up: the exact binomial test against the normal one."""
+    """60 rows move, 45 of them up: compare the exact binomial test with the normal approximation."""
     new = np.repeat([0.0, 1.0, 2.0], [15, 40, 45])
     exact = binomtest(45, 60).pvalue
     assert 2 * norm.sf(apart("balance", np.ones(100), new)) == pytest.approx(exact, rel=0.3)
@@ -74,7 +74,7 @@ def test_a_class_that_vanishes_is_never_near_unless_it_is_scarce(apart, number):
 
 
 def test_a_shift_of_one_series_and_of_many_short_ones(monkeypatch):
-    """Each series has a balance of its own; the middle is that of all rows of a kind."""
+    """The balance is taken for each series, the middle over all rows of a kind."""
     old = join([curve("a", str(number), value=np.arange(1.0, 2.0 + 30 * (number == 0))) for number in range(40)])
     monkeypatch.setitem(KINDS, "kind", {"limits": {"middle": 0.02, "balance": 4}})
     for series, measure in ([old["series"] == "0"], "balance"), ([old["series"] != "0"], "middle"):

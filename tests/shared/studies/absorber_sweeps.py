@@ -1,4 +1,4 @@
-"""Small sweeps of the balls, as companion_response and companion_absorber take them."""
+"""Small sweeps with balls, in the form that companion_response and companion_absorber need."""
 
 import pandas as pd
 
@@ -11,7 +11,7 @@ FORCES = ["f10_hat", "f20_hat"]
 
 
 def tables_of(system, observation):
-    """The sweeps frequency_response (as "response"), clearance and design, two starts each."""
+    """Return the sweeps frequency_response (as "response"), clearance and design, each with two starts."""
     runs = {"starts": 2, "seed": 1, "cycles": 60, "settle": 40, "observation": observation}
     observed, detunings = ("amplitudes", "envelopes", "energy", "regimes"), axis(["sigma_e_hat"], (-1.0, 1.0), 5)
     peaks = Spec(("peaks",), band=BAND, **runs)

@@ -1,4 +1,4 @@
-"""The config of the studies, and edits of both files."""
+"""Config of the studies, and edited copies of both config files."""
 
 from pathlib import Path
 
@@ -34,5 +34,5 @@ UNUSUAL = [
 
 
 def edited(edits: str) -> dict:
-    """The good config after edits; MINE stands for a sound sweep of that name."""
+    """Return the valid config after edits; MINE stands for a valid sweep of this name."""
     return configs.edited(edits.replace("MINE", MINE))

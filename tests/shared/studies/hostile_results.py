@@ -1,4 +1,4 @@
-"""A config and results that are full of hostile texts."""
+"""Config and results with hostile texts."""
 
 import copy
 import json
@@ -23,7 +23,7 @@ PICTURE = '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"><rec
 
 
 def config() -> dict:
-    """A config with texts that its check would refuse."""
+    """Return a config with texts that validation would refuse."""
     made = copy.deepcopy(GOOD)
     made["cases"] = {HOSTILE: made["cases"]["weak"], "equal": made["cases"]["equal"]}
     made["figures"] = {
@@ -37,7 +37,7 @@ def config() -> dict:
 
 
 def results(folder: Path) -> Path:
-    """Results in which every text is hostile."""
+    """Write results in which every text is hostile, and return their folder."""
     numbers = {"C1": 1.0, "C2": 1.1, "B1": 0.1, "B2": 0.2, "psi1": 0.3, "psi2": 0.4}
     point = {"label": HOSTILE, "track": 1, "C": [1.0, 1.1], "B": [0.1, 0.2], "verdicts": {"slow": HOSTILE}}
     orbit = {"track": 1, "C": [1.0, 1.1], "exact": HOSTILE, "multipliers": [[2.0, 0.0], [0.5, 0.1]]}

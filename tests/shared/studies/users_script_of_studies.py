@@ -1,4 +1,4 @@
-"""A user's script with the public names of the studies, which a strict type checker accepts."""
+"""A user's script that calls the public names of the studies and passes a strict type checker."""
 
 import vibroimpact as vi
 from vibroimpact.system.chapter import CASES, PARAMETERS
