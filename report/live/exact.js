@@ -46,7 +46,7 @@ const VibroImpact = (() => {
     return found;
   }
 
-  // Find the first time in (0, T] at which an initially positive polynomial becomes negative; Infinity if there is none.
+  // Find the first time in (0, T] at which an initially positive polynomial becomes negative, or return Infinity.
   function firstFall(c, T) {
     if (hasNoZero(c, T) && c[0] > 0) return Infinity;
     let before = 0;

@@ -91,6 +91,6 @@ def test_a_simulated_window_is_evenly_spaced_and_its_events_are_at_the_walls(bui
     for event in events.to_dict("records"):
         module = event["module"]
         assert event[f"X{module}"] - event[f"Y{module}"] == pytest.approx(event["wall"], abs=1e-12)
-        assert (event[f"dX{module}"] - event[f"dY{module}"]) * event["wall"] < 0  # away from it, after an impact
+        assert (event[f"dX{module}"] - event[f"dY{module}"]) * event["wall"] < 0  # the ball moves away from the wall
     assert events["tau"].is_monotonic_increasing
     assert len(events) == sum(count for kinds in summary["events"].values() for count in kinds.values())

@@ -110,7 +110,7 @@ class Observer(FlightsByHand):
                 yield 1 - abs(w), i, times[place : place + 2]
 
     def _gap(self, i, around, length, state, tau, stuck):
-        """Return the gap at the turn of module i between two times; None if the flight ends before the turn."""
+        """Return the gap at the turn of module i between two times; None if the flight ends before."""
         rate, z = self.rate(stuck), self.lifted(state, tau)
         t = brentq(lambda t: (expm(rate * t) @ z)[2 + i] - state[2 * i + 5], *around, xtol=1e-11)
         if t >= length:
@@ -123,7 +123,7 @@ class Observer(FlightsByHand):
 
 @dataclass(frozen=True)
 class Attack:
-    """A start, shape (8,), at tau0, whose run of one forcing cycle starts or ends next to an event, or nearly grazes."""
+    """A start, shape (8,), at tau0, whose run of one forcing cycle starts, ends or turns next to an event."""
 
     kind: str
     system: vi.System

@@ -1,4 +1,4 @@
-"""Test a whole build and check for a config with your own cases and figures, which are told from the chapter's."""
+"""Test build and figure check for a config with your own cases and figures, which differ from the chapter's."""
 
 import pytest
 

@@ -25,7 +25,7 @@ class Section(BaseModel):
 
 
 def refuse(problems: Iterable[tuple[Place, str]]) -> None:
-    """Raise Pydantic's ValidationError for problems (key path, message); do nothing if there are none."""
+    """Raise Pydantic's ValidationError if `problems`, an iterable of (key path, message), is not empty."""
     kinds = [(place, PydanticCustomError("condition", "{what}", {"what": what})) for place, what in problems]
     if errors := [InitErrorDetails(type=kind, loc=place, input=None) for place, kind in kinds]:
         raise ValidationError.from_exception_data("config", errors)
