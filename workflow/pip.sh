@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Run pip of .venv, or uv if the first argument is `uv`. From the user's settings, only the network and the sources of packages
-# are used: `user` or `target` would install elsewhere, and `constraint` or `only-binary` would reject locked packages.
+# Run pip of .venv, or uv if the first argument is `uv`. Only user settings for the network and the sources of packages
+# apply: `user` or `target` would install elsewhere, and `constraint` or `only-binary` would reject locked packages.
 set -euo pipefail
 unset CDPATH
 cd -P -- "$(dirname -- "$0")/.."

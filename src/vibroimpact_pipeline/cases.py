@@ -9,12 +9,12 @@ COLLECTIONS = ("accuracy.problems", "report.animations", "sweeps")
 
 
 def with_cases(config: dict) -> dict:
-    """Return a copy of a config in which every entry that needs a case names one.
+    """Return a copy of a config in which every entry that needs a case names its case.
 
     An entry without a case gets `default_case`, or the first case if the config sets no default. The chapter's figures
-    must name their case. If a case of the chapter is missing, the figures, animations and `regimes.epsilon.mixed` are
-    removed if they name that case; all other entries that name the missing case get the default case. Malformed
-    entries are left unchanged; validation reports them.
+    must name their case. If a case of the chapter is missing, all figures and animations of this case are removed, and
+    so is `regimes.epsilon.mixed`; other entries that name the missing case get the default case. Malformed entries
+    are left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")

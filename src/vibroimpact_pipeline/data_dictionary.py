@@ -87,7 +87,7 @@ def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
 
 
 def _section(file):
-    """Yield the parts of the section of a file: heading, paths and description, shared columns, other columns, keys."""
+    """Yield the parts of a section on a file: heading, paths and description, shared columns, other columns, keys."""
     on_demand = {path: f" (made by `{command}`)" for path, command in file.on_demand.items()}
     places = [f"`{path}`{on_demand.get(path, '')}" for path in file.paths]
     common = [f"`{name}`" for name in file.columns if name not in file.specific]

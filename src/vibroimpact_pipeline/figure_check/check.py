@@ -34,7 +34,7 @@ def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
 
 
 def reference_sums(reference) -> dict[str, dict]:
-    """Return the checksums of the pictures in a reference set, by figure."""
+    """Return, for each figure in a reference set, the checksums of its pictures and the library versions."""
     path = Path(reference) / SUMS
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
 
@@ -101,7 +101,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
 
 
 def _compare_tables(verdict, spec, reference, build) -> tuple[dict, dict]:
-    """Add the differences of all tables to a verdict; return the tables in the reference set and those in the build."""
+    """Add the differences between all tables to a verdict; return the reference tables and the tables in the build."""
     old, new = {}, {}
     for name, (file, path) in verdict["files"].items():
         with _errors_as_reasons(verdict["reasons"], f"{file}: unreadable"):

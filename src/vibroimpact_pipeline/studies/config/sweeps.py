@@ -97,11 +97,11 @@ class Sweep(Section):
             yield ("settle",), f"{self.settle} should be less than cycles"
 
     def corners(self) -> list[dict[str, float]]:
-        """Return the parameters at the corners of the grid; if these are within interval limits, all points are."""
+        """Return the parameters at the corners of the grid, where it suffices to check lower and upper limits."""
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):
-        """Yield an error for each companion figure that cannot draw the sweep `name`, although its SPEC requires it."""
+        """Yield errors if companion figures, which draw the sweep `name` by their SPEC, cannot draw this sweep."""
         for figure, spec in specs().items():
             if drawn := spec.get("sweeps", {}).get(name):
                 even = all(axis.range and axis.scale != "logarithmic" for axis in self.axes)
