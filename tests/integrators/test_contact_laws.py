@@ -9,7 +9,7 @@ from vibroimpact.integrators.contact_laws import (
     HUNT_CROSSLEY,
     SPRING,
     damping_of,
-    fading,
+    damping_speed_exponent,
     hunt_crossley_number,
     power_law,
     stiffness_of,
@@ -55,7 +55,7 @@ def test_restitution_is_kappa_at_every_speed(name, kappa):
     stiffness = stiffness_in(law, kappa)
     damping = damping_of(law, MASS, kappa, stiffness)
     for speed in (0.5, 1.0, 2.0):
-        found = contact(law, stiffness, damping * speed ** -fading(law), speed)[0]
+        found = contact(law, stiffness, damping * speed ** -damping_speed_exponent(law), speed)[0]
         assert found == pytest.approx(kappa, rel=1e-6)
 
 

@@ -8,13 +8,13 @@ from vibroimpact.accuracy.work_precision import measure as work_precision
 
 DIGITS = 40
 OURS = "this engine"
-SHOWN = "method", "setting", "us_per_impact", "error_state", "error_time", "missed", "spurious", "reason"
+COLUMNS = "method", "setting", "us_per_impact", "error_state", "error_time", "missed", "spurious", "reason"
 
 
 def measure(problem: Problem, methods, seconds: float) -> list[dict]:
     """Measure every setting of each method on one motion, and return one row per setting.
 
-    Columns: those of SHOWN, and ratio, the time per impact relative to the fastest setting of this engine.
+    Columns: those of COLUMNS, and ratio, the time per impact relative to the fastest setting of this engine.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
     rows = [row for row in work_precision(problem, methods, seconds) if row["outcome"] != "unavailable"]
     rows = [{**row, "us_per_impact": 1e6 * row["seconds_per_cycle"] * problem.cycles / impacts} for row in rows]
     ours = min(row["us_per_impact"] for row in rows if row["method"] == OURS)
-    return [{**{name: row[name] for name in SHOWN}, "ratio": row["us_per_impact"] / ours} for row in rows]
+    return [{**{name: row[name] for name in COLUMNS}, "ratio": row["us_per_impact"] / ours} for row in rows]
 
 
 def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:

@@ -121,7 +121,7 @@ def _timed(scene, long_run, seconds):
     impacts, systems, states = _impacts(scene), *scene.runs(SAMPLE)
     short = Scene(systems, states, SHORT)
     few = _impacts(short)
-    works = {
+    functions = {
         "one long run": (long_run, long_run()),
         "final": (partial(ensemble, *scene, settle=scene.cycles), impacts),
         "observed": (partial(ensemble, *scene), impacts),
@@ -133,11 +133,11 @@ def _timed(scene, long_run, seconds):
         count = _impacts(Scene(systems, states, SHORT))
         for tolerance in TOLERANCES:
             batch = HeyokaBatch(tolerance)
-            works[f"heyoka {tolerance:g}"] = partial(batch.run, systems, states.T, SHORT), count
-    for work, _ in works.values():
+            functions[f"heyoka {tolerance:g}"] = partial(batch.run, systems, states.T, SHORT), count
+    for work, _ in functions.values():
         work()
-    times = interleaved([work for work, _ in works.values()], seconds)
-    found = {name: 1e9 * time / count for (name, (_, count)), (_, time) in zip(works.items(), times, strict=True)}
+    times = interleaved([work for work, _ in functions.values()], seconds)
+    found = {name: 1e9 * time / count for (name, (_, count)), (_, time) in zip(functions.items(), times, strict=True)}
     unit = found["one long run"]
     return found | {"final / long run": found["final"] / unit, "observed / long run": found["observed"] / unit}
 

@@ -7,18 +7,18 @@ from importlib.metadata import PackageNotFoundError, version
 PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
 
 
-def interleaved(works, seconds: float, most: int = 5000) -> list[tuple]:
+def interleaved(functions, seconds: float, most: int = 5000) -> list[tuple]:
     """Call several functions repeatedly, in turn, so that a disturbance of the machine affects all of them.
 
     Each function is called as often as fits in `seconds`, at least once and at most `most` times. One-time work (such
     as compilation) must be done by an earlier call. Return, for each function, its result and its shortest time [s].
     """
-    given, best = [None] * len(works), [float("inf")] * len(works)
-    total, calls, left = [0.0] * len(works), [0] * len(works), list(range(len(works)))
+    given, best = [None] * len(functions), [float("inf")] * len(functions)
+    total, calls, left = [0.0] * len(functions), [0] * len(functions), list(range(len(functions)))
     while left:
         for n in left:
             start = time.perf_counter()
-            given[n] = works[n]()
+            given[n] = functions[n]()
             elapsed = time.perf_counter() - start
             best[n], total[n], calls[n] = min(best[n], elapsed), total[n] + elapsed, calls[n] + 1
         left = [n for n in left if total[n] < seconds and calls[n] < most]

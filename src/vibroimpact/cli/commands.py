@@ -31,7 +31,7 @@ MACHINE = {
 }
 """Options of a machine: the arguments of PhysicalSystem.single that have no default."""
 PICTURES = (".png", ".pdf", ".svg")
-MASSES = 4
+MASS_STEPS = 4
 """Number of steps from the smallest to the largest mass of the ball."""
 _MOST_SAMPLES = 10_000_000
 _SIDES = ("1_plus", "1_minus", "2_plus", "2_minus")
@@ -179,7 +179,7 @@ def _design(options):
     least, most = options.m[0], options.m[-1]
     if len(options.m) > 1 and not 0 <= least < most:
         raise ValueError(f"m: {least:g}..{most:g}; needs 0 <= A < B [kg]")
-    masses = None if len(options.m) == 1 else [m for m in np.linspace(least, most, MASSES + 1) if m > 0]
+    masses = None if len(options.m) == 1 else [m for m in np.linspace(least, most, MASS_STEPS + 1) if m > 0]
     machine = PhysicalSystem.single(**{name: getattr(options, name) for name in MACHINE} | {"m": most})
     choices = {"restitutions": options.restitution} if options.restitution else {}
     found = vibroimpact.design(machine, (low, high), options.clearance, masses=masses, **choices)

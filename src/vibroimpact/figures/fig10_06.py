@@ -54,7 +54,7 @@ NAME = {"fontsize": 10, "color": BLACK}
 ZOOM = {"xlim": (0.85, 1.25), "ylim": (0.0, 0.34)}
 """Part of a plane around the fold; if it contains several points, it is drawn enlarged in INSET."""
 INSET = (0.13, 0.5, 0.44, 0.46)
-ROW_HEIGHT, ENDS = 38.0, 11.0
+ROW_HEIGHT, MARGINS = 38.0, 11.0
 """Height in mm of one row of planes, and of all headings and labels together."""
 MARKERS = {
     "S": {"marker": "s", "color": "0.3", "markersize": 4.6, "markerfacecolor": "0.75", "markeredgewidth": 0.7},
@@ -122,7 +122,7 @@ def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({}))
         Verdicts of the chapter by label; the headings show the verdicts that differ from (10.26).
     """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
-    figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + ENDS)
+    figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + MARGINS)
     grid = figure.subplots(len(labels), len(MODULES), sharex=True, sharey=True, squeeze=False)
     names = {}
     for row, label in zip(grid, labels, strict=True):

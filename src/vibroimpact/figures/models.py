@@ -59,10 +59,10 @@ its error; for a simulation about the width of a line. In a chaotic window, roun
 more, by 4 % in figure 10.11, so that two processors would draw two figures."""
 COMPARED = 120
 """Largest number of forcing periods over which simulations are compared."""
-LEAST, MOST = 1e-3, 100.0
+ERROR_MIN, ERROR_MAX = 1e-3, 100.0
 """Smallest and largest error [percent] that is drawn to scale."""
-LOWEST, LANE = 1e-4, 3e-4
-"""Lower end of the axis, and place on it for errors below LEAST, such as the error 0 of the reference."""
+AXIS_MIN, LANE_ERROR = 1e-4, 3e-4
+"""Lower end of the axis, and place on it for errors below ERROR_MIN, such as the error 0 of the reference."""
 
 
 def compute(scenes: dict, seconds: float) -> pd.DataFrame:
@@ -179,15 +179,15 @@ def draw(table: pd.DataFrame) -> Figure:
     ends = table["seconds"].min() / 3, table["seconds"].max() * 3
     for axes, scene, letter in zip(grid, scenes, ascii_lowercase * len(scenes), strict=False):
         here = table[table["figure"] == scene]
-        axes.axhspan(LOWEST, LEAST, color=LIGHT_GREY, linewidth=0, zorder=0)
+        axes.axhspan(AXIS_MIN, ERROR_MIN, color=LIGHT_GREY, linewidth=0, zorder=0)
         axes.axhline(here["tolerance"].iloc[0], **LEVEL)
         for row in here.itertuples():
-            place = row.seconds, LANE if row.error < LEAST else min(row.error, MOST)
+            place = row.seconds, LANE_ERROR if row.error < ERROR_MIN else min(row.error, ERROR_MAX)
             axes.plot(*place, color=BLACK, marker="o", markersize=5, markerfacecolor=BLACK if row.in_use else "white")
             left = row.seconds > np.sqrt(ends[0] * ends[1])
             aside = {"xytext": (-5, -2), "ha": "right"} if left else {"xytext": (5, -2)}
             axes.annotate(row.model.replace("_", " "), place, textcoords="offset points", va="center", **aside)
-        axes.set(xscale="log", yscale="log", xlim=ends, ylim=(LOWEST, 1.5 * MOST))
+        axes.set(xscale="log", yscale="log", xlim=ends, ylim=(AXIS_MIN, 1.5 * ERROR_MAX))
         axes.set_yticks(10.0 ** np.arange(-3, 3), ["0.001", "0.01", "0.1", "1", "10", "100"])
         axes.minorticks_off()
         heading(axes, letter, _name(scene))

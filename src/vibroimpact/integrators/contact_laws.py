@@ -70,7 +70,7 @@ def damping_of(law: Law, mass: float, kappa: float, stiffness: float) -> float:
     return damping_ratio(kappa) * math.sqrt(2.0 * (law.stiffness + 1.0) * stiffness * mass)
 
 
-def fading(law: Law) -> float:
+def damping_speed_exponent(law: Law) -> float:
     """Return the power of 1 / V to which D must be proportional for the same kappa at every speed V."""
     return (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
 

@@ -82,34 +82,34 @@ def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
 
 
 @disk_cached(error_model="numpy")
-def _rates(tau, z, q, k, boxes, ways, d):
-    """Write the derivative of the unfolded coordinates into d, for given boxes and signs of v (`ways`).
+def _rates(tau, z, q, k, boxes, signs, d):
+    """Write the derivative of the unfolded coordinates into d, for given boxes and signs of v (`signs`).
 
     The formula is smooth even where the actual boxes and signs at z differ from the given ones.
     """
     share, s = q[9] / (1.0 + q[9]), np.empty(8)
     for i in range(2):
         sign, p, v = 1.0 - 2.0 * (boxes[i] % 2), z[4 * i] - 2.0 * boxes[i], z[4 * i + 1]
-        d[4 * i] = (1.0 + k * ways[i] * p) * v
+        d[4 * i] = (1.0 + k * signs[i] * p) * v
         s[2 * i], s[2 * i + 4] = z[4 * i + 2] + share * sign * p, z[4 * i + 3] + share * sign * d[4 * i]
     a = accelerations(math.sin(q[8] * tau), s, q, (0.0, 0.0))
     for i in range(2):
         sign, p, v = 1.0 - 2.0 * (boxes[i] % 2), z[4 * i] - 2.0 * boxes[i], z[4 * i + 1]
-        d[4 * i + 1] = sign * a[i] / (1.0 + k * ways[i] * p) - k * ways[i] * v * v
+        d[4 * i + 1] = sign * a[i] / (1.0 + k * signs[i] * p) - k * signs[i] * v * v
         d[4 * i + 2], d[4 * i + 3] = z[4 * i + 3], a[i] / (1.0 + q[9])
 
 
 @disk_cached()
-def _step(tau, z, h, q, k, boxes, ways, looking):
+def _step(tau, z, h, q, k, boxes, signs, locate):
     """Return the coordinates after a step of length h.
 
-    If `looking` is True, each stage uses the boxes and signs at its own position instead of the given ones.
+    If `locate` is True, each stage uses the boxes and signs at its own position instead of the given ones.
     """
     rates, ahead, at = np.empty(8), z.copy(), z.copy()
     for stage in range(4):
-        if looking:
-            _look(at, boxes, ways)
-        _rates(tau + (0.0, 0.5, 0.5, 1.0)[stage] * h, at, q, k, boxes, ways, rates)
+        if locate:
+            _locate(at, boxes, signs)
+        _rates(tau + (0.0, 0.5, 0.5, 1.0)[stage] * h, at, q, k, boxes, signs, rates)
         for c in range(8):
             ahead[c] += (1.0, 2.0, 2.0, 1.0)[stage] * h / 6.0 * rates[c]
             at[c] = z[c] + (0.5, 0.5, 1.0, 0.0)[stage] * h * rates[c]
@@ -117,15 +117,15 @@ def _step(tau, z, h, q, k, boxes, ways, looking):
 
 
 @disk_cached()
-def _look(z, boxes, ways):
-    """Write the box of each ball into `boxes`, and the sign of each v into `ways`.
+def _locate(z, boxes, signs):
+    """Write the box of each ball into `boxes`, and the sign of each v into `signs`.
 
     A ball on a wall belongs to the box that it enters.
     """
     for i in range(2):
-        ways[i] = 1.0 if z[4 * i + 1] >= 0.0 else -1.0
-        there = 0.5 * (z[4 * i] + ways[i])
-        boxes[i] = math.floor(there) if ways[i] > 0.0 else math.ceil(there)
+        signs[i] = 1.0 if z[4 * i + 1] >= 0.0 else -1.0
+        there = 0.5 * (z[4 * i] + signs[i])
+        boxes[i] = math.floor(there) if signs[i] > 0.0 else math.ceil(there)
 
 
 @disk_cached()
@@ -141,10 +141,10 @@ def _march_across_jumps(q, k, z, tau0, h, count):
     Return coordinates and boxes at the end, impacts, number of steps, and nan (see `_march_to_jumps`).
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
-    before, boxes, ways = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
+    before, boxes, signs = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
     for n in range(count):
-        ahead = _step(tau0 + n * h, z, h, q, k, boxes, ways, True)
-        _look(ahead, boxes, ways)
+        ahead = _step(tau0 + n * h, z, h, q, k, boxes, signs, True)
+        _locate(ahead, boxes, signs)
         for i in range(2):
             if boxes[i] != before[i]:
                 wall = before[i] + boxes[i]  # value of s at the wall
@@ -162,23 +162,23 @@ def _march_to_jumps(q, k, z, tau0, h, count):
     Return coordinates and boxes at the end, impacts, number of steps, and the time of an endless chatter, or nan.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
-    boxes, ways, idle, steps = np.zeros(2, np.int64), np.ones(2), 0, 0
+    boxes, signs, idle, steps = np.zeros(2, np.int64), np.ones(2), 0, 0
     for i in range(2):
-        ways[i] = 1.0 if z[4 * i + 1] >= 0.0 else -1.0
+        signs[i] = 1.0 if z[4 * i + 1] >= 0.0 else -1.0
     for n in range(count):
         done = 0.0
         while done < 1.0:
             tau, part = tau0 + (n + done) * h, 1.0 - done
-            ahead, steps = _step(tau, z, part * h, q, k, boxes, ways, False), steps + 1
-            if _beyond(ahead, boxes, ways):
-                part, ahead = _first_jump(tau, z, part, h, q, k, boxes, ways)
+            ahead, steps = _step(tau, z, part * h, q, k, boxes, signs, False), steps + 1
+            if _beyond(ahead, boxes, signs):
+                part, ahead = _first_jump(tau, z, part, h, q, k, boxes, signs)
                 for i in range(2):
-                    to_wall, speed = _ahead_of(ahead, i, boxes, ways)
+                    to_wall, speed = _ahead_of(ahead, i, boxes, signs)
                     if to_wall < 0.0:
-                        rows.append(_impact(tau + part * h, i, boxes[i], ways[i], ahead[4 * i + 1], k))
-                        ahead[4 * i], boxes[i] = 2 * boxes[i] + ways[i], boxes[i] + int(ways[i])
+                        rows.append(_impact(tau + part * h, i, boxes[i], signs[i], ahead[4 * i + 1], k))
+                        ahead[4 * i], boxes[i] = 2 * boxes[i] + signs[i], boxes[i] + int(signs[i])
                     elif speed < 0.0:
-                        ahead[4 * i + 1], ways[i] = 0.0, -ways[i]
+                        ahead[4 * i + 1], signs[i] = 0.0, -signs[i]
                 idle = idle + 1 if part * h < SHORTEST else 0
                 if idle > PATIENCE:
                     return ahead, boxes, rows, steps, tau
@@ -187,13 +187,13 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 
 @disk_cached()
-def _first_jump(tau, z, part, h, q, k, boxes, ways):
+def _first_jump(tau, z, part, h, q, k, boxes, signs):
     """Bisect a step that ends beyond a jump; return the shortest fraction that still does, and the end coordinates."""
-    least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, ways, False)
+    least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, signs, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)
-        there = _step(tau, z, half * h, q, k, boxes, ways, False)
-        if _beyond(there, boxes, ways):
+        there = _step(tau, z, half * h, q, k, boxes, signs, False)
+        if _beyond(there, boxes, signs):
             part, ahead = half, there
         else:
             least = half
@@ -201,22 +201,22 @@ def _first_jump(tau, z, part, h, q, k, boxes, ways):
 
 
 @disk_cached()
-def _beyond(z, boxes, ways):
+def _beyond(z, boxes, signs):
     """Return True if the coordinates are beyond a jump of the right-hand side, or are not finite.
 
     Coordinates that are not finite result from a step so long that R vanishes.
     """
     within = True
     for i in range(2):
-        to_wall, speed = _ahead_of(z, i, boxes, ways)
+        to_wall, speed = _ahead_of(z, i, boxes, signs)
         within = within and to_wall >= 0.0 and speed >= 0.0
     return not within
 
 
 @disk_cached()
-def _ahead_of(z, i, boxes, ways):
+def _ahead_of(z, i, boxes, signs):
     """Return the distance to the next wall, and |v|; beyond a jump one of them is negative."""
-    return 1.0 - ways[i] * (z[4 * i] - 2.0 * boxes[i]), ways[i] * z[4 * i + 1]
+    return 1.0 - signs[i] * (z[4 * i] - 2.0 * boxes[i]), signs[i] * z[4 * i + 1]
 
 
 def variants() -> list[Ivanov]:

@@ -13,10 +13,10 @@ from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import coefficients, inlined, inlined_source
 from vibroimpact.integrators.rigid_contact import (
-    ROOM,
+    INITIAL_ROWS,
     SLOWEST,
     acceleration,
-    first_look,
+    first_sample_time,
     guard,
     newton_or_middle,
     resolve,
@@ -25,14 +25,14 @@ from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 
 WORST = 1e8
 """Condition number of the eigenvectors at which the modes have lost half of their digits."""
-TRIES, NEAR = 60, 3e-8
+TRIES, LAST_STEP = 60, 3e-8
 """Largest number of Newton steps for an event, and the step length [tau] that ends them: its square is negligible."""
 
 
 class Modal(Method):
     """Sampling of the modal solution; the setting is the number of samples of the gaps per cycle."""
 
-    name, family, knob = "modal scan", "exact flow", "looks per cycle"
+    name, family, knob = "modal scan", "exact flow", "samples per cycle"
     settings = (8, 16, 32, 64, 128, 256)
     careful = 256
     limit = 10_000_000
@@ -42,10 +42,10 @@ class Modal(Method):
         if not condition < WORST:
             return failed(REFUSED, f"the boxes' eigenvectors have condition number {condition:.1g}", 0)
         start, end, step = np.array(state, dtype=float), tau0 + cycles * system.period, system.period / setting
-        final, rows, looks, tau = _march(coefficients(system), tables, start, tau0, end, step, limit or self.limit)
+        final, rows, samples, tau = _march(coefficients(system), tables, start, tau0, end, step, limit or self.limit)
         if tau < end:
-            return failed(UNFINISHED, f"{looks} looks reach tau = {tau:.6g}", looks, noted=rows)
-        return MethodRun(final, rows, looks)
+            return failed(UNFINISHED, f"{samples} samples reach tau = {tau:.6g}", samples, noted=rows)
+        return MethodRun(final, rows, samples)
 
 
 @lru_cache(maxsize=64)
@@ -149,19 +149,19 @@ def _march(q, tables, s, tau, end, step, limit):
     memory = np.empty((3, 2, 5)), np.empty((3, 8)), np.empty(8)
     for m in range(4):
         _turn(all_rates[m], counts[m], step, ahead[m])
-    rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0, SLOWEST)
-    looks = 0
-    while tau < end and looks < limit:
+    rows, noted = resolve(tau, s, q, walls, -1, np.empty((INITIAL_ROWS, 4)), 0, SLOWEST)
+    samples = 0
+    while tau < end and samples < limit:
         m = (1 if walls[0] != 0.0 else 0) + (2 if walls[1] != 0.0 else 0)
         _amplitudes(s, tau, q[8], counts[m], inverses[m], all_shapes[m], amplitudes)
         flight = s, walls, counts[m], all_shapes[m], all_rates[m], amplitudes
-        due, t, taken = _fly(q, flight, tau, end - tau, (step, ahead[m]), limit - looks, memory)
-        looks += taken
+        due, t, taken = _fly(q, flight, tau, end - tau, (step, ahead[m]), limit - samples, memory)
+        samples += taken
         s[:] = memory[2]
         tau = end if due < 0 and t >= end - tau else tau + t
         if due >= 0:
             rows, noted = resolve(tau, s, q, walls, due, rows, noted, SLOWEST)
-    return s, rows[:noted], looks, tau
+    return s, rows[:noted], samples, tau
 
 
 @inlined_source()
@@ -173,10 +173,10 @@ def _fly(q, flight, tau, length, stride, most, memory):
     """
     (s, walls, count, shape, rates, amplitudes), (step, ahead), (modes, states, reached) = flight, stride, memory
     (now, trial, turns), (before, there, event) = modes, states
-    low, high, due, first, regular, looks = 0.0, first_look(tau, s, q, walls, step), -1, 0.0, False, 0
+    low, high, due, first, regular, samples = 0.0, first_sample_time(tau, s, q, walls, step), -1, 0.0, False, 0
     before[:] = s
     while True:
-        looks += 1
+        samples += 1
         last = high >= length
         if last or not regular:
             high = length if last else high
@@ -192,10 +192,10 @@ def _fly(q, flight, tau, length, stride, most, memory):
                     due, first = i, t
                     reached[:] = event
         if due >= 0:
-            return due, first, looks
-        if last or looks >= most:
+            return due, first, samples
+        if last or samples >= most:
             reached[:] = there
-            return -1, high, looks
+            return -1, high, samples
         low, high, regular = high, high + step, True
         before[:] = there
 
@@ -220,7 +220,7 @@ def _event(q, flight, tau, i, times, states, memory, event):
         if walls[i] == 0.0:
             slope = event[x + 5] - event[x + 4] if event[x] > event[x + 1] else event[x + 4] - event[x + 5]
         moved, t = t, newton_or_middle(t, value, slope, low, high)
-        if abs(t - moved) <= NEAR:
+        if abs(t - moved) <= LAST_STEP:
             break
     for k in range(2):
         box, ball = 4 + 2 * k, 5 + 2 * k

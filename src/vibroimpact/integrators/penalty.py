@@ -16,7 +16,7 @@ from vibroimpact.integrators.contact_laws import (
     SPRING,
     Law,
     damping_of,
-    fading,
+    damping_speed_exponent,
     power_law,
     stiffness_of,
     stiffness_turning_at_the_wall,
@@ -27,7 +27,7 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
 SLOWEST = 1e-3
 """Speed V that sets the damping of slower contacts too, since damping proportional to 1 / V has no limit at V = 0."""
-NOTICED = 0.01
+SLOWEST_COUNTED = 0.01
 """Lowest speed, in the middle of the box, of a ball whose impact is counted, for a spring over the whole box."""
 SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
 HALVINGS = 40  # bisections that make a step end where a contact begins
@@ -86,7 +86,7 @@ class PowerLaw(Penalty):
     def wall(self, system, setting):
         law, mass = power_law(setting), system.epsilon / (1.0 + system.epsilon)
         stiffness = stiffness_turning_at_the_wall(law, mass, system.kappa, self._speed)
-        contact = (NOTICED / self._speed) ** (1.0 / setting)
+        contact = (SLOWEST_COUNTED / self._speed) ** (1.0 / setting)
         return law, (stiffness, damping_of(law, mass, system.kappa, stiffness), contact)
 
     def scale(self, setting, run):
@@ -95,7 +95,9 @@ class PowerLaw(Penalty):
 
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
     """Return [n, m, K, D at speed 1, power of 1 / V in D, |W| at p = 0, |W| at which contact begins]."""
-    return np.array([law.stiffness, law.damping, stiffness, damping, fading(law), float(law.walls), contact])
+    return np.array(
+        [law.stiffness, law.damping, stiffness, damping, damping_speed_exponent(law), float(law.walls), contact]
+    )
 
 
 def variants() -> list[Penalty]:

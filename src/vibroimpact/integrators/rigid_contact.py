@@ -15,7 +15,7 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients,
 
 SLOWEST = 1e-6
 """Lowest rebound speed that is followed. Slower rebounds change the state by epsilon SLOWEST^3, less than rounding."""
-ROOM = 64
+INITIAL_ROWS = 64
 """Initial number of rows for the impacts of a run."""
 
 
@@ -68,7 +68,7 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 
 
 @inlined()
-def first_look(tau, s, q, walls, step):
+def first_sample_time(tau, s, q, walls, step):
     """Return the time from now at which to evaluate the gaps first, so that no short flight is missed.
 
     This time is `step`, or half the expected duration of a flight that begins at a wall now, if that is shorter.

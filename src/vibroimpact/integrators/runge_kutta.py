@@ -10,9 +10,16 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.protocol import UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import coefficients, derivative, inlined
-from vibroimpact.integrators.rigid_contact import ROOM, SLOWEST, first_look, guard, newton_or_middle, resolve
+from vibroimpact.integrators.rigid_contact import (
+    INITIAL_ROWS,
+    SLOWEST,
+    first_sample_time,
+    guard,
+    newton_or_middle,
+    resolve,
+)
 
-TRIES, NEAR = 60, 1e-14
+TRIES, LAST_STEP = 60, 1e-14
 """Largest number of Newton steps for an event, and the step length [tau] that ends them."""
 
 
@@ -61,7 +68,7 @@ def _event(tau, s, q, walls, i, high, slopes, event):
         if walls[i] == 0.0:
             slope = event[x + 5] - event[x + 4] if event[x] > event[x + 1] else event[x + 4] - event[x + 5]
         before, t = t, newton_or_middle(t, value, slope, low, high)
-        if abs(t - before) <= NEAR:
+        if abs(t - before) <= LAST_STEP:
             break
     return before
 
@@ -74,11 +81,11 @@ def _march(q, s, tau, end, step, limit):
     """
     walls, slopes = np.zeros(2), np.empty((4, 8))
     there, event, found = np.empty(8), np.empty(8), np.empty(8)
-    rows, noted = resolve(tau, s, q, walls, -1, np.empty((ROOM, 4)), 0, SLOWEST)
+    rows, noted = resolve(tau, s, q, walls, -1, np.empty((INITIAL_ROWS, 4)), 0, SLOWEST)
     steps = 0
     while tau < end and steps < limit:
         steps += 1
-        h = min(first_look(tau, s, q, walls, step), end - tau)
+        h = min(first_sample_time(tau, s, q, walls, step), end - tau)
         _step(tau, s, q, walls, h, slopes, there)
         due, first = -1, h
         for i in range(2):

@@ -5,7 +5,7 @@ from scipy.integrate import solve_ivp
 
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun, failed
 from vibroimpact.integrators.right_hand_side import jacobian, rates
-from vibroimpact.integrators.rigid_contact import Contacts, first_look, guard
+from vibroimpact.integrators.rigid_contact import Contacts, first_sample_time, guard
 from vibroimpact.system.state import BALLS, BOXES
 
 ABSOLUTE = 1e-2  # atol / rtol
@@ -35,7 +35,7 @@ class SolveIvp(Method):
             if steps >= limit:
                 return failed(UNFINISHED, f"{limit} steps reach tau = {tau:.6g}", steps, evaluations, contacts.impacts)
             options = {"jac": jacobian(system, [w != 0 for w in contacts.walls])} if self._implicit else {}
-            first = first_look(tau, s, contacts.numbers, contacts.walls, np.inf)
+            first = first_sample_time(tau, s, contacts.numbers, contacts.walls, np.inf)
             if first < end - tau:
                 options["first_step"] = max(first, 1e-14 * (1.0 + abs(tau)))
             try:

@@ -113,7 +113,7 @@ def test_a_single_machine_is_drawn_with_a_module_at_rest(forces, module):
 
 def test_a_single_machine_is_compared_with_its_orbits(monkeypatch):
     """As epsilon falls the orbit nears the fixed point, and the distance is that of the module in company."""
-    monkeypatch.setattr(companion_asymmetric, "RELAXED", (10, 10))
+    monkeypatch.setattr(companion_asymmetric, "RELAXATION_CYCLES", (10, 10))
     system = vi.System(**UNCOUPLED, f10_hat=2.0, f20_hat=0.0)
     tables = companion_epsilon.compute({"single": system}, [0.1, 0.001], 5, 0.02)
     assert tables["orders"]["order"].to_numpy() == pytest.approx([1, 1, 1, 2], abs=0.02)

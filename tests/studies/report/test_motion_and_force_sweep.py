@@ -52,7 +52,7 @@ def test_a_nudged_motion_leaves_with_the_multiplier_and_ends_lopsided():
     )
     assert tables["orbit"].to_numpy().tolist() == [["c", pytest.approx(abs(orbit.multipliers[0]))]]
     growth = np.diff(np.log(tables["distance"]["distance"]))
-    assert tables["distance"]["distance"][0] == pytest.approx(nudge.PUSH, rel=1e-6)
+    assert tables["distance"]["distance"][0] == pytest.approx(nudge.PERTURBATION, rel=1e-6)
     np.testing.assert_allclose(growth[3:11], np.log(2.43617), atol=0.01)
     lengths = tables["flights"]["length"].to_numpy()
     np.testing.assert_allclose(lengths[:12], 0.5, atol=1e-3)
@@ -85,7 +85,7 @@ def test_a_track_moves_without_jumps_and_keeps_to_one_point(swept):
 
 def test_the_asymmetric_orbits_are_followed_to_where_they_lose_their_stability(swept):
     """At 0.817, a Neimark-Sacker bifurcation: there a pair leaves the unit circle. At 1 they are those of a search."""
-    pair = swept["orbits"].query("track == @force_sweep.PAIR")
+    pair = swept["orbits"].query("track == @force_sweep.ASYMMETRIC_TRACK")
     modulus = np.hypot(pair["real"], pair["imag"]).groupby(pair["value"]).max()
     assert modulus.index.tolist() == swept["csv"]["value"].unique().tolist()
     assert ((modulus < 1) == (modulus.index > 0.817)).all()
@@ -99,7 +99,7 @@ def test_the_asymmetric_orbits_are_followed_to_where_they_lose_their_stability(s
 
 
 def test_multipliers_of_the_orbits_of_the_points_decide_on_their_verdict(swept):
-    rows = swept["orbits"].query("track != @force_sweep.PAIR")
+    rows = swept["orbits"].query("track != @force_sweep.ASYMMETRIC_TRACK")
     modulus = np.hypot(rows["real"], rows["imag"]).groupby([rows["value"], rows["track"]]).max()
     verdicts = swept["csv"].set_index(["value", "track"])["exact"]
     assert ((modulus < 1) == (verdicts[modulus.index] == "stable")).all()

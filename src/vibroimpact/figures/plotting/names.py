@@ -10,12 +10,12 @@ STEP, GAP = 4.0, 1.6
 """Distance between places that are tried, and smallest distance from a name to a line or marker, in points."""
 LEADER = 5.0
 """Distance in points between a name and its curve above which a leader line connects them."""
-FAR = 50.0
+CLEAR_DISTANCE = 50.0
 """A name may have a place where its curve is not obvious if no better place is within this distance, in points."""
-APART = 3.0
+LEAD_MARGIN = 3.0
 """Points by which a name without a leader line must be nearer to its own curve than to other named curves."""
 
-UNCLEAR, COVERS = 1, 2
+UNCLEAR, OVERLAPS = 1, 2
 """Defects of a place that is taken for lack of a better one: its curve is not obvious; the name covers something."""
 
 
@@ -73,7 +73,7 @@ class _Names:
         gaps = _gaps(places[:, None], half, own).min(axis=1)
         avoided, found = np.concatenate(list(self.avoided.values())), {}
         for n in np.argsort(gaps.round(3), kind="stable"):
-            if gaps[n] > FAR * self.point and UNCLEAR in found:
+            if gaps[n] > CLEAR_DISTANCE * self.point and UNCLEAR in found:
                 break
             place = places[n]
             end = own[_gaps(place, half, own).argmin(), :2]
@@ -87,10 +87,10 @@ class _Names:
             if led:
                 unclear = _gaps(leader[:, None], self.point, others).min(initial=np.inf) < 0
             else:
-                unclear = _gaps(place, half, others).min(initial=np.inf) < gaps[n] + APART * self.point
+                unclear = _gaps(place, half, others).min(initial=np.inf) < gaps[n] + LEAD_MARGIN * self.point
             if not covers and not unclear:
                 return place, start, end
-            found.setdefault(COVERS if covers else UNCLEAR, (place, start, end))
+            found.setdefault(OVERLAPS if covers else UNCLEAR, (place, start, end))
         return found[min(found)]
 
 

@@ -14,11 +14,11 @@ from vibroimpact.system.arguments import instance, real, whole
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.stored_energy import stored
 
-AT_ONCE = 50
+CYCLES_PER_RUN = 50
 """Number of cycles in each simulation, after which the energy is checked."""
-NEARLY, FINER, REFINED = 1.2, 48, 8
-"""Search for the shortest decay. The range of impulses with decay times up to NEARLY times the shortest is refined by
-the factor FINER; then the REFINED lowest minima are located."""
+SEARCH_FACTOR, SUBDIVISIONS, REFINED_MINIMA = 1.2, 48, 8
+"""Search for the shortest decay: impulses with times up to SEARCH_FACTOR times the shortest are spaced SUBDIVISIONS
+times more closely; then the REFINED_MINIMA lowest minima are located."""
 
 
 def decay_time(system: System, impulse: float, module: int = 1, fraction: float = 0.1, cycles: int = 10_000) -> float:
@@ -64,8 +64,8 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
     if not target > 0:
         raise ValueError(f"impulse: {impulse} gives no energy that could decay")
     cycles = whole("cycles", cycles, 1, 10**6)
-    for done in range(0, cycles, AT_ONCE):
-        run = simulate(free, state, min(AT_ONCE, cycles - done), start)
+    for done in range(0, cycles, CYCLES_PER_RUN):
+        run = simulate(free, state, min(CYCLES_PER_RUN, cycles - done), start)
         flights = run.trajectory[1]
         below = np.flatnonzero(_energies(free, flights[:, AFTER:COLUMNS]) <= target)
         if len(below):
@@ -79,7 +79,7 @@ def quickest_decay(system: System, impulses, times, module: int = 1, fraction: f
     """Return the impulse with the shortest decay to a fraction of the energy, and its decay time.
 
     As a function of the impulse, the decay time jumps where an impact appears or vanishes, and has many minima between
-    the jumps. `FINER` sets the resolution of the search; minima over narrower ranges of impulses are missed.
+    the jumps. `SUBDIVISIONS` sets the resolution of the search; minima over narrower ranges of impulses are missed.
 
     Parameters
     ----------
@@ -100,9 +100,9 @@ def quickest_decay(system: System, impulses, times, module: int = 1, fraction: f
         return decay_time(system, math.exp(logarithm), module, fraction)
 
     places, times = np.log(impulses), np.asarray(times)
-    near = np.flatnonzero(times <= NEARLY * times.min())
+    near = np.flatnonzero(times <= SEARCH_FACTOR * times.min())
     finer = [
-        np.linspace(*places[k : k + 2], FINER, endpoint=False)[1:]
+        np.linspace(*places[k : k + 2], SUBDIVISIONS, endpoint=False)[1:]
         for k in range(max(near[0] - 1, 0), min(near[-1] + 1, len(places) - 1))
     ]
     finer = np.concatenate(finer or [[]])
@@ -113,7 +113,7 @@ def quickest_decay(system: System, impulses, times, module: int = 1, fraction: f
     around = np.concatenate([[np.inf], taken, [np.inf]])
     lowest = np.flatnonzero((taken <= around[:-2]) & (taken <= around[2:]))
     best = taken.min(), tried[taken.argmin()]
-    for k in lowest[np.argsort(taken[lowest], kind="stable")][:REFINED]:
+    for k in lowest[np.argsort(taken[lowest], kind="stable")][:REFINED_MINIMA]:
         ends = tried[max(k - 1, 0)], tried[min(k + 1, len(tried) - 1)]
         found = minimize_scalar(time, bounds=ends, method="bounded", options={"xatol": 1e-7})
         best = min(best, (found.fun, found.x))

@@ -12,8 +12,8 @@ from vibroimpact.system.arguments import pair, real, whole
 
 POINTS = 400
 """Number of frequencies sampled in a band, in addition to natural frequencies; each local maximum is then refined."""
-LONGEST = 40
-"""Exponent of the longest decay time: beyond 2**LONGEST units of tau, the decay time is inf."""
+DECAY_EXPONENT = 40
+"""Exponent of the longest decay time: beyond 2**DECAY_EXPONENT units of tau, the decay time is inf."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +118,7 @@ class Linear:
         return eigvals(self.rate)
 
     def decay_time(self, module: int = 1, fraction: float = 0.1) -> float:
-        """Return the time tau until a fraction of the energy of an impulse is left; inf for a time above 2**LONGEST.
+        """Return the time tau until a fraction of the energy of an impulse is left; inf above 2**DECAY_EXPONENT.
 
         The impulse acts on one box of a system at rest.
 
@@ -136,7 +136,7 @@ class Linear:
         rate, elapsed = self.rate, 0.0
         powers = [expm(rate)]
         while self._energy(powers[-1] @ state) > target:
-            if len(powers) > LONGEST:
+            if len(powers) > DECAY_EXPONENT:
                 return math.inf
             powers.append(powers[-1] @ powers[-1])
         for k, power in reversed(list(enumerate(powers[:-1]))):

@@ -16,7 +16,7 @@ from vibroimpact.exact.lanes.ensemble import STATUSES, ensemble
 from vibroimpact.system import System
 from vibroimpact.system.state import idle_at_rest
 
-PART = 0.99
+QUANTILE = 0.99
 """Fraction of the cycles in which the largest displacement is at most the peak."""
 
 
@@ -35,7 +35,7 @@ class Peak:
 
 
 @dataclass(frozen=True)
-class Cycles:
+class CycleMaxima:
     """Results of runs of m systems, each from n states, cycle by cycle.
 
     largest: largest |X_i| of both boxes in each cycle, (m, n, cycles); nan for unfinished runs. final: final states,
@@ -71,7 +71,7 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
     return Peak(float(heights[at]), standard_error(runs.largest), float(runs.largest.max()), at)
 
 
-def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Cycles:
+def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> CycleMaxima:
     """Run each system from all states (n, 8) and observe single cycles; the arguments are those of `peak`.
 
     An uncoupled module without force (not in `System.modules`) starts at rest.
@@ -88,16 +88,18 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
     largest, final, squares = runs["largest"].max(axis=-1), runs["final"][..., -1, :], runs["mean_square"].sum(axis=-2)
     lost = np.isnan(final).any(axis=-1)
     rms = np.sqrt(np.max(squares[~lost], initial=0.0) / (cycles - settle))
-    return Cycles(largest, final, float(rms), int(np.count_nonzero(lost)))
+    return CycleMaxima(largest, final, float(rms), int(np.count_nonzero(lost)))
 
 
 def peak_of(largest: ArrayLike) -> np.ndarray:
-    """For each system, return the quantile PART of `Cycles.largest` over the cycles of all starts.
+    """For each system, return the quantile QUANTILE of `CycleMaxima.largest` over the cycles of all starts.
 
     The quantile is nan for a system without finished runs.
     """
     largest = np.asarray(largest)
-    return np.array([np.quantile(one[~np.isnan(one)], PART) if not np.isnan(one).all() else np.nan for one in largest])
+    return np.array(
+        [np.quantile(one[~np.isnan(one)], QUANTILE) if not np.isnan(one).all() else np.nan for one in largest]
+    )
 
 
 def standard_error(largest: ArrayLike) -> float:

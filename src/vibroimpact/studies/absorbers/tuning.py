@@ -10,7 +10,7 @@ from vibroimpact.system.arguments import instance
 
 STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
 """Starting points of the optimisation, as multiples of the textbook frequencies."""
-FARTHEST = 100.0
+BOUND_FACTOR = 100.0
 """Largest factor between optimised and textbook tuning, up and down. In a band that is narrow or contains no resonance,
 the optimum has the least damping or stiffness that this allows."""
 
@@ -106,7 +106,8 @@ def best_tuning(system: System, band: tuple[float, float], scale=np.ones_like) -
                 "type": "ineq",
                 "fun": lambda values: values[-1] - _levels(values[:4], system, frequencies, scale),
             },
-            bounds=[(value - np.log(FARTHEST), value + np.log(FARTHEST)) for value in textbook] + [(None, None)],
+            bounds=[(value - np.log(BOUND_FACTOR), value + np.log(BOUND_FACTOR)) for value in textbook]
+            + [(None, None)],
             method="SLSQP",
             options={"maxiter": 200, "ftol": 1e-9},
         )

@@ -23,7 +23,7 @@ CHECKS = (
 KAPPAS = np.linspace(0.01, 0.99, 99)
 EXPONENTS = range(4)
 """Exponents of pi and rho in (10.26) that a misprint may have changed."""
-_SURPLUS = 1e-9
+TOLERANCE = 1e-9
 
 
 def fold_of_the_manifold(evidence):
@@ -46,8 +46,8 @@ def no_penetration(evidence):
     end = largest_C(kappa)
     parts = {
         "none for C < 0": all(_furthest(C, kappa) > 1 for C in (-1.0, -0.1, -0.01)),
-        "all fixed points": all(_furthest(C, kappa) <= 1 + _SURPLUS for C in points.ravel()),
-        "all C >= 0": all(_furthest(C, kappa) <= 1 + _SURPLUS for C in np.linspace(0.0, 3 * end, 100)),
+        "all fixed points": all(_furthest(C, kappa) <= 1 + TOLERANCE for C in points.ravel()),
+        "all C >= 0": all(_furthest(C, kappa) <= 1 + TOLERANCE for C in np.linspace(0.0, 3 * end, 100)),
     }
     numbers = {"largest C inside": end, "largest C of a fixed point": points.max()}
     return Finding(parts, numbers | {"furthest at twice the largest C": _furthest(2 * end, kappa)})
@@ -70,13 +70,13 @@ def printed_condition(evidence):
     at_limit, at_squared = (_largest_multiplier(C, kappa) for C in (limit, squared))
     stable, below = _stable_above(limit, kappa), _stable(np.linspace(0.0, limit, 200)[1:], kappa)
     parts = {
-        "a multiplier is on the unit circle at the limit": abs(at_limit - 1) < _SURPLUS,
+        "a multiplier is on the unit circle at the limit": abs(at_limit - 1) < TOLERANCE,
         "all motions above it are stable": stable.all(),
     }
     exponents = np.array(list(product(EXPONENTS, repeat=2)))
     readings = 4 / (4 + np.pi ** exponents[:, 0] * rho(kappa) ** exponents[:, 1])
     at_readings = np.array([_largest_multiplier(C, kappa) for C in readings])
-    right = (np.abs(at_readings - 1) < _SURPLUS) & [_stable_above(C, kappa).all() for C in readings]
+    right = (np.abs(at_readings - 1) < TOLERANCE) & [_stable_above(C, kappa).all() for C in readings]
     least, most = _limits_of_the_captions(evidence)
     fitting = (least < readings) & (readings < most)
     numbers = {

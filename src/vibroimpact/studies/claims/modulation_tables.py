@@ -18,7 +18,7 @@ from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.studies.regimes.settling import Observation, settle
 
 EXPONENT, SHARE = "largest Lyapunov exponent", "share of starts"
-SHOWN = 4
+WINDOW_MOTIONS = 4
 """Largest number of strongly modulated motions per case that are observed over windows of several lengths."""
 
 
@@ -92,7 +92,7 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
             rows.append({**key, "starts": count, **named})
         exponents += spectra.rows(key, watched)
         if (start, name) == ("spread", STRONGLY_MODULATED):
-            compared = _windows(case, system, states[:SHOWN], windows)
+            compared = _windows(case, system, states[:WINDOW_MOTIONS], windows)
     return pd.DataFrame(rows), compared, exponents
 
 

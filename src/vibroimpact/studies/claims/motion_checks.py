@@ -30,7 +30,7 @@ CHECKS = (
 )
 SIMILAR = 0.1
 """Largest relative difference of amplitudes that count as similar, about the least that a figure can show."""
-LARGE = 0.5 / np.sqrt(2)
+BEAT_VARIATION = 0.5 / np.sqrt(2)
 """Standard deviation / mean of the amplitude 1 + d cos(...) of a beat with d = 1/2 (largest 3 times the smallest)."""
 PER_CYCLE = 2
 SMALL = 2e-4, 1e-4
@@ -134,7 +134,7 @@ def beating(evidence, case):
     """Check that the amplitude of each box varies more than in a beat with a ratio 3 of largest to smallest."""
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
     found = rows["mean"].loc[[1, 2]]
-    parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > LARGE for i in (1, 2)}
+    parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > BEAT_VARIATION for i in (1, 2)}
     return Finding(parts, {"amplitude variation": found.tolist()})
 
 

@@ -30,7 +30,7 @@ CAPTIONS = {
     "weak": {"a": UNSTABLE},
 }
 """Stability of each fixed point according to the captions of Figs. 10.6, 10.9 and 10.10."""
-STEPS = 111
+CONTINUATION_VALUES = 111
 """Number of values of the second amplitude along which a fixed point is followed between cases."""
 
 
@@ -138,7 +138,7 @@ def _followed(evidence, before, after, C):
     The second forcing amplitude changes in small steps.
     """
     start, end = evidence.systems[before], evidence.systems[after]
-    for f20 in np.linspace(start.f20_hat, end.f20_hat, STEPS)[1:]:
+    for f20 in np.linspace(start.f20_hat, end.f20_hat, CONTINUATION_VALUES)[1:]:
         points = np.array([point.C for point in fixed_points(end.with_(f20_hat=f20))])
         C = points[np.linalg.norm(points - C, axis=1).argmin()]
     return C

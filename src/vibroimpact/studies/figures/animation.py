@@ -17,7 +17,7 @@ SPEC = {
     "method": "the window of a simulation, frame by frame",
 }  # fmt: skip
 
-PLACES = {1: -3.0, 2: 3.0}
+REST_POSITIONS = {1: -3.0, 2: 3.0}
 """Rest positions of the boxes in units of L, far enough apart for every motion of the chapter."""
 BALL, WALL, HALF_HEIGHT, EDGE = 0.28, 0.12, 0.62, 6.2
 """Ball radius, wall thickness, half the box height, and distance of each support from the middle, in units of L."""
@@ -65,7 +65,12 @@ def page_data(tables: dict[str, pd.DataFrame], cycles: int) -> dict:
     """Return the frames for the animation in the report, rounded to 0.001 L, which is less than a pixel."""
     motion = tables["motion"].round({"t": 4} | dict.fromkeys(COORDINATES, 3))
     impacts = tables["impacts"].round({"t": 4}).to_numpy().tolist()
-    return {"cycles": cycles, "places": list(PLACES.values()), "motion": motion.to_dict("list"), "impacts": impacts}
+    return {
+        "cycles": cycles,
+        "places": list(REST_POSITIONS.values()),
+        "motion": motion.to_dict("list"),
+        "impacts": impacts,
+    }
 
 
 @styled
@@ -92,7 +97,7 @@ def _envelopes(motion):
     """Draw the displacement of both boxes over time, with its largest and smallest value in each cycle."""
     figure = new_figure(DOUBLE_COLUMN, ROW * INSTANTS)
     cycle = np.minimum(motion["t"].astype(int), round(motion["t"].iloc[-1]) - 1)
-    for axes, module in zip(figure.subplots(2, 1, sharex=True, sharey=True), PLACES, strict=True):
+    for axes, module in zip(figure.subplots(2, 1, sharex=True, sharey=True), REST_POSITIONS, strict=True):
         X = motion[f"X{module}"]
         axes.plot(motion["t"], X, color=GREY, linewidth=0.5)
         for extreme in (X.groupby(cycle).max(), X.groupby(cycle).min()):
@@ -105,7 +110,7 @@ def _envelopes(motion):
 def _instant(axes, tables, t):
     motion = tables["motion"]
     at = {name: float(np.interp(t, motion["t"], motion[name])) for name in COORDINATES}
-    boxes = {module: PLACES[module] + at[f"X{module}"] for module in PLACES}
+    boxes = {module: REST_POSITIONS[module] + at[f"X{module}"] for module in REST_POSITIONS}
     side = 1.0 + BALL + WALL
     ends = [-EDGE, boxes[1] - side, boxes[1] + side, boxes[2] - side, boxes[2] + side, EDGE]
     for left, right in zip(ends[::2], ends[1::2], strict=True):
@@ -114,8 +119,8 @@ def _instant(axes, tables, t):
         axes.add_patch(Rectangle((centre - side, -HALF_HEIGHT), 2 * side, 2 * HALF_HEIGHT, facecolor=LIGHT_GREY))
         cavity = (centre - side + WALL, -HALF_HEIGHT + WALL)
         axes.add_patch(Rectangle(cavity, 2 * (side - WALL), 2 * (HALF_HEIGHT - WALL), facecolor="white"))
-        axes.add_patch(Circle((PLACES[module] + at[f"Y{module}"], 0.0), BALL, facecolor=BLACK))
-        axes.plot([PLACES[module]] * 2, [-0.78, -0.68], color=BLACK, linewidth=0.7)
+        axes.add_patch(Circle((REST_POSITIONS[module] + at[f"Y{module}"], 0.0), BALL, facecolor=BLACK))
+        axes.plot([REST_POSITIONS[module]] * 2, [-0.78, -0.68], color=BLACK, linewidth=0.7)
     near = tables["impacts"][(tables["impacts"]["t"] - t).between(0.0, 1.0 / INSTANTS, inclusive="left")]
     for hit in near.itertuples():
         # W = X - Y = 1 means that the ball is at the left wall of its cavity.

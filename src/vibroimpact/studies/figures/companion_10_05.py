@@ -41,7 +41,7 @@ NAMES = {
     "penetration": (r"$\leftarrow$ the ball would leave the box", 0.16, (5, 0), "left"),
 }
 """For each limit: name in the figure, kappa of the name, offset from the line in points, and horizontal alignment."""
-END = 1e-9
+KAPPA_MARGIN = 1e-9
 """Smallest distance of kappa from 0 and from 1, which the impact law excludes."""
 
 
@@ -57,7 +57,7 @@ def compute(C_range: tuple[float, float]) -> dict:
         If C_range does not contain the stable region and the limit (10.26).
     """
     lowest, highest = C_range
-    kappa = np.clip(np.linspace(0.0, 1.0, 401), END, 1 - END)
+    kappa = np.clip(np.linspace(0.0, 1.0, 401), KAPPA_MARGIN, 1 - KAPPA_MARGIN)
     limits = {
         "fold": lower_limit(kappa),
         "symmetry breaking": np.broadcast_to(upper_limit(kappa), kappa.shape),

@@ -103,22 +103,23 @@ SPEC = {
 
 BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
 PEAK, LOWEST, PLATEAU, STROKE, DECAY = "peak", "lowest peak", "plateau", "stroke", "decay"
-"""Names of quantities in the summary; `_held_against` has further ones."""
+"""Names of quantities in the summary; `_response_ratios` has further ones."""
 LIGHT = "#D55E00"
 STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgewidth": 0.4, "linestyle": "none"}
 """Colour for the best restitution coefficient, and marker of the lowest peaks."""
-NEARLY = 1.25
-"""Factor that defines the margin of a clearance, in which the peak is at most NEARLY times the lowest peak."""
-LEVEL = 1.2
-"""Factor that defines the plateau, from the least kappa on: lowest peaks are at most LEVEL times the lowest of all."""
+MARGIN_FACTOR = 1.25
+"""Factor that defines the margin of a clearance, in which the peak is at most MARGIN_FACTOR times the lowest peak."""
+PLATEAU_FACTOR = 1.2
+"""Factor that defines the plateau, from the least kappa: lowest peaks up to PLATEAU_FACTOR times the lowest of all."""
 FROM, TO = "plateau from", "plateau to"
-FEW = 2
+REMEASURED_PEAKS = 2
 """Number of the lowest peaks of a sweep that are measured again."""
-FRESH = 8
+REMEASURED_STARTS = 8
 """Number of starts, rest among them, in the second measurement of a lowest peak."""
-IMPULSES, LEFT = np.geomspace(0.5, 50.0, 81), 0.1
+IMPULSES, ENERGY_FRACTION = np.geomspace(0.5, 50.0, 81), 0.1
 """Impulses on box 1 (as velocities, in units of L omega_10), and the fraction of the energy left after a decay."""
-TOLD = ("value", "spread", "largest", "swept", "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest")
+MEASURED = "value", "spread", "largest", "swept"
+SUMMARY_COLUMNS = *MEASURED, "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest"
 """Columns of the summary that describe a lowest peak."""
 
 
@@ -127,10 +128,10 @@ def compute(
 ) -> dict:
     """Return the peaks with balls per unit force, and a summary that compares them with linear systems.
 
-    The lowest peak of a sweep is biased: the lowest of many values with random errors is too low. So the FEW lowest
-    peaks are measured again (`absorbers.peaks`), from rest and other starts, at the frequencies of the band and
-    half-way between them. The lowest of the new values counts, with its standard error. A motion that no start reaches
-    may still move the boxes further.
+    The lowest peak of a sweep is biased: the lowest of many values with random errors is too low. So the
+    REMEASURED_PEAKS lowest peaks are measured again (`absorbers.peaks`), from rest and other starts, at the
+    frequencies of the band and half-way between them. The lowest of the new values counts, with its standard error. A
+    motion that no start reaches may still move the boxes further.
 
     Parameters
     ----------
@@ -156,7 +157,7 @@ def compute(
     peaks = {name: one.peak(frequencies(system, band)) / system.epsilon for name, one in linear.items()}
     clearance, design = (_peaks(system, table) for table in (clearance, design))
     alone = clearance.assign(ratio=clearance["one_ball"]).dropna(subset="ratio")
-    again = {"band": band, "states": spread_starts(FRESH, seed + 1), "cycles": cycles, "settle": settle}
+    again = {"band": band, "states": spread_starts(REMEASURED_STARTS, seed + 1), "cycles": cycles, "settle": settle}
     own = _lowest_again(system, clearance, **again)
     restitution = [_lowest_again(system, mine, **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
     best = min(restitution, key=lambda place: place["value"])
@@ -167,13 +168,18 @@ def compute(
 
     rows = [{"quantity": PEAK, "who": name, "value": peak} for name, peak in peaks.items()]
     rows += [
-        {"quantity": PEAK, "who": who, **_told(place), "regime": _regime(system, place, observation, several, seed)}
+        {
+            "quantity": PEAK,
+            "who": who,
+            **_summary_row(place),
+            "regime": _regime(system, place, observation, several, seed),
+        }
         for who, (place, several) in optima.items()
     ]
     rows += _of_restitution(restitution)
     rows += _strokes(system, linear, band)
     rows += [{"quantity": STROKE, "who": who, "value": optima[who][0]["clearance"]} for who in (BALLS, BEST_KAPPA)]
-    rows += _held_against(system, per_force(system, response), band)
+    rows += _response_ratios(system, per_force(system, response), band)
     rows += _decays(system, linear)
     summary = pd.DataFrame(rows)
     for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
@@ -196,7 +202,7 @@ def _lowest(table, number):
     beside, places = table.sort_values("clearance").reset_index(drop=True), []
     for here in beside["ratio"].nsmallest(number).index:
         place = beside.loc[here].to_dict()
-        far = ~(beside["ratio"] <= NEARLY * place["ratio"]).to_numpy()
+        far = ~(beside["ratio"] <= MARGIN_FACTOR * place["ratio"]).to_numpy()
         first, last = np.flatnonzero(np.r_[True, far[:here]])[-1], here + int(np.argmax(np.r_[far[here:], True])) - 1
         margin = {"narrowest": beside["clearance"][first], "widest": beside["clearance"][last]}
         places.append({**place, "swept": place["ratio"], **margin})
@@ -204,11 +210,14 @@ def _lowest(table, number):
 
 
 def _lowest_again(system, table, **again):
-    """Measure the FEW lowest peaks of a sweep again, and return the point with the lowest result."""
-    return min((_again(system, place, **again) for place in _lowest(table, FEW)), key=lambda place: place["value"])
+    """Measure the REMEASURED_PEAKS lowest peaks of a sweep again, and return the point with the lowest result."""
+    return min(
+        (_remeasured(system, place, **again) for place in _lowest(table, REMEASURED_PEAKS)),
+        key=lambda place: place["value"],
+    )
 
 
-def _again(system, place, band, states, cycles, settle):
+def _remeasured(system, place, band, states, cycles, settle):
     """Return a point of a sweep with its peak measured again.
 
     Its new entries are value, spread and largest, all divided by the force, and the sigma_e_hat of the peak.
@@ -222,8 +231,8 @@ def _again(system, place, band, states, cycles, settle):
     return {**place, **measured, "sigma_e_hat": float(detunings[found.at])}
 
 
-def _told(place):
-    return {name: place[name] for name in TOLD if name in place}
+def _summary_row(place):
+    return {name: place[name] for name in SUMMARY_COLUMNS if name in place}
 
 
 def _regime(system, place, observation, number, seed):
@@ -234,7 +243,7 @@ def _regime(system, place, observation, number, seed):
 
 
 def _of_restitution(places):
-    rows = [{"quantity": LOWEST, "who": BALLS, **_told(place)} for place in places]
+    rows = [{"quantity": LOWEST, "who": BALLS, **_summary_row(place)} for place in places]
     told = zip((PLATEAU, FROM, TO), plateau(places), strict=True)
     return [*rows, *({"quantity": quantity, "who": BALLS, "value": value} for quantity, value in told)]
 
@@ -242,9 +251,10 @@ def _of_restitution(places):
 def plateau(places):
     """Return the largest kappa on the plateau, and the least and the greatest of the lowest peaks on it.
 
-    Up to this kappa each lowest peak is at most LEVEL times the lowest of all. If the first is higher, all are nan.
+    Up to this kappa each lowest peak is at most PLATEAU_FACTOR times the lowest of all. All are nan if the first is
+    higher.
     """
-    level = LEVEL * min(place["value"] for place in places)
+    level = PLATEAU_FACTOR * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))
     peaks = [place["value"] for place in on]
     return (on[-1]["kappa"], min(peaks), max(peaks)) if on else (float("nan"),) * 3
@@ -257,7 +267,7 @@ def _strokes(system, linear, band):
         yield {"quantity": STROKE, "who": name, "value": stroke}
 
 
-def _held_against(system, response, band):
+def _response_ratios(system, response, band):
     """For each pair of forces and linear system, yield statistics of the ratio of responses (balls / linear system)."""
     for pair, rows in response.groupby(FORCES, sort=False):
         for name, one in linear_systems(system, pair, band).items():
@@ -269,9 +279,9 @@ def _held_against(system, response, band):
 
 def _decays(system, linear):
     """Yield decay times after an impulse on box 1, in forcing periods; with balls, the shortest for any impulse."""
-    times = [decay_time(system, impulse, fraction=LEFT) for impulse in IMPULSES]
-    found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=LEFT)[1]}
-    found |= {name: one.decay_time(1, LEFT) for name, one in linear.items()}
+    times = [decay_time(system, impulse, fraction=ENERGY_FRACTION) for impulse in IMPULSES]
+    found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=ENERGY_FRACTION)[1]}
+    found |= {name: one.decay_time(1, ENERGY_FRACTION) for name, one in linear.items()}
     yield from ({"quantity": DECAY, "who": who, "value": time / system.period} for who, time in found.items())
 
 

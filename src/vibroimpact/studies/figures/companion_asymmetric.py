@@ -135,16 +135,16 @@ MARKS = {
     POINT: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6, "color": BLACK, "linestyle": "none"},
     ORBIT: {"marker": "D", "markersize": 3.6, "color": BLACK, "linestyle": "none"},
 }
-BESIDE = 0.2
+C_MARGIN = 0.2
 """Margin, in C, of the panel of the manifold around the asymmetric branch and the markers."""
-SKEWED = 1e-3
+UNEQUAL_FROM = 1e-3
 """Value of v^2 above which the two flights of a ball count as unequal."""
 _PHASES, _SPEEDS = (
     [f"{what}{module}_{wall}" for module, wall in product((1, 2), ("plus", "minus"))] for what in ("phase", "speed")
 )
 COLUMNS = ["case", "label", "squared1", "squared2", "C1", "C2", "B1", "B2", "psi1", "psi2"]
 JUDGED = ["real", "admissible", "impact_map", "slow_flow", "modulus"]
-RELAXED = 400, 100
+RELAXATION_CYCLES = 400, 100
 """Cycles of the slow flow that are observed, and cycles of the transient before them."""
 COMPARED = ["lost_at", "orbit", "distance", "onset", "order", "uncertainty", "slow_error", "fast_error", "at_epsilon"]
 
@@ -191,7 +191,7 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fi
             limit = np.nan if ends[label] is None else ends[label].squared[ends[label].asymmetric].max()
             pairs += [(case, label, verdict, each.system.epsilon, each.place[2:4].max(), limit) for each in way]
             modules += _in_plane(case, ORBIT, label, way[0].place[:2], way[0].box_amplitudes, way[0].place[2:4])
-        found = relax(system, *RELAXED)
+        found = relax(system, *RELAXATION_CYCLES)
         relaxed += [[case, i + 1, found.bursts[i], found.share[i], found.largest[i]] for i in (0, 1)]
     return {
         "csv": _manifold(kappa, C_max),
@@ -231,7 +231,7 @@ def _pairs(system, orbits):
 def _in_plane(case, series, label, *places):
     """Yield the rows of the modules with unequal flights; `places` holds C, B and v^2 of both modules, each (2,)."""
     for module, C, B, squared in zip((1, 2), *places, strict=True):
-        if squared > SKEWED:
+        if squared > UNEQUAL_FROM:
             yield case, series, label, module, C, B
 
 
@@ -289,7 +289,7 @@ def _draw_manifold(axes, pieces, modules):
         axes.plot(rows["C"], rows["B"], label=f"{series}s", zorder=3, **style)
     # Figure 10.4 shows the rest of the manifold.
     near = pd.concat([modules["C"], pieces["C"][pieces["series"].str.startswith("asymmetric")]])
-    axes.set(xlim=(near.min() - BESIDE, near.max() + BESIDE), xlabel="$C_i$", ylabel="$B_i$")
+    axes.set(xlim=(near.min() - C_MARGIN, near.max() + C_MARGIN), xlabel="$C_i$", ylabel="$B_i$")
     seen = pd.concat([pieces["B"][pieces["C"].between(*axes.get_xlim())], modules["B"]])
     axes.set_ylim(seen.min() - 0.05, seen.max() + 0.1)
     return [("asymmetric", lines["asymmetric, right"]), ("symmetric", lines["symmetric, right"])]

@@ -141,7 +141,7 @@ HUES = {
 }
 NAMES = {SymmetricOrbits.name: "symmetric", AsymmetricOrbits.name: "asymmetric"}
 """Names of the branches of exact orbits; branches of the theory are named by their stability."""
-CROWD, INSET = 0.1, (0.03, 0.72, 0.36, 0.25)
+CROWDED_FRACTION, INSET = 0.1, (0.03, 0.72, 0.36, 0.25)
 """Fraction of each axis within which three marks count as crowded, and place of the inset that enlarges them."""
 COLUMNS = ["panel", "series", "label", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
 _NAMES = {"f10_hat": r"\hat f_{10}", "f20_hat": r"\hat f_{20}"}
@@ -304,7 +304,7 @@ def _marks(axes, nodes):
 def _crowded(axes, nodes):
     """Return xlim and ylim of a window around the densest group of at least three marks, or None without a group."""
     marks = pd.concat([rows[["p", "C2"]] for _, rows in _marks(axes, nodes).values()]).to_numpy(float)
-    size = CROWD * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
+    size = CROWDED_FRACTION * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
     near = (np.abs(marks[:, None] - marks) < size).all(axis=2)
     if not len(marks) or near.sum(axis=1).max() < 3:
         return None

@@ -67,10 +67,10 @@ SPEC = {
 BORDERS = ("fixed points", STABLE_POINTS := "stable points")
 HALVINGS = 4
 """Number of bisections between two cells with different counts; the border is found to 1/32 of the cells' distance."""
-TOGETHER = "coexisting"
-NAMED_FROM = 20
+COEXISTING = "coexisting"
+SMALLEST_NAMED_PATCH = 20
 """Smallest size, in cells, of a patch that bears the name of its regime; the legend lists regimes without a name."""
-FLAT = 0.5
+CELL_ASPECT = 0.5
 """Ratio of width to height assumed for a cell in the search for the place of a name: names are wider than high."""
 _BORDER = {"color": BLACK, "linewidth": 1.4}
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5.0, "markeredgewidth": 1.2}
@@ -96,12 +96,12 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
     f20_hat; "borders", where the number of fixed points changes: series, piece, f10_hat, f20_hat.
     """
     cells = table.rename(columns={FROM_REST: "label"})
-    cells["regime"], cells[TOGETHER] = _dominant(cells, starts)
+    cells["regime"], cells[COEXISTING] = _dominant(cells, starts)
     forces = {case: {"f10_hat": one.f10_hat, "f20_hat": one.f20_hat} for case, one in systems.items()}
     marks = [{"case": case, **at} for case, at in forces.items() if systems[case] == system.with_(**at)]
     pieces = [(series, *piece) for series in BORDERS for piece in _border(system, cells, series)]
     return {
-        "csv": cells[["label", "f10_hat", "f20_hat", "regime", TOGETHER, *REGIMES, "fixed_points", "stable_points"]],
+        "csv": cells[["label", "f10_hat", "f20_hat", "regime", COEXISTING, *REGIMES, "fixed_points", "stable_points"]],
         "cases": pd.DataFrame(marks, columns=["case", "f10_hat", "f20_hat"]),
         "borders": pd.DataFrame(pieces, columns=["series", "piece", "f10_hat", "f20_hat"]),
     }
@@ -173,7 +173,7 @@ def draw(tables: dict) -> Figure:
     figure = new_figure(SINGLE_COLUMN, 103.0)
     axes = figure.add_subplot()
     occurring = paint(axes, regimes)
-    together = cells[cells[TOGETHER] > 1]
+    together = cells[cells[COEXISTING] > 1]
     axes.plot(together["f10_hat"], together["f20_hat"], **_STROKES)
     pieces = borders[borders["series"] == STABLE_POINTS][["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
     axes.add_collection(LineCollection(pieces, **_BORDER))
@@ -182,7 +182,7 @@ def draw(tables: dict) -> Figure:
     for case, *place in cases.itertuples(index=False):
         axes.annotate(case, place, (-5, -8), textcoords="offset points", ha="right", bbox=paper)
     f10, f20 = regimes.columns.to_numpy(), regimes.index.to_numpy()
-    lined = cells.pivot(index="f20_hat", columns="f10_hat", values=TOGETHER).to_numpy() > 1
+    lined = cells.pivot(index="f20_hat", columns="f10_hat", values=COEXISTING).to_numpy() > 1
     for x, y in pieces.reshape(-1, 2):
         lined[np.abs(f20 - y).argmin(), np.abs(f10 - x).argmin()] = True
     unnamed = [name for name in occurring if not _name(axes, regimes, name, lined)]
@@ -203,10 +203,10 @@ def _name(axes, regimes, name, lined):
     """
     patches, _ = ndimage.label(regimes.eq(name))
     sizes = np.bincount(patches.ravel())[1:]
-    if not len(sizes) or sizes.max() < NAMED_FROM:
+    if not len(sizes) or sizes.max() < SMALLEST_NAMED_PATCH:
         return False
     free = (patches == sizes.argmax() + 1) & ~lined
-    depth = ndimage.distance_transform_edt(np.pad(free, 1), sampling=(1.0, FLAT))
+    depth = ndimage.distance_transform_edt(np.pad(free, 1), sampling=(1.0, CELL_ASPECT))
     i, j = np.unravel_index(depth.argmax(), depth.shape)
     dark = np.dot(to_rgb(COLOURS[name]), (0.3, 0.59, 0.11)) < 0.5
     place = regimes.columns[j - 1], regimes.index[i - 1]

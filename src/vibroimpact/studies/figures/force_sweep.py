@@ -49,9 +49,9 @@ MARKS = {
     "exact orbit: stable": {"markerfacecolor": "none", "markersize": 7.0},
 }
 PAIRS = {"asymmetric orbits, stable": COLOURS[ASYMMETRIC], "asymmetric orbits, unstable": "#a9d8d2"}
-EVERY = 6
-"""Every EVERY-th value has a marker, filled if both time scales are stable, in a ring if the exact orbit is stable."""
-PAIR = 0
+MARKER_SPACING = 6
+"""Distance between values with a marker, filled if both time scales are stable, in a ring if the exact orbit is."""
+ASYMMETRIC_TRACK = 0
 """Track number of the asymmetric orbits, which belong to no fixed point."""
 VERDICTS = (*CRITERIA, EXACT)
 
@@ -73,8 +73,8 @@ def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]
     Returns three tables. "csv": columns value, track (number from 1; nearest neighbours in the plane (C1, C2) share a
     track), C1, B1, C2, B2, label (as in the chapter, see `theory.fixed_points.labels`), and VERDICTS, by each criterion
     of the theory and by the exact orbit ("no orbit" without one). "orbits", a row per multiplier of each exact orbit:
-    columns value, track (as its fixed point; PAIR for the branches of stable asymmetric orbits), C1, C2, exact, real,
-    imag. "manifold": columns series, C, B as in figure 10.4.
+    columns value, track (as its fixed point; ASYMMETRIC_TRACK for the branches of stable asymmetric orbits), C1, C2,
+    exact, real, imag. "manifold": columns series, C, B as in figure 10.4.
     """
     rows, last, tracks = [], np.empty((0, 2)), 0
     names, multipliers = [], []
@@ -92,7 +92,7 @@ def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]
             rows.append(row | {EXACT: floquet(orbit) if orbit else NO_ORBIT})
             multipliers += _multipliers(value, track, orbit) if orbit and orbit.admissible else []
     for value, orbit in followed(systems):
-        multipliers += _multipliers(value, PAIR, orbit)
+        multipliers += _multipliers(value, ASYMMETRIC_TRACK, orbit)
     points = pd.DataFrame(rows, columns=["value", "track", "C1", "B1", "C2", "B2", "label", *VERDICTS])
     end = np.fmax(C_max, 1.05 * points[["C1", "C2"]].astype(float).max().max())
     orbits = pd.DataFrame(multipliers, columns=["value", "track", "C1", "C2", EXACT, "real", "imag"])
@@ -141,7 +141,7 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     """Draw C_1 and C_2 of each track against the second force, and the exact asymmetric orbits."""
     figure = new_figure(DOUBLE_COLUMN, 84.0)
     points, orbits = tables["csv"], tables["orbits"]
-    pair = orbits[orbits["track"] == PAIR].drop_duplicates(["value", "C1", "C2"])
+    pair = orbits[orbits["track"] == ASYMMETRIC_TRACK].drop_duplicates(["value", "C1", "C2"])
     letters, names = _letters(points), {}
     for axes, module, letter in zip(figure.subplots(1, 2), (1, 2), "ab", strict=True):
         stable = pair[EXACT] == STABLE
@@ -172,7 +172,7 @@ def _draw_track(axes, rows, module, letter):
     """Draw the line of a track and its markers; return the line."""
     C, (colour, style) = f"C{module}", LINES[(rows["track"].iloc[0] - 1) % len(LINES)]
     line = axes.plot(rows["value"], rows[C], color=colour, linestyle=style, label=f"fixed point {letter}")
-    marked = rows.iloc[::EVERY]
+    marked = rows.iloc[::MARKER_SPACING]
     theory, exact = (marked[name] == STABLE for name in (THEORY, EXACT))
     for (name, look), shown in zip(MARKS.items(), (theory, ~theory, exact), strict=True):
         if shown.any():

@@ -29,7 +29,7 @@ SPEC = {
     "animated": ["gif"],
 }  # fmt: skip
 
-PUSH, CYCLES, PER_CYCLE = 1e-6, 40, 40
+PERTURBATION, CYCLES, PER_CYCLE = 1e-6, 40, 40
 """Initial displacement of ball 2 in units of L, length of the run in forcing periods, samples per period."""
 BALL = "Y2"
 COLUMNS = {
@@ -51,7 +51,7 @@ def compute(system) -> dict:
     label, orbit = _called_stable(system)
     if orbit is None:
         return {name: pd.DataFrame(columns=columns) for name, columns in COLUMNS.items()}
-    start = orbit.state + PUSH * (np.array(NAMES) == BALL)
+    start = orbit.state + PERTURBATION * (np.array(NAMES) == BALL)
     times = np.arange(CYCLES * PER_CYCLE + 1) / PER_CYCLE
     run = simulate(system, start, CYCLES, sample_times=times * system.period)
     samples = pd.DataFrame(run.samples, columns=NAMES).assign(tau=times * system.period)
@@ -71,7 +71,7 @@ def page_data(tables: dict[str, pd.DataFrame]) -> dict:
     rounded = {name: tables[name].astype(float).round(4) for name in ("motion", "impacts", "flights")}
     return {
         "cycles": int(tables["distance"]["t"].max()) if len(tables["distance"]) else 0,
-        "places": list(animation.PLACES.values()),
+        "places": list(animation.REST_POSITIONS.values()),
         "motion": rounded["motion"].to_dict("list"),
         **{name: rounded[name].to_numpy().tolist() for name in ("impacts", "flights")},
         "distance": [float(f"{value:.3g}") for value in tables["distance"]["distance"]],
@@ -112,11 +112,13 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     left, right = figure.subplots(1, 2)
     distance, flights = tables["distance"], tables["flights"]
     for multiplier in tables["orbit"]["multiplier"]:
-        t = np.array([0.0, -np.log(PUSH) / np.log(multiplier)])
-        left.plot(t, PUSH * multiplier**t, color=GREY, linewidth=1.0)
-        left.text(t[1] / 2 + 1, PUSH**0.5, f"times {multiplier:.2f}\nper period", ha="left", va="top", fontsize=8)
+        t = np.array([0.0, -np.log(PERTURBATION) / np.log(multiplier)])
+        left.plot(t, PERTURBATION * multiplier**t, color=GREY, linewidth=1.0)
+        left.text(
+            t[1] / 2 + 1, PERTURBATION**0.5, f"times {multiplier:.2f}\nper period", ha="left", va="top", fontsize=8
+        )
     left.plot(distance["t"], distance["distance"], color=BLACK, marker="o", markersize=2.5, linewidth=0)
-    left.set(yscale="log", ylim=(PUSH / 3, 3), xlabel="forcing periods", ylabel="distance from the prediction")
+    left.set(yscale="log", ylim=(PERTURBATION / 3, 3), xlabel="forcing periods", ylabel="distance from the prediction")
     right.axhline(0.5, color=GREY, linewidth=1.0)
     right.plot(flights["t"], flights["length"], color=BLACK, marker="o", markersize=2.5, linewidth=0)
     right.set(ylim=(0.2, 0.8), xlabel="forcing periods", ylabel="flights of ball 2, in periods")
