@@ -172,6 +172,29 @@ def test_a_ball_that_meets_no_wall():
     assert orbit.amplitudes[0] == pytest.approx(response, rel=1e-12)
 
 
+@pytest.mark.parametrize("f10_hat", [0.05, 0.1])
+def test_a_ball_that_drifts_between_the_walls_is_put_at_rest(f10_hat):
+    """Only at rest does such a ball return to its place; one of the drifts reaches a wall in the first period."""
+    system = vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f10_hat)
+    for ball in (0.02, -0.1, 0.3):
+        orbit = vi.periodic_orbit(system, [0.01, 0.2, 0, -0.5, 0.1, ball, 0, -ball], 1)
+        assert np.abs(vi.simulate(system, orbit.state, 3).final - orbit.state).max() < 1e-12
+        assert orbit.impacts.sum() == 0
+        assert orbit.stability == "undecided"
+        response = vi.periodic_orbit(system, np.zeros(8)).amplitudes
+        assert orbit.amplitudes == pytest.approx(response, abs=1e-12)
+
+
+def test_a_strongly_unstable_motion_repeats_after_one_period_and_not_after_more():
+    """A multiplier of 382 loses five of sixteen digits in two periods, which is no reason to find no motion."""
+    system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+    motion = max((one for one in vi.orbits(system) if one.admissible), key=lambda one: abs(one.multipliers[0]))
+    assert abs(motion.multipliers[0]) > 100
+    for periods in (2, 3):
+        with pytest.raises(ValueError, match=rf"\Aperiods: the motion repeats after 1, not only after {periods}\Z"):
+            vi.periodic_orbit(system, motion.state, periods)
+
+
 def test_what_went_wrong_is_said():
     system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.9)
     far = vi.simulate(system, np.zeros(8), 2000).final

@@ -26,7 +26,8 @@ _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
 _NEUTRAL = 1e-10  # relative: a ball whose velocity depends less on the state meets no wall
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
-_STALLED, _CLOSED = 1e-5, 1e-8  # step, and gap of the ends, at which Newton's method may stall: at a fold
+_CONVERGED = ((1e-5, 1e-8), (1e-12, 1e-6))
+"""Steps and gaps at which Newton's method may stall: at a fold, and where the motion multiplies rounding errors."""
 _TOUCH = 1e-9
 
 
@@ -193,8 +194,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
     """
     run = simulate(system, idle_at_rest(system, state), periods)
     begin = _between_events(run)
-    x = np.where(_BALL_VELOCITIES & ~_held(run), 0.0, _state_at(run, begin))
-    run = start = simulate(system, x, periods, begin)
+    run = start = _with_free_balls_at_rest(system, _state_at(run, begin), periods, begin)
     for _ in range(_STEPS):
         part, step = _held(run), np.zeros(8)
         restoring = (np.eye(8) - run.jacobian)[part][:, part]
@@ -204,7 +204,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
         if nearer is None:
             break
         run = nearer
-    if size <= _STALLED and _gap(run) <= _CLOSED:
+    if any(size <= least and _gap(run) <= closed for least, closed in _CONVERGED):
         return PeriodicOrbit(system, periods, _at_zero(run), run)
     grazes = "; a ball grazes a wall" if _grazes(start) or _grazes(run) else ""
     raise ValueError(f"state: no motion of period {periods} found; the nearest one misses by {_gap(run):.2g}{grazes}")
@@ -226,16 +226,23 @@ def _nearer(run, step):
     for _ in range(_HALVINGS):
         x = run.start + step
         if within_walls(x[None])[0]:
-            moved = simulate(run.system, x, run.cycles, run.tau0)
+            moved = _with_free_balls_at_rest(run.system, x, run.cycles, run.tau0)
             if _gap(moved) < _gap(run):
                 return moved
         step = step / 2
     return None
 
 
+def _with_free_balls_at_rest(system, x, periods, begin):
+    """Return the run from x, with a ball in neutral equilibrium at rest, since it returns to its position only then."""
+    run = simulate(system, x, periods, begin)
+    free = _BALL_VELOCITIES & ~_held(run)
+    return simulate(system, np.where(free, 0.0, x), periods, begin) if x[free].any() else run
+
+
 def _gap(run):
     """Return the largest difference of the ends of a run."""
-    return float(np.abs(run.final - run.start)[_held(run)].max())
+    return float(np.abs(run.final - run.start).max())
 
 
 def _between_events(run):

@@ -360,12 +360,12 @@ def test_a_motion_of_two_periods_is_followed_from_one_period_doubling_to_the_nex
     """At the first a multiplier of the motion of one period is -1; beyond the second, runs settle on four periods."""
     system = MACHINE.with_(f10_hat=1.9)
     motion = vi.periodic_orbit(system, vi.simulate(system, np.zeros(8), 3000).final, 2)
-    doubled, *rest = vi.branches(system, "f10_hat", (1.78, 2.02), of=motion, progress=False)
+    (doubled,) = vi.branches(system, "f10_hat", (1.78, 2.02), of=motion, progress=False)
     once = vi.periodic_orbit(system.with_(f10_hat=1.81), motion.state)
     sought = (lambda p: 1 + vi.periodic_orbit(system.with_(f10_hat=p), once.state).multipliers[0].real), 1.8, 1.81
-    assert {node.kind: node.p for node in rest[0].special} == {BRANCH_POINT: pytest.approx(brentq(*sought), abs=1e-7)}
-    assert [node.kind for node in doubled.special] == [PERIOD_DOUBLING, BRANCH_POINT, PERIOD_DOUBLING]
-    (end,) = {round(node.p, 7) for node in doubled.special if node.kind == PERIOD_DOUBLING}
+    begin, end = (node.p for node in doubled.special)
+    assert {node.kind for node in doubled.special} == {PERIOD_DOUBLING}
+    assert doubled.nodes[0].p == begin == pytest.approx(brentq(*sought), abs=1e-7)
     for node in doubled.nodes:
         assert node.stable in (node.p < end, None)
     for f10_hat, periods in ((end - 0.003, 2), (end + 0.003, 4)):
@@ -373,3 +373,18 @@ def test_a_motion_of_two_periods_is_followed_from_one_period_doubling_to_the_nex
         vi.periodic_orbit(there, vi.simulate(there, np.zeros(8), 3000).final, periods)
     with pytest.raises(ValueError, match=r"\Aof: a motion of another system; f10_hat may differ alone\Z"):
         vi.branches(system.with_(kappa=0.5), "f10_hat", (1.78, 2.02), of=motion)
+    with pytest.raises(ValueError, match=r"\Aof: a motion at f10_hat = 1.9, outside between = \(1.91, 2.0\)\Z"):
+        vi.branches(system, "f10_hat", (1.91, 2.0), of=motion)
+
+
+def test_a_branch_of_a_given_motion_ends_at_the_symmetric_motion_and_where_a_ball_grazes():
+    """The asymmetric orbits of the same parameters, by impulse responses, end at the same symmetry breaking."""
+    system = MACHINE.with_(f10_hat=1.5)
+    motion = next(one for one in vi.orbits(system) if not one.symmetric and one.admissible)
+    given = vi.branches(system, "f10_hat", (1.2, 1.9), of=vi.periodic_orbit(system, motion.state), progress=False)
+    found = vi.branches(system, "f10_hat", (1.2, 1.9), of="exact", progress=False)
+    ends = [
+        [node.p for one in some for node in one.special if node.kind == SYMMETRY_BREAKING] for some in (given, found)
+    ]
+    assert ends[0]
+    assert set(np.round(ends[0], 6)) <= set(np.round(ends[1], 6))

@@ -41,7 +41,8 @@ def branches(
     Pseudo-arclength continuation (Keller 1977) passes folds and branch points. It also follows the branches that
     emanate from branch points, and asymmetric orbits that emanate from symmetric ones. Each branch is divided at its
     special points: folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf, grazing. If a branch
-    ends inside `between`, the last special point gives the reason: speed zero, symmetry breaking, or lost.
+    ends inside `between`, the last special point gives the reason: speed zero, lost, symmetry breaking (it meets its
+    mirror image) or period doubling (it meets a motion that repeats earlier).
 
     Parameters
     ----------
@@ -71,7 +72,8 @@ def branches(
     Raises
     ------
     ValueError
-        If an argument is malformed, or if an end of the range does not give a valid system.
+        If an argument is malformed, if an end of the range does not give a valid system, or if the given motion is
+        outside the range.
 
     Warns
     -----
@@ -98,6 +100,8 @@ def branches(
         families, values = (PeriodicOrbits(of),), [getattr(of.system, names[0])]
         if path(values[0]) != of.system:
             raise ValueError(f"of: a motion of another system; {' = '.join(names)} may differ alone")
+        if not low <= values[0] <= high:
+            raise ValueError(f"of: a motion at {' = '.join(names)} = {values[0]}, outside between = ({low}, {high})")
     else:
         families = _families(of)
     for family in families:
@@ -214,7 +218,7 @@ def _range(name, values):
 
 
 def _families(of):
-    if of not in FAMILIES:
+    if of not in tuple(FAMILIES):
         raise ValueError(f"of: {of!r} is none of {', '.join(FAMILIES)}")
     return FAMILIES[of]
 

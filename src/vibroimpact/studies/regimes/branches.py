@@ -19,11 +19,10 @@ from vibroimpact.studies.regimes.families import (
     AsymmetricOrbits,
     SymmetricOrbits,
     asymmetric_root,
-    flight_fractions,
 )
 from vibroimpact.system.representation import Representation, brief
 
-_EQUAL = 1e-6  # flights that differ by less are equal; a value of p this close to an end of the interval is the end
+_EQUAL = 1e-6  # a value of p this close to an end of the interval is the end
 _APART = 1e-3  # closer branch points count as the same
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
@@ -125,10 +124,10 @@ def branches(
 ) -> list[Branch]:
     """Return the branches of a family in an interval of p that pass a seed (a value of p) or leave such a branch.
 
-    A branch ends at the ends of the interval, where a ball speed vanishes, or where it is lost. A branch of asymmetric
-    orbits also ends at a symmetric orbit, where it meets its mirror image; one of the two mirror images is followed. A
-    branch that neither passes a seed nor leaves another branch is missed. A seed at which the search for roots fails is
-    skipped with a warning.
+    A branch ends at the ends of the interval, where a ball speed vanishes, or where it is lost. It also ends where it
+    meets an image of itself: its mirror image, at a symmetric orbit, or a shift by forcing periods, at a motion that
+    repeats earlier. One of the images is followed. A branch that neither passes a seed nor leaves another branch is
+    missed. A seed at which the search for roots fails is skipped with a warning.
 
     Parameters
     ----------
@@ -154,7 +153,7 @@ def branches(
         breaking = [node for node in branch.special if node.kind == SYMMETRY_BREAKING]
         for node in breaking if branch.family is SymmetricOrbits else ():
             arms = curve.arms(np.append(asymmetric_root(path(node.p), node.x), node.p))
-            starts += [z for z in arms if not _symmetric(family, path(z[-1]), z[:-1])]
+            starts += [z for z in arms if not family.merging(path(z[-1]), z[:-1])]
     found, crossings = [], []
     while starts:
         z = starts.popleft()
@@ -219,9 +218,9 @@ def _half(family, path, interval, curve, longest, report, start):
         report(float(z[-1]))
         system = path(z[-1])
         if place.determinant == 0:
-            kind = SYMMETRY_BREAKING if _symmetric(family, system, z[:-1]) else BRANCH_POINT
-            nodes.append(_node(family, path, z, kind=kind))
-            if kind == SYMMETRY_BREAKING:
+            end, kind = family.merging(system, z[:-1]), BRANCH_POINT
+            nodes.append(_node(family, path, z, kind=end or kind))
+            if end:
                 return nodes, [*places, place]
             continue
         before, tests_before = places[-1] if places else None, tests
@@ -238,7 +237,7 @@ def _half(family, path, interval, curve, longest, report, start):
         kind = ""
     z = places[-1].z
     if low + _EQUAL < z[-1] < high - _EQUAL and not places[-1].closing:
-        end = SYMMETRY_BREAKING if _symmetric(family, path(z[-1]), z[:-1]) else BRANCH_POINT
+        end = family.merging(path(z[-1]), z[:-1]) or BRANCH_POINT
         nodes.append(_node(family, path, z, kind=end if curve.singular(z) else LOST))
     return nodes, places
 
@@ -254,11 +253,6 @@ def _node(family, path, z, kind="", member=None):
         stable=family.stable(system, member) if plain else None,
         admissible=family.admissible(member) if plain else None,
     )
-
-
-def _symmetric(family, system, x):
-    """Return True for a root of the asymmetric equations with equal flights, where a branch meets its mirror."""
-    return family is AsymmetricOrbits and bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
 
 def _special(family, path, curve, before, tests, after, values):

@@ -74,9 +74,12 @@ class Curve:
         return Place(z, tangent, float(np.linalg.det(np.vstack([by_z, tangent]))))
 
     def singular(self, z: np.ndarray) -> bool:
-        """Return True if dF/dz is singular at z within rounding, so that the tangent is not unique."""
+        """Return True if dF/dz is singular at z within rounding, so that the tangent is not unique.
+
+        The largest singular value is no measure of rounding, since it is unbounded near grazing.
+        """
         sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
-        return bool(sizes[-1] <= _SINGULAR * (1 + sizes[0]))
+        return bool(sizes[-1] <= _SINGULAR * (1 + np.median(sizes)))
 
     def step(self, place: Place, length: float) -> np.ndarray:
         """Return the point z of the curve near the end of a step of a given length along the tangent.

@@ -35,6 +35,7 @@ SYMMETRY_BREAKING, PERIOD_DOUBLING = "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
+_EQUAL, _MERGED = 1e-6, 1e-5  # flight fractions, and states of a motion, that differ by less are equal
 _HELD = 1e-12
 
 
@@ -59,6 +60,11 @@ class SymmetricOrbits:
     def images(system, x) -> list[np.ndarray]:
         """Return the roots of the same motion and of its mirror image: x alone, since both are equal."""
         return [x]
+
+    @staticmethod
+    def merging(system, x) -> str:
+        """Return the kind of special point if x equals an image of itself, which ends the branch, or ""."""
+        return ""
 
     @classmethod
     def equations(cls, system, x):
@@ -130,6 +136,11 @@ class AsymmetricOrbits(SymmetricOrbits):
         return [x, np.where(_idle(cls, system), x, image)]
 
     @staticmethod
+    def merging(system, x) -> str:
+        """Return SYMMETRY_BREAKING if all flights are equal, where a branch meets its mirror image, or ""."""
+        return SYMMETRY_BREAKING if (abs(flight_fractions(system, x) - 0.5) < _EQUAL).all() else ""
+
+    @staticmethod
     def amplitudes(system, x) -> np.ndarray:
         """Return the amplitudes C_i, shape (2,)."""
         u = flight_fractions(system, x)
@@ -148,15 +159,25 @@ class PeriodicOrbits(AsymmetricOrbits):
 
     def __init__(self, orbit):
         self.orbit, self.name = orbit, f"motion of period {orbit.periods}"
+        self._own = self._equal_images(orbit.system, orbit.run.start)
 
     def roots(self, system) -> np.ndarray:
         """Return the state of the given motion, shape (1, 8)."""
         return self.orbit.run.start[None]
 
-    @staticmethod
-    def images(system, x) -> list[np.ndarray]:
-        """Return x alone; its mirror image and shifts by forcing periods are left out."""
-        return [x]
+    def images(self, system, x) -> list[np.ndarray]:
+        """Return the states of the motion and of its mirror image, each from every forcing period."""
+        begin, halves = self._begin(system), np.arange(2 * self.orbit.periods)
+        states = simulate(system, x, self.orbit.periods, begin, begin + halves * system.period / 2).samples
+        return list(states * (-1.0) ** halves[:, None])
+
+    def merging(self, system, x) -> str:
+        """Return PERIOD_DOUBLING if x repeats earlier than the given motion, SYMMETRY_BREAKING if symmetric, or ""."""
+        images = self._equal_images(system, x) & ~self._own
+        return PERIOD_DOUBLING if images[::2].any() else SYMMETRY_BREAKING if images.any() else ""
+
+    def _equal_images(self, system, x):
+        return np.array([np.abs(image - x).max() < _MERGED for image in self.images(system, x)])
 
     def equations(self, system, x):
         """Return the residual (8,) of the stroboscopic map at x, and its Jacobian (8, 8).
@@ -189,8 +210,11 @@ class PeriodicOrbits(AsymmetricOrbits):
         return PeriodicOrbit(system, self.orbit.periods, x, self._run(system, x))
 
     def _run(self, system, x):
-        begin = self.orbit.run.tau0 / self.orbit.system.period * system.period
-        return simulate(system, x, self.orbit.periods, begin, [begin])
+        return simulate(system, x, self.orbit.periods, self._begin(system), [self._begin(system)])
+
+    def _begin(self, system):
+        """Return the stroboscopic instant, at the same forcing phase as that of the given motion."""
+        return self.orbit.run.tau0 / self.orbit.system.period * system.period
 
 
 class FixedPoints:
@@ -214,6 +238,11 @@ class FixedPoints:
     def images(system, x) -> list[np.ndarray]:
         """Return the roots of the same motion and of its mirror image: x alone, since both are equal."""
         return [x]
+
+    @staticmethod
+    def merging(system, x) -> str:
+        """Return "", since every fixed point is symmetric."""
+        return ""
 
     @classmethod
     def equations(cls, system, x):
