@@ -1,4 +1,4 @@
-"""Parallel execution in threads on all cores; the engine runs without the interpreter's lock."""
+"""Run work in threads on all cores; the compiled engine releases the global interpreter lock."""
 
 import os
 import sys
@@ -13,14 +13,14 @@ WORKER = threading.local()
 
 
 def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], progress: bool) -> list:
-    """Return `work(*piece)` for each piece, in order; raise the first error of any.
+    """Return the list of `work(*piece)` for each piece, in order, or raise the first error of a piece.
 
     Parameters
     ----------
     runs : sequence of int
-        Number of runs of each piece.
+        Number of runs in each piece.
     progress : bool
-        Count finished runs on standard error, about once a second.
+        Print the number of finished runs on standard error, about once a second.
     """
     if min(cores(), len(pieces)) <= 1 and not progress:  # a pool would cost at least 0.1 ms and save nothing
         return [work(*piece) for piece in pieces]
@@ -38,23 +38,23 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
 
 
 def stop_if_given_up():
-    """Raise CancelledError in a thread whose siblings failed or were interrupted.
+    """Raise CancelledError in this thread if another piece of the work failed or was interrupted.
 
-    Long work calls this function from time to time.
+    Work that takes long calls this function from time to time.
     """
     if (given_up := getattr(WORKER, "given_up", None)) and given_up.is_set():
         raise CancelledError
 
 
 def cores() -> int:
-    """Return the number of cores available, as limited by a cluster, the user or `at_most`."""
+    """Return the number of available cores, which a cluster, the user or `at_most` may limit."""
     there = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return min(there, ALLOWED.get())
 
 
 @contextmanager
 def at_most(threads: int) -> Iterator[None]:
-    """Limit parallel work to this number of threads within a `with` block."""
+    """Limit parallel work to `threads` threads within a `with` block."""
     token = ALLOWED.set(threads)
     try:
         yield

@@ -1,21 +1,21 @@
-"""Compile the inner loops with Numba, cached on disk and without the global interpreter lock.
+"""Decorators that compile the inner loops with Numba, cache them on disk and release the interpreter lock.
 
-Rounding: functions that compute a step of a run round every operation as written, so that a run has the same bits alone
-and in a lane of an ensemble (`vectors`). Functions decorated by `compiled`, and `inlined_source` functions in them, may
-contract a product and a sum into one rounding.
+Rounding: functions that compute a step of a run round every operation as written, so that a single run and the same
+run in a lane of an ensemble (`vectors`) agree bit by bit. In functions decorated by `compiled`, and in `inlined_source`
+functions within them, the compiler may round a product and a sum together, once.
 
 Inlining: functions that run at every event become part of the loop, because passing a motion and its Taylor polynomials
-(some 30 numbers) would cost more than the computation. Functions with one caller are mostly inlined as source
-(`inlined_source`), which avoids compiling them twice; the others are compiled once and then inlined.
+(about 30 numbers) would cost more than the computation. Most functions with a single caller are inlined as source
+(`inlined_source`), which avoids compiling them twice. The others are compiled once and then inlined.
 
 References: only `compiled` functions, and `inlined_source` functions in them, create or return arrays. All others work
-in the memory they receive and count no references, since counting needs a locked operation and a call.
+in arrays of their caller without reference counting, which would need an atomic operation and a call each time.
 
-Each decorator sets fastmath, inlining and reference counting explicitly; Numba would otherwise take open options from
-the caller that is compiled first.
+Each decorator sets fastmath, inlining and reference counting explicitly. Otherwise Numba would take an option that is
+not set from the caller that is compiled first.
 
-The cache key covers the content of all sources that may be compiled into a function, since Numba itself checks the file
-of a function, but not those of the functions it calls. With NUMBA_CACHE_DIR set, the user handles invalidation.
+The cache key covers the content of all sources that may be compiled into a function. Numba itself checks only the file
+of the function, not the files of the functions it calls. With NUMBA_CACHE_DIR set, the user must clear an old cache.
 """
 
 import hashlib
@@ -34,17 +34,17 @@ SIMULATION = "the simulation, some 15 s"
 ON_DEMAND = "certificates, energies and Jacobians of runs, some 10 s"
 ENSEMBLE = "the simulation of ensembles, some 25 s"
 COMPILED_SEPARATELY = {"engine.flow_tables": SIMULATION, "engine.event_loop": SIMULATION, "lanes": ENSEMBLE}
-"""Groups of code that are compiled separately, with their duration, by the package or module that starts them."""
+"""Message for each group of code that is compiled separately, by the package or module that starts the compilation."""
 
 
 class _Notice(event.Listener):
-    """Listener to Numba's compilations that prints a line before a long one."""
+    """Listener that prints a line before Numba starts a long compilation."""
 
     def __init__(self):
         self.within, self.said, self.hint = 0, set(), " (run python -m vibroimpact.compile to do it in advance)"
 
     def beforehand(self) -> None:
-        """Omit the hint, for a user who compiles on purpose."""
+        """Omit the hint to compile in advance, because the user is doing so."""
         self.hint = ""
 
     def on_start(self, compilation):
@@ -75,7 +75,7 @@ SHARED_FOLDERS = ("system", "exact/engine")
 
 
 def disk_cached(**options):
-    """Return Numba's `njit` for a function whose compiled code is cached on disk."""
+    """Return a decorator like Numba's `njit` that caches the compiled code on disk, in `code_folder`."""
 
     def decorate(function):
         with _numba_caching_in(code_folder(Path(function.__code__.co_filename).parent)):
@@ -86,9 +86,9 @@ def disk_cached(**options):
 
 @cache
 def code_folder(package: Path) -> Path | None:
-    """Return the cache folder for a package, or None if NUMBA_CACHE_DIR gives one.
+    """Return the cache folder for a package, or None if NUMBA_CACHE_DIR is set.
 
-    Numba uses no folder that is not writable: code compiled next to a library that is read-only now is copied.
+    Numba needs a writable folder. If the library is read-only, the code compiled at its installation is copied to one.
     """
     if config.CACHE_DIR:
         return None
@@ -100,7 +100,7 @@ def code_folder(package: Path) -> Path | None:
 
 
 def _copy(code, folder):
-    """Copy compiled code as a whole, since other processes may read it or copy it at the same time."""
+    """Copy a folder of compiled code in one step, since other processes may read or copy it at the same time."""
     try:
         with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".copy-") as part:
             for file in code.glob("*/*"):
@@ -114,7 +114,7 @@ def _copy(code, folder):
 
 @contextmanager
 def _numba_caching_in(folder):
-    """Set Numba's cache folder while a function is decorated; other packages keep theirs."""
+    """Set Numba's cache folder within a `with` block, so that other packages keep their own folder."""
     before = config.CACHE_DIR
     config.CACHE_DIR = str(folder or before)
     try:
@@ -125,7 +125,7 @@ def _numba_caching_in(folder):
 
 @cache
 def _fingerprint(package):
-    """Return a hash of all sources that a function of this package may be compiled from."""
+    """Return a hash of all source files that may be compiled into a function of this package."""
     files = {path for folder in (*(PACKAGE / name for name in SHARED_FOLDERS), package) for path in folder.glob("*.py")}
     digest = hashlib.sha256()
     for path in sorted(files):
@@ -135,13 +135,13 @@ def _fingerprint(package):
 
 @cache
 def _writable() -> Path:
-    """Return the first writable folder: next to the library, in the user's cache, or a private temporary one.
+    """Return the first writable folder: next to the library, in the user's cache, or a private temporary folder.
 
-    The use of a temporary folder is reported.
+    A message is printed if the temporary folder is used.
     """
     own = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
     for folder in (LIBRARY_CACHE, own / "vibroimpact"):
-        if folder.is_absolute() and _takes_files(folder):  # "~" is not expanded if the home directory is unknown
+        if folder.is_absolute() and _takes_files(folder):  # "~" stays in the path if the home directory is unknown
             return folder
     folder = _temporary()
     say(f"neither the installation nor {own} is writable; caching compiled code in {folder}")
@@ -158,9 +158,9 @@ def _takes_files(folder):
 
 
 def _temporary():
-    """Return one folder for all processes of this user.
+    """Return a temporary folder that all processes of this user share.
 
-    It is a new folder if other users could write to the common one, since its code is executed.
+    If another user could write to this folder, return a new one instead, since the code in it is executed.
     """
     folder = Path(tempfile.gettempdir(), f"vibroimpact-{os.getuid()}")
     folder.mkdir(mode=0o700, exist_ok=True)

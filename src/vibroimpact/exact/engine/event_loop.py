@@ -1,13 +1,13 @@
-"""Event-driven integration of (10.2): flights, impacts, chatter, sticking and release.
+"""Integrate (10.2) from event to event: flights, impacts, chatter, sticking and release.
 
 Between events the flow is linear and evaluated in closed form (flow.advance). For each module, exclusion.module_time
-returns a time over which it certainly has no event, or the time of its certain next event. If the first event is
-certain, Newton's method finds it, starting at the nearest time of the flow table. Otherwise the flight continues to the
-end of the proved interval, so that no event is missed. Events (contact.resolve):
+proves that it has no event over some time, or returns the time at which its next event certainly happens. If the first
+event is certain, Newton's method finds its time, starting at the nearest time of the flow table. Otherwise the flight
+continues to the end of the proved interval, so that no event is missed. Events (contact.resolve):
 
 impact    a ball meets a wall with outward relative velocity: Newton's restitution rule, momentum conserved;
-stick     the end of a chatter, infinitely many impacts in a finite time. It is completed at once when the neglected
-          change is below rounding; from then on box and ball move as one body of mass 1 + epsilon;
+stick     the end of a chatter, infinitely many impacts in a finite time. A chatter is completed at once when this
+          changes the state by less than rounding; from then on box and ball move as one body of mass 1 + epsilon;
 release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it negative.
 
 Time is the forcing phase, kept modulo one period without loss (flow.advance_phase), so that long runs lose no digits.
@@ -40,9 +40,10 @@ STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 
 @inlined_source
 def fly(flow, motion, remaining, most_proofs, counters):
-    """Fly to the next event, the end of the run or of the table; return (time, module due or -1, boxes, balls).
+    """Fly to the next event, or at most to the end of the run or table; return (time, module due or -1, boxes, balls).
 
-    It stops if time does not advance, or after most_proofs exclusions.
+    In place of the module, STUCK_IN_TIME or OUT_OF_PROOFS is returned if time does not advance or after most_proofs
+    exclusions.
     """
     q = flow.coefficients
     mode = mode_of(motion.walls)
@@ -58,7 +59,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
         due, step, width, safe, doubt = _first_event(q, now, jets, bound, horizon, short)
-        step = step if step >= -t else 0.0  # an event just passed is not before the start of the flight
+        step = step if step >= -t else 0.0  # an event is not before the start of the flight
         met, boxes, end = due >= 0 and abs(step) <= short, now.boxes, t + step
         if met:
             counters[contact.UNDECIDED] += doubt
@@ -77,15 +78,15 @@ def fly(flow, motion, remaining, most_proofs, counters):
 
 @inlined_source
 def _first_event(q, motion, jets, bound, horizon, short):
-    """Return the first event: (module or -1, its time, width of that, time before which nothing happens, doubt).
+    """Return (module, time, width, safe, doubt): the first event at time +- width, and a time `safe` without events.
 
-    Module -1: no event is certain to be the first.
+    The module is -1 if no event is certainly the first. doubt: a tangential contact is a miss within rounding.
     """
     one = _first_to_check(motion.boxes, motion.balls)
     two = 1 - one
     t1, w1, u1 = module_time(q, motion, one, jets, bound, horizon, short)
     w, s1 = _bounds(t1, w1, short)
-    # check the other module a little further, so that it cannot interfere when the first one is due
+    # check the other module for a little longer, so that no event of it precedes the first one unnoticed
     t2, w2, u2 = module_time(q, motion, two, jets, bound, min(t1 + w + short, horizon), short)
     v, s2 = _bounds(t2, w2, short)
     if w1 < math.inf and t1 + w <= s2:
@@ -97,14 +98,14 @@ def _first_event(q, motion, jets, bound, horizon, short):
 
 @inlined
 def _bounds(t, width, short):
-    """Return the result of module_time as the uncertainty of a time and the end of the event-free interval."""
+    """Return (uncertainty of the time, end of the interval without events) from a result of module_time."""
     w = 0.0 if width == math.inf or abs(t) <= short else width
     return w, t - w
 
 
 @inlined_source
 def _first_to_check(boxes, balls):
-    """Return the module whose ball would first reach the wall ahead at its present speed."""
+    """Return the module whose ball would reach the wall ahead first, at the present relative velocities."""
     v1, v2 = boxes[2] - balls[2], boxes[3] - balls[3]
     g1 = 1.0 - math.copysign(1.0, v1) * (boxes[0] - balls[0])
     g2 = 1.0 - math.copysign(1.0, v2) * (boxes[1] - balls[1])
@@ -113,7 +114,7 @@ def _first_to_check(boxes, balls):
 
 @inlined
 def _refine_impact_time(flow, motion, i, t, low, high):
-    """Find the only impact of module i in [low, high]; return (True if found, its time, boxes)."""
+    """Find the only impact of module i in [low, high], from the guess t; return (True if found, its time, boxes)."""
     mode = mode_of(motion.walls)
     for _ in range(TRIES):
         j = int(t * flow.density + 0.5)
@@ -138,25 +139,26 @@ FAILURES = {
     CROWDED: "there are too many events",
     EXHAUSTED: "there are too many exclusions",
 }
-ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # initial rows for events; few runs need more
-MOST_AT_ONCE = 8  # most events at one instant: an impact, a stick, a release and the end of a chatter per module
+ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # initial number of rows for events; few runs need more
+MOST_AT_ONCE = 8  # most events at one instant: for each module an impact, a stick, a release and the end of a chatter
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
-"""Limits on the events of a run; only a kappa close to 1 exceeds them."""
+"""Limits on the number of events in a run; only runs with kappa close to 1 exceed them."""
 INTERRUPT_INTERVAL = 200_000  # exclusions between two checks for an interrupt, about 20 ms
-PATIENCE = 100_000  # events without progress of time before a run is stopped
+PATIENCE = 100_000  # successive flights of zero duration before a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
-"""Terms of the limit on the exclusions of a run; the time unit is that of the flow."""
-PIECE = 65536  # rows for the events of a long run, 8 MB, for which the system uses large pages
+"""Terms of the limit on the number of exclusions in a run; the unit of time is `Flow.unit`."""
+PIECE = 65536  # rows per array for the events of a long run: 8 MB, for which the operating system uses large pages
 EARLIER, SPAN, CLOCK, PLACES = 19, 20, 23, 24
-"""Indices in the array of a run, (PLACES,): the state in public order and the rest of its `Progress`, the number of
-events before the current rows, the `Span` of the run, and the start of the clock for its sample times."""
+"""Indices in the array of a run, (PLACES,). It holds the state in public order, the other fields of `Progress`, the
+number of events in earlier rows (EARLIER), the `Span` and the time on the sample clock at the start (CLOCK)."""
 
 
 class Progress(NamedTuple):
     """State of an unfinished run.
 
-    motion; due: module due, or -1; phase and tail; revolutions; elapsed: time since the start; sampled: samples taken;
-    stalled: flights without progress in time.
+    due: module with an event at this instant, or -1. phase, tail: forcing phase in [0, 2 pi) and its remainder.
+    revolutions: full turns of the phase. elapsed: time since the start. sampled: number of samples taken. stalled:
+    number of successive flights of zero duration.
     """
 
     motion: Motion
@@ -170,7 +172,7 @@ class Progress(NamedTuple):
 
 
 class Span(NamedTuple):
-    """Start and length of a run: phase with its tail, and number of forcing cycles."""
+    """Start and length of a run: forcing phase at the start with its remainder, and number of forcing cycles."""
 
     phase: float
     tail: float
@@ -178,7 +180,7 @@ class Span(NamedTuple):
 
 
 class Sampling(NamedTuple):
-    """Ascending sample times (n,), on a clock that shows `start` at the start of the run, and states (n, 8)."""
+    """Ascending sample times (n,), on a clock that shows `start` when the run starts, and the sampled states (n, 8)."""
 
     start: float
     times: np.ndarray
@@ -189,13 +191,13 @@ class Sampling(NamedTuple):
 def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """Continue a run to its end or to a pause; return the status.
 
-    numbers, series, rotations: `flow.tables_of` the system. times (n,): ascending, on the clock of the run. samples
-    (n, 8): written; at an event, the state after it. run, rows, counters: `memory`, updated; run[:8] is the state
-    reached.
+    numbers, series, rotations: `flow.tables_of` the system. times (n,): ascending sample times on the clock of the run.
+    samples (n, 8): filled; at an event with the state after it. run, rows, counters: as from `memory`; updated. run[:8]
+    is then the state reached.
 
-    The status is PAUSED if the rows are full (`is_full`: make room), or after INTERRUPT_INTERVAL exclusions, so that
-    the interpreter can handle an interrupt; then call the function again. The status is a number, because an interrupt
-    during the conversion of a tuple would leave it incomplete.
+    The status is PAUSED if the rows are full (`is_full`; then call `empty_rows`), or after INTERRUPT_INTERVAL
+    exclusions, so that the interpreter can handle an interrupt; call the function again to continue. Only a number is
+    returned, because an interrupt during the conversion of a tuple would leave the tuple incomplete.
     """
     flow, log, interval = unpacked(numbers, series, rotations), Log(rows, counters), np.int64(INTERRUPT_INTERVAL)
     span, sampling = Span(run[SPAN], run[SPAN + 1], int(run[SPAN + 2])), Sampling(run[CLOCK], times, samples)
@@ -205,10 +207,10 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
 
 
 def memory(state, phase, tail, cycles, clock):
-    """Return memory for a run of some cycles: its array, rows of events, and counters.
+    """Return new arrays for a run over `cycles` cycles: (array of the run, rows of events, counters).
 
-    state (8,): initial state, in public order. phase, tail: a float in [0, 2 pi) and its remainder. clock: the time
-    that the clock for the samples shows at the start.
+    state (8,): initial state in public order. phase, tail: forcing phase in [0, 2 pi) and its remainder. clock: time on
+    the clock of the samples at the start.
     """
     run, room = np.zeros(PLACES), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     run[:8], run[12:15], run[SPAN:] = state, (-1.0, phase, tail), (phase, tail, cycles, clock)
@@ -216,19 +218,19 @@ def memory(state, phase, tail, cycles, clock):
 
 
 def is_full(rows, counters):
-    """Return True if a run pauses because its rows are full."""
+    """Return True if the rows may be too few for the events of the next instant."""
     return counters[EVENTS] + MOST_AT_ONCE > len(rows)
 
 
 def empty_rows(run, counters):
-    """Count the events of full rows as earlier ones, so that the run continues in new rows."""
+    """Count the events in the rows as earlier events, so that the run continues in new rows."""
     run[EARLIER] += counters[EVENTS]
     counters[EVENTS] = 0.0
 
 
 @inlined_source
 def progress_of(run):
-    """Return the progress of a run from its array."""
+    """Return the `Progress` of a run from the array of the run."""
     boxes, balls = (run[0], run[2], run[4], run[6]), (run[1], run[3], run[5], run[7])
     motion = Motion(boxes, balls, (int(run[8]), int(run[9])), (int(run[10]), int(run[11])), 0.0, 1.0)
     return Progress(motion, int(run[12]), run[13], run[14], int(run[15]), run[16], int(run[17]), int(run[18]))
@@ -236,7 +238,7 @@ def progress_of(run):
 
 @inlined_source
 def write_progress(progress, run):
-    """Write the progress of a run to its array."""
+    """Write the `Progress` of a run to the array of the run."""
     (boxes, balls, walls, touching, _, _), due, phase, tail, revolutions, elapsed, sampled, stalled = progress
     pack(boxes, balls, run)
     run[8], run[9], run[10], run[11] = walls[0], walls[1], touching[0], touching[1]
@@ -246,9 +248,9 @@ def write_progress(progress, run):
 
 @in_place
 def run_until(flow, progress, span, sampling, log, earlier, interval):
-    """Continue to the end or to a pause (rows full, or more than `interval` exclusions).
+    """Continue a run to its end or to a pause; return (progress, status).
 
-    Returns (progress, status).
+    It pauses if the rows are full or after more than `interval` exclusions. earlier: number of events in earlier rows.
     """
     q = flow.coefficients
     (first, first_tail, cycles), (start, sample_times, samples) = span, sampling

@@ -24,15 +24,15 @@ from vibroimpact.system.state import EVENT, KINDS, states_array
 
 NO_TIMES = np.empty(0)
 LATEST = 2.0**43
-"""Largest time: beyond it, floats are more than 1e-3 apart and cannot represent events."""
+"""Limit on |tau|: beyond it, floats are more than 1e-3 apart, too coarse for the times of events."""
 MOST_CYCLES = 10_000_000
-"""Largest number of cycles of one run, which stores all its events: about a kilobyte per cycle."""
+"""Largest number of cycles in one run. A run stores all its events, which take about a kilobyte per cycle."""
 ROUNDED = 1e-12
-"""Largest distance of a ball beyond a wall in an initial state (plus rounding); the ball is put on the wall."""
+"""Largest accepted distance of a ball beyond a wall in an initial state (plus rounding); the run puts it on it."""
 
 
 def checked_state(state) -> np.ndarray:
-    """Return an initial state (8,) with its balls between the walls.
+    """Return an initial state as an array (8,), after checking that both balls are between the walls.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def _check_walls(*modules):
 
 
 def within_walls(states) -> np.ndarray:
-    """Return True (n,) for each initial state (n, 8) that `checked_state` accepts."""
+    """Return a mask (n,) of the initial states (n, 8) that `checked_state` would accept."""
     boxes, balls = states[:, 0:4:2], states[:, 1:4:2]
     with np.errstate(invalid="ignore", over="ignore"):
         slack = ROUNDED + 2.0 * np.spacing(np.maximum(abs(boxes), abs(balls)))
@@ -70,12 +70,12 @@ def within_walls(states) -> np.ndarray:
 
 
 def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
-    """Return the exact start of a run and its number of cycles.
+    """Return (exact start time, number of cycles) of a run, after checking both.
 
     Raises
     ------
     ValueError
-        If an argument is malformed, or if the run exceeds the range of times.
+        If an argument is malformed, or if |tau| reaches LATEST during the run.
     """
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     begin = _instant(tau0)
@@ -91,7 +91,7 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
 
 
 def _instant(tau0):
-    """Return the exact time of tau0."""
+    """Return tau0 without rounding: a float as it is, another rational number as an Instant."""
     if isinstance(tau0, Instant):
         return tau0
     number = real("tau0", tau0)
@@ -99,7 +99,7 @@ def _instant(tau0):
 
 
 def checked_times(name, times, start, end) -> np.ndarray:
-    """Return sample times (n,) within a run from start to end.
+    """Return sample times as an array (n,), after checking that the run from start to end covers them.
 
     Raises
     ------
@@ -128,15 +128,15 @@ class Run(Representation):
     start : ndarray
         Initial state, shape (8,).
     begin : float or Instant
-        Exact time of the start.
+        Exact start time.
     cycles : int
         Number of forcing periods.
     samples : ndarray
-        States at the sample times, shape (n, 8); at an event, the state after it.
+        States at the sample times, shape (n, 8). At the time of an event, the state after the event.
     final : ndarray
         State at the end, shape (8,).
     pieces, counters : list of ndarray, ndarray
-        Rows of events and counts of the engine (`vibroimpact.exact.engine.contact`).
+        Events in the engine's form, arrays (n, ROW), and its counters (`vibroimpact.exact.engine.contact`).
     """
 
     system: System
@@ -149,14 +149,14 @@ class Run(Representation):
     counters: np.ndarray
 
     def __init__(self, system, start, begin, cycles, samples, final, pieces, counters):
-        fields = self.__dict__  # one update takes half of the time of single assignments to a frozen class
+        fields = self.__dict__  # in a frozen class, one update takes half the time of single assignments
         fields.update(system=system, start=start, begin=begin, cycles=cycles)
         fields.update(samples=samples, final=final, pieces=pieces, counters=counters)
         for array in (start, samples, final, counters):
             array.flags.writeable = False
 
     def __reduce__(self):
-        """Rebuild a copied or unpickled run, because NumPy does not keep the read-only flag of arrays."""
+        """Copy or unpickle a run through its constructor, because copies of NumPy arrays lose the read-only flag."""
         given = self.system, self.start, self.begin, self.cycles, self.samples, self.final, self.pieces, self.counters
         return type(self), given
 
@@ -172,7 +172,7 @@ class Run(Representation):
 
     @cached_property
     def rows(self) -> np.ndarray:
-        """Rows of events of the engine, joined into one array (n, ROW)."""
+        """Events in the engine's form, joined into one array (n, ROW)."""
         rows = self.pieces[0] if len(self.pieces) == 1 else np.concatenate(self.pieces)
         self.pieces[:] = [rows]
         rows.flags.writeable = False
@@ -182,11 +182,11 @@ class Run(Representation):
     def events(self) -> np.ndarray:
         """Events in order of time, a structured array (m,) of type EVENT.
 
-        Fields: tau; module, 1 or 2; wall, +1 or -1 (X_i - Y_i = +1 or -1); kind, a key of KINDS (0: impact, 1: stick,
-        the ball comes to rest on the wall, 2: release, it leaves the wall); state, (8,), just after the event.
+        Fields: tau; module, 1 or 2; wall, +1 or -1 (X_i - Y_i = +1 or -1); kind, a key of KINDS (0 impact; 1 stick: the
+        ball comes to rest on the wall; 2 release: the ball leaves the wall); state, (8,), just after the event.
         """
         rows = self.rows
-        if continues(self.begin):  # balls at rest on a wall stuck in the previous run already
+        if continues(self.begin):  # a ball at rest on a wall already stuck at the end of the previous run
             again = [n for n in range(min(event_loop.MOST_AT_ONCE, len(rows))) if rests_at_start.py_func(rows, n)]
             rows = np.delete(rows, again, axis=0)
         table = np.empty(len(rows), EVENT)
@@ -199,14 +199,14 @@ class Run(Representation):
 
     @property
     def tau0(self) -> float:
-        """Time of the start, rounded to a float."""
+        """Start time, rounded to a float."""
         return float(self.begin)
 
     @property
     def end(self) -> Instant:
         """Exact time of the final state.
 
-        A run from `final` with tau0=run.end continues this one in the same forcing phase.
+        To continue this run with the exact forcing phase, start from `run.final` with tau0=run.end.
         """
         return exactly(self.begin).later(self.cycles, self.system.Omega)
 
@@ -214,14 +214,14 @@ class Run(Representation):
     def jacobian(self) -> np.ndarray:
         """Derivative of the final state with respect to the initial state, shape (8, 8).
 
-        It passes through impacts, chatter, sticking and releases.
+        It includes the effect of impacts, chatter, sticking and releases.
         """
         jacobian = self.carry(np.eye(8))
         jacobian.flags.writeable = False
         return jacobian
 
     def carry(self, perturbations: np.ndarray) -> np.ndarray:
-        """Return perturbations (8, k) of the initial state, propagated to the final state to first order.
+        """Propagate small perturbations of the initial state to the final state, to first order.
 
         Parameters
         ----------
@@ -237,7 +237,7 @@ class Run(Representation):
 
     @cached_property
     def certificate(self) -> Certificate:
-        """Certificate of the run: proofs and error estimates."""
+        """Certificate of the run: proofs that no event was missed, and error estimates."""
         return Certificate.of(self)
 
     @cached_property
@@ -270,13 +270,13 @@ class Run(Representation):
         return errors_at(*self.trajectory, times - begin, HORIZON_ERROR)
 
     def to_frame(self):
-        """Return the events as a pandas DataFrame: tau, module, wall, kind as text, and the state after each event."""
+        """Return the events as a pandas DataFrame: tau, module, wall, kind as text and state after the event."""
         return frames.of_run(self)
 
     def section(self, phase: float = 0.0) -> np.ndarray:
-        """Return the states at a forcing phase, one per cycle (a stroboscopic Poincare section).
+        """Return the state in each cycle at a given forcing phase (a stroboscopic Poincare section).
 
-        The motion is computed again.
+        The run is simulated again for these samples.
 
         Parameters
         ----------
@@ -291,28 +291,28 @@ class Run(Representation):
         system, phase = self.system, real("phase", phase)
         (wanted, part), (begin, tail) = phase_at(phase, 1.0), phase_at(self.begin, system.Omega)
         ahead = ((wanted - begin) + (part - tail)) % TWO_PI
-        # A start given as a float may stand for whole periods from tau = 0.
+        # tau0 may be a rounded multiple of the period
         rounding = math.ulp(max(abs(phase), TWO_PI)) + system.Omega * math.ulp(self.tau0)
         at_start = min(ahead, TWO_PI - ahead) <= 2.0 * rounding
         cycles = np.arange(self.cycles + at_start)
         return self._sampled(system.period * cycles + (0.0 if at_start else ahead / system.Omega))
 
     def plot(self):
-        """Return a Matplotlib Figure of X_i, and of W_i = X_i - Y_i between the walls.
+        """Return a Matplotlib Figure with X_i, and with W_i = X_i - Y_i between the walls.
 
-        The motion is computed again.
+        The run is simulated again for the samples of the curves.
         """
         since = frames.plot_times(self)
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
-        """Return the states at given times since the start; such times lose no digits far from tau = 0."""
+        """Return the states at given times since the start, which keep their digits even if tau0 is large."""
         start = self.start.copy()  # a read-only array would trigger another compilation
         return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
 
     @cached_property
     def trajectory(self) -> tuple:
-        """Flow, flights between the events (`replayed`) and rows of events (`contact`)."""
+        """(flow tables, flights between the events as in `replayed`, rows of events as in `contact`)."""
         flow, duration = flow_of(self.system), self.cycles * self.system.period
         phase = phase_at(self.begin, self.system.Omega)[0]
         return flow, replayed(flow, self.start, self.rows, phase, duration), self.rows
@@ -325,33 +325,33 @@ def simulate(
     tau0: float | Fraction | Instant = 0.0,
     sample_times: ArrayLike | None = None,
 ) -> Run:
-    """Integrate the exact system over a number of forcing cycles.
+    """Simulate the exact system over a number of forcing cycles.
 
-    Impacts, chatter, sticking and release are included. Between events the flow is evaluated in closed form, without
-    time steps.
+    The run includes impacts, chatter, sticking and release. Between events the flow is evaluated in closed form,
+    without time steps.
 
     Parameters
     ----------
     system : System
         Dimensionless parameters.
     state : array_like or mapping
-        Initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), dimensionless; or these components by name, as a
-        mapping or a row of a table from `to_frame`.
+        Initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), dimensionless. Alternatively a mapping from the
+        names of the components to their values, or a row of a table from `to_frame`.
     cycles : int
-        Forcing periods to run, from 0 to ten million, since a run stores all its events. To continue a run, start from
+        Number of forcing periods, from 0 to ten million (a run stores all its events). To continue a run, start from
         `run.final` with tau0=run.end.
     tau0 : float, Fraction or Instant, default 0.0
-        Dimensionless initial time, which sets the forcing phase; taken exactly. With `run.end`, the run continues
-        another one: a ball at rest on a wall sticks already, without a new event. |tau0| and the end must stay below
-        2**43.
+        Dimensionless initial time, used without rounding; it sets the forcing phase. With tau0=run.end, the new run
+        continues `run`: a ball at rest on a wall already sticks, without a new event. |tau0| and the end time must be
+        below 2**43.
     sample_times : array_like, optional
         Ascending times tau in [tau0, tau0 + cycles * system.period] at which to record states.
 
     Returns
     -------
     Run
-        Events, samples and final state. `run.certificate`, `run.energy` and `run.jacobian`, the derivative of the final
-        state, are computed on first access.
+        Events, samples and final state. `run.certificate`, `run.energy` and `run.jacobian` (the derivative of the final
+        state) are computed on first access.
 
     Raises
     ------
@@ -363,8 +363,8 @@ def simulate(
 
     Notes
     -----
-    On a new machine the first run waits for the compilation of the engine, with a notice; run `python -m
-    vibroimpact.compile` in advance to avoid that.
+    On a new machine the first run prints a message and waits until the engine is compiled. To compile in advance, run
+    `python -m vibroimpact.compile`.
 
     Examples
     --------
@@ -385,16 +385,16 @@ def simulate(
 def simulate_many(
     system: System, states: ArrayLike, cycles: int, tau0: float | Fraction | Instant = 0.0, progress: bool = False
 ) -> list[Run]:
-    """Simulate from many initial states on all cores.
+    """Simulate runs from many initial states on all cores.
 
-    Every run equals its `simulate` bit by bit.
+    Every run is bit by bit the same as with `simulate`.
 
     Parameters
     ----------
     system : System
         Dimensionless parameters.
     states : array_like
-        Initial states, shape (n, 8), each as for `simulate`; or a table with their columns by name.
+        Initial states, shape (n, 8), each as for `simulate`; or a table with the components as named columns.
     cycles, tau0
         As for `simulate`.
     progress : bool, default False
@@ -408,7 +408,7 @@ def simulate_many(
     Raises
     ------
     ValueError
-        If an argument is malformed, or if an initial state is invalid (the message names its row).
+        If an argument is malformed, or if an initial state is invalid (the message gives the row of the state).
     ArithmeticError
         If an invariant is violated in one of the runs.
 
@@ -436,9 +436,9 @@ def simulate_many(
 
 
 def _run(system, state, cycles, begin, times, clock):
-    """Return one run from checked arguments.
+    """Return a run, given checked arguments, or raise an ArithmeticError if it failed.
 
-    Sample times are on a clock that shows `clock` at the start.
+    The sample times are measured on a clock that shows `clock` at the start of the run.
     """
     status, run = attempt(system, state, cycles, begin, times, clock)
     if status != event_loop.FINISHED:
@@ -448,7 +448,7 @@ def _run(system, state, cycles, begin, times, clock):
 
 
 def attempt(system, state, cycles, begin, times, clock):
-    """Return (status, the run up to its end or failure) from checked arguments."""
+    """Return (status, run up to its end or failure), given checked arguments; `clock` as in `_run`."""
     run, rows, counters = event_loop.memory(state, *phase_at(begin, system.Omega), cycles, clock)
     tables, samples, pieces = tables_of(system), np.empty((len(times), 8)), []
     while (status := event_loop.integrate(*tables, run, times, samples, rows, counters)) == event_loop.PAUSED:
