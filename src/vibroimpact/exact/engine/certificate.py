@@ -1,6 +1,7 @@
-"""Certificate of a run: proofs that no impact was missed, and error estimates of its states.
+"""Certificate of a run: proofs that no impact was missed, and error estimates for the states.
 
-Rounding errors are estimated by a unit error at the start and after every event, propagated by the variational flow.
+The estimates assume a rounding error of one unit at the start and after every event, and propagate these errors by the
+variational flow.
 """
 
 import math
@@ -31,15 +32,16 @@ from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
 TABLE, REBOUND = 0.15, 0.25
-"""Typical rounding, in units, of an entry of the flow tables, and of restitution times approach. A rounding that
-repeats (the same entry is read again, or kappa is close to 1) adds up instead of averaging out."""
+"""Typical rounding errors, in UNIT: of an entry of the flow tables, and of restitution times approach velocity. If the
+same error repeats (the same entry is read again, or kappa is close to 1), it adds up instead of averaging out."""
 
 
 class Errors(NamedTuple):
-    """Estimated errors of a state in units of rounding.
+    """Estimated errors of a state, in UNIT.
 
-    independent: covariance (8, 8) of independent roundings. repeated: sums (8, 6) of roundings that are equal each
-    time, one column for each source: growth and rotation of either box by the tables, rebound of either ball.
+    independent: covariance (8, 8) of independent rounding errors. repeated: sums (8, 6) of rounding errors that are the
+    same each time, with one column for each source: the tables make each box grow (columns 0, 2) or rotate (1, 3), and
+    restitution changes the rebound of each ball (4, 5).
     """
 
     independent: np.ndarray
@@ -48,10 +50,10 @@ class Errors(NamedTuple):
 
 @compiled
 def errors_of(flow, flights, events, limit):
-    """Return estimated errors at the start and end of every flight, rows (m + 1, 2), and of the final state.
+    """Return (errors at the start and end of every flight, rows (m + 1, 2); error of the final state), estimated.
 
-    An error is the root mean square over the whole state. It is inf from the first event (or the end) on after which it
-    exceeds the limit.
+    An error is the root of the sum of the mean squares over all components. If it exceeds the limit after an event (or
+    at the end), all later errors are inf.
     """
     q = flow.coefficients
     estimates, largest = np.full((len(flights), 2), math.inf), limit / UNIT
@@ -70,16 +72,16 @@ def errors_of(flow, flights, events, limit):
         else:
             _end(q, flights[n], 0.0, errors, product[0])
         root = _root(errors)
-        if not root <= largest:  # also for nan, from an impact without velocity
+        if not root <= largest:  # True also for nan, which an impact without velocity gives
             return estimates, math.inf
     return estimates, UNIT * root
 
 
 @compiled
 def errors_at(flow, flights, events, times, limit):
-    """Return estimated errors (n,) of the states at ascending times since the start.
+    """Return the estimated errors (n,) of the states at ascending times since the start.
 
-    Each is the error that `errors_of` gives for a run that ends at this time.
+    Each error is the one that `errors_of` returns for a run that ends at this time.
     """
     q = flow.coefficients
     estimates, largest, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
@@ -113,7 +115,7 @@ def errors_at(flow, flights, events, times, limit):
 
 @inlined
 def _begin(q, flight, errors):
-    """Add to errors the rounding of the initial state, including the velocity of a ball put on a wall."""
+    """Add the rounding error of the initial state to errors, including the velocity of a ball that touches a wall."""
     state = flight[BEFORE:AFTER]
     touching = abs(state[0] - state[4]) >= 1.0, abs(state[1] - state[5]) >= 1.0
     _add_rounding(q, errors, flight[:AFTER], state, touching)
@@ -121,9 +123,9 @@ def _begin(q, flight, errors):
 
 @inlined
 def _fly(flow, flight, errors, matrix, product):
-    """Propagate errors over a flight, adding the rounding of the tables at each end of a piece.
+    """Propagate errors over a flight, in pieces, and add the rounding errors of the tables and of each piece.
 
-    The row of the flight is replaced by its last piece.
+    The row of the flight is overwritten by its last piece.
     """
     left = flight[LENGTH]
     while left > 0.0:
@@ -142,7 +144,7 @@ def _fly(flow, flight, errors, matrix, product):
 
 @inlined
 def _pass(q, flights, events, n, errors, matrix, product):
-    """Propagate errors over event n, adding a rounding."""
+    """Propagate errors over event n, and add the rounding errors of the event."""
     _add_miss(errors.independent, flights[n], events[n])
     fill_event(q, flights, events, n, matrix)
     _carry(matrix, errors, product)
@@ -155,14 +157,14 @@ def _pass(q, flights, events, n, errors, matrix, product):
 
 @inlined
 def _end(q, flight, elapsed, errors, rate):
-    """Add to errors at the end of a run, or at a sample, the error of the time and the rounding of the state."""
+    """At the end of a run or at a sample, add the effects of rounding the time and the state to errors."""
     _add_lateness(q, errors.independent, flight, elapsed, rate)
     _add_rounding(q, errors, flight[:AFTER], flight[AFTER:], (False, False))
 
 
 @inlined
 def _carry(matrix, errors, product):
-    """Replace errors by their product with a matrix M, and a covariance C by M (M C)^T."""
+    """Propagate errors by a matrix M: replace the covariance C by M C M^T, and the sums S by M S."""
     covariance, sums = errors.independent, errors.repeated
     _multiply(matrix, covariance, product)
     for i in range(8):
@@ -177,7 +179,7 @@ def _carry(matrix, errors, product):
 
 @inlined
 def _multiply(a, b, product):
-    """Fill in the product of a sparse matrix (8, 8) and vectors (8, m)."""
+    """Write the product of a matrix a (8, 8), which has many zeros, and vectors b (8, m)."""
     columns = b.shape[1]
     for i in range(8):
         for j in range(columns):
@@ -191,14 +193,14 @@ def _multiply(a, b, product):
 
 @inlined
 def _copy(source, target):
-    """Copy entries one by one; an array assignment would make Numba compile an error message for 2 s."""
+    """Copy entries one by one; for an array assignment Numba would compile an error message, which takes 2 s."""
     for i in range(len(source)):
         target[i] = source[i]
 
 
 @inlined
 def _root(errors):
-    """Return the root mean square of errors over the whole state."""
+    """Return the root of the sum of the mean squares of errors over all components of the state."""
     total = 0.0
     for k in range(8):
         row = errors.independent[k, k]  # separate rows, which the processor can add in parallel
@@ -210,7 +212,7 @@ def _root(errors):
 
 @inlined_source
 def _add_miss(covariance, flight, event):
-    """Add to a covariance before an impact the distance by which the ball was moved onto its wall."""
+    """Before an impact, add the distance by which the ball was moved onto its wall to the covariance, squared."""
     if event[3] == IMPACT:
         i = int(event[1]) - 1
         miss = 1.0 - abs(flight[AFTER + i] - flight[AFTER + 4 + i])
@@ -219,10 +221,10 @@ def _add_miss(covariance, flight, event):
 
 @inlined
 def _add_lateness(q, covariance, flight, elapsed, rate):
-    """Add the effect of a rounding error in the duration to the covariance at the end of a flight.
+    """Add the effect of a rounding error in the time to the covariance at the end of a flight.
 
-    The end of a run and its sample times are differences: of phases since the start of the last cycle, and of elapsed
-    times (`elapsed` = 0: only the phase counts).
+    The time of the end of a run is a difference of phases. A sample time is a difference of elapsed times, whose
+    rounding grows with `elapsed` (0 at the end of a run).
     """
     late = 2.0 / q.omega + flight[LENGTH] + elapsed
     _, _, walls = start_of(flight)
@@ -233,9 +235,9 @@ def _add_lateness(q, covariance, flight, elapsed, rate):
 
 @inlined
 def _add_table(q, state, sums):
-    """Add the rounding of a table entry to sums before a flight from a state (8,).
+    """Add the rounding error of a table entry to the repeated sums, before a flight from a state (8,).
 
-    Each box grows and rotates by this rounding.
+    The error makes the motion of each box grow and rotate in the phase plane.
     """
     for i in range(2):
         x, v = state[i], state[2 + i]
@@ -248,11 +250,11 @@ def _add_table(q, state, sums):
 
 @inlined
 def _add_rounding(q, errors, flight, state, met):
-    """Add a unit rounding error of a state (8,), [boxes, balls], at the end of a flight (row up to its start).
+    """Add a unit rounding error for a state (8,), [boxes, balls], at the end of a flight (row with at least its start).
 
-    A flight adds up the effect of the force, F / Omega^2 for a position and F / Omega for a velocity, and rounds it in
-    absolute terms even if it cancels later. The same holds for the velocities due to a stiff spring. The velocity of a
-    free ball is only computed at an impact.
+    The effect of the force, F / Omega^2 on a position and F / Omega on a velocity, is part of the sums in a flight. Its
+    rounding error remains even if the effect cancels later. The same holds for velocities due to a stiff spring. The
+    velocity of a free ball is only computed at an impact, so it has a rounding error only for module `met`.
     """
     covariance, began = errors.independent, flight[BEFORE:]
     speed = q.drive / max(1.0, q.omega)
@@ -266,10 +268,10 @@ def _add_rounding(q, errors, flight, state, met):
 
 
 HORIZON_ERROR = 1e-3
-"""Estimated error at the horizon of a run; a printed figure can show such an error."""
+"""Estimated error that defines the horizon of a run; such an error is just visible in a printed figure."""
 
 CLEARANCE_FACTOR = 4.0
-"""An event is decided if its margin exceeds the estimated error by this factor; true errors stay below 2.6 times the
+"""An event is decided if its margin exceeds the estimated error by this factor. True errors stay below 2.6 times the
 estimate."""
 
 
@@ -280,30 +282,30 @@ class Certificate(Representation):
     Attributes
     ----------
     flights, exclusions : int
-        Number of flights, and of proofs that nothing happens over an interval. Proofs cover every instant of the run;
-        otherwise the run raises an error.
+        Number of flights, and number of proofs that an interval has no event. The proofs cover every instant of the
+        run; otherwise the run raises an error.
     chatters : int
-        Number of infinite sequences of impacts that were completed.
+        Number of completed chatters (infinite sequences of impacts).
     neglected : float
-        Bound on the change of the state by completing them.
+        Bound on the change of the state that completing the chatters neglected.
     wall_residual : float
-        Largest ||W| - 1| at an impact before it was set to zero.
+        Largest ||W| - 1| at an impact, before the ball was moved onto the wall.
     nearest_miss : float
-        Smallest gap at which a ball turned before a wall, in that half of its box; inf if none did.
+        Smallest gap to a wall at which a ball in that half of its box turned back; inf if no ball did.
     shallowest_hit : float
-        Smallest depth that an impact prevented.
+        Smallest depth beyond a wall that a ball would have reached without the impact.
     clearance : float
-        Smallest ratio of a distance from a change of the event sequence to the estimated error at that time. Distances
-        are the two above, the contact forces of sticking and released balls, and the distances of events from the start
-        and the end of the run.
+        Smallest ratio of a margin to the estimated error at that time. A margin is a distance from another event
+        sequence: nearest miss, shallowest hit, contact forces of sticking and released balls, and distances of events
+        from the start and the end of the run.
     undecided : int
-        Number of turns and impacts that cannot be distinguished within rounding.
+        Number of turns and impacts where rounding decides whether the ball hits the wall.
     error : float
-        Estimated error of the final state (root mean square), from unit roundings after every event propagated by the
-        variational flow; inf beyond the horizon.
+        Estimated error of the final state (root mean square), from a unit rounding error after every event, propagated
+        by the variational flow; inf beyond the horizon.
     horizon : float
-        Time tau of the first event, or end, at which this estimate exceeds 1e-3; inf if it never does. Beyond it the
-        trajectory is a possible motion of the system, but not the one from this initial state.
+        Time tau of the first event (or the end) at which the estimated error exceeds 1e-3; inf if it never does. Beyond
+        the horizon, the trajectory is a possible motion of the system, but not the one from this initial state.
 
     Notes
     -----
@@ -356,18 +358,18 @@ class Certificate(Representation):
 
     @property
     def decided(self) -> bool:
-        """True if the margin of every event exceeds the estimated error by CLEARANCE_FACTOR, to the end of the run."""
+        """True if `undecided` is 0, `clearance` exceeds CLEARANCE_FACTOR, and the run ends within the horizon."""
         return not self.undecided and self.clearance > CLEARANCE_FACTOR and bool(np.isfinite(self.error))
 
 
 def _least_ratio(margins, errors):
-    """Return the smallest ratio of a margin to its error; 0 beyond the horizon."""
+    """Return the smallest ratio of a margin to its error, or 0 if an error is inf."""
     known = np.isfinite(errors)
     return float((margins[known] / errors[known]).min()) if known.all() else 0.0
 
 
 def _horizon(errors, error, times, duration):
-    """Return the time of the first event, or the end, at which the estimated error is infinite."""
+    """Return the time since the start of the first event (or the end) with infinite error, or inf."""
     if np.isfinite(error):
         return np.inf
     return [*times, duration][np.count_nonzero(np.isfinite(errors[:, 0])) - 1]

@@ -1,10 +1,10 @@
-"""Motions and what happens to them: free flight, impacts, completed chatters, sticks and releases at one instant.
+"""Apply free flights, and the impacts, completed chatters, sticks and releases at one instant, to a motion.
 
-The impact law is that of `vibroimpact.system.restitution`, which names its other implementations.
+The impact law is defined in `vibroimpact.system.restitution`, which lists its other implementations.
 
-A row of the table of events is [time since the start, module, wall, kind, state after, forcing phase when it was
-recorded, approach, sine and cosine of the phase]. The stick that completes a chatter is recorded at the last simulated
-impact of the chatter. Counters hold the other data that the certificate needs.
+Each event is a row of a table: [time since the start, module, wall, kind, state after the event, forcing phase at the
+time of recording, approach (see `record`), sine and cosine of the phase]. The stick that completes a chatter is
+recorded at the last simulated impact of the chatter. The counters hold further data for the certificate.
 """
 
 from typing import NamedTuple
@@ -24,15 +24,16 @@ from vibroimpact.exact.engine.exclusion import (
 from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses, jet, mode_of
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
-NEGLIGIBLE = 1e-18  # largest change of the state neglected by completing a chatter
-LOW = 1e-12  # height of a hop, relative to the wall at 1, below which its impacts are not listed
+NEGLIGIBLE = 1e-18  # largest change of the state that completing a chatter may neglect
+LOW = 1e-12  # largest height of a hop, as a fraction of the clearance, at which a chatter may be completed
 
 
 class Motion(NamedTuple):
     """State at one instant of a run.
 
-    boxes: (X1, X2, X1', X2'); balls: (Y1, Y2, Y1', Y2'). walls: for each module, the wall that its ball sticks to, or
-    0. touching: the wall that it touches, moving inwards or at rest, or 0. sine, cosine: of the forcing phase.
+    boxes: (X1, X2, X1', X2'); balls: (Y1, Y2, Y1', Y2'). walls: for each module, the wall to which its ball sticks, or
+    0. touching: for each module, the wall that its free ball touches while it rests on the wall or moves away from it,
+    or 0. sine, cosine: of the forcing phase.
     """
 
     boxes: tuple[float, float, float, float]
@@ -45,38 +46,38 @@ class Motion(NamedTuple):
 
 @inlined
 def pair(values, i, value):
-    """Return the pair with its i-th entry replaced."""
+    """Return a pair with the i-th entry replaced by a value."""
     return (value, values[1]) if i == 0 else (values[0], value)
 
 
 @inlined
 def with_velocity(values, i, velocity):
-    """Return boxes or balls with the velocity of module i replaced."""
+    """Return the boxes (or balls) with the velocity in module i replaced."""
     return (values[0], values[1], velocity, values[3]) if i == 0 else (values[0], values[1], values[2], velocity)
 
 
 @inlined
 def with_position(values, i, position):
-    """Return boxes or balls with the position of module i replaced."""
+    """Return the boxes (or balls) with the position in module i replaced."""
     return (position, values[1], values[2], values[3]) if i == 0 else (values[0], position, values[2], values[3])
 
 
 @inlined
 def with_boxes_and_balls(motion, boxes, balls):
-    """Return the motion with its boxes and balls replaced."""
+    """Return a motion with boxes and balls replaced."""
     return Motion(boxes, balls, motion.walls, motion.touching, motion.sine, motion.cosine)
 
 
 @inlined
 def with_contacts(motion, i, wall, touching):
-    """Return the motion with the walls that ball i sticks to and touches replaced."""
+    """Return a motion with replaced entries of `walls` and `touching` for module i."""
     walls, touches = pair(motion.walls, i, wall), pair(motion.touching, i, touching)
     return Motion(motion.boxes, motion.balls, walls, touches, motion.sine, motion.cosine)
 
 
 @inlined
 def drift_balls(balls, walls, boxes, t):
-    """Return the balls a time t after the start of a flight, given the boxes at that time."""
+    """Return the balls at a time t after the start of a flight, given the boxes at that time."""
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
         y1, v1 = boxes[0] - walls[0], boxes[2]
@@ -87,36 +88,36 @@ def drift_balls(balls, walls, boxes, t):
 
 @inlined
 def free_flight(flow, motion, t):
-    """Return the motion a time t later if there is no event in between.
+    """Return the motion a time t later, if no event happens in between.
 
-    Only sticking balls touch a wall then.
+    `touching` is then (0, 0), since only sticking balls still touch a wall.
     """
     boxes, sine, cosine = advance(flow, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine, t)
     return Motion(boxes, drift_balls(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
 
 
 EVENTS, FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
-"""Indices of a run's counters: five counts, the largest |W| - 1 at an impact, and the sum of the changes neglected by
-completed chatters; and the number of entries."""
+"""Indices of a run's counters, and the number of counters. RESIDUAL: largest ||W| - 1| at an impact. NEGLECTED: sum of
+the changes of the state that completing chatters neglected. The others are counts."""
 
 
 class Log(NamedTuple):
-    """Rows of events (n, ROW); the counters (ENTRIES,) hold the number of rows in use."""
+    """Rows of events (n, ROW) and counters (ENTRIES,); counters[EVENTS] is the number of rows in use."""
 
     rows: np.ndarray
     counters: np.ndarray
 
 
 TIME, MODULE, WALL, KIND = range(4)
-PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # indices in a row, and its length
+PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # indices in the row of an event, and the length of the row
 
 
 @inlined
 def record(log, time, i, wall, kind, boxes, balls, approach):
-    """Write an event of module i (0, 1), without its phase.
+    """Write an event of module i (0 or 1) to the log, without the forcing phase.
 
-    approach: the relative velocity before an impact; for the stick of a completed chatter, the speed after its last
-    rebound; else 0.
+    approach: for an impact, the relative velocity before it; for the stick of a completed chatter, the relative speed
+    after the last simulated impact; otherwise 0.
     """
     row = log.rows[int(log.counters[EVENTS])]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
@@ -136,8 +137,8 @@ def pack(boxes, balls, state):
 class Moment(NamedTuple):
     """Instant of a run.
 
-    elapsed: time since its start; remaining: time to its end; due: the module whose constraint has just been met, or
-    -1.
+    elapsed: time since the start of the run. remaining: time to the end of the run. due: module in which an event is
+    due now, or -1.
     """
 
     elapsed: float
@@ -147,10 +148,11 @@ class Moment(NamedTuple):
 
 @inlined
 def impact(q, box, ball):
-    """Return the velocities (X', Y') just after an impact, as `restitution.after_impact`.
+    """Return the velocities (X', Y') just after an impact, as in `restitution.after_impact`.
 
-    The remainder of the rounded factor is added, since it would cause the same error at every impact. The velocity of
-    the heavier body changes less and is computed first; that of the other follows from kappa.
+    The rounding of the factor (1 + kappa) / (1 + epsilon) would cause the same error at every impact, so it is
+    corrected by its remainder. The velocity of the heavier body changes less and is computed first; the other velocity
+    follows from kappa.
     """
     relative = box - ball
     gained = q.impulse * relative + q.impulse_rest * relative
@@ -163,23 +165,24 @@ def impact(q, box, ball):
 
 @inlined
 def common_velocity(q, box, ball):
-    """Return the velocity of box and ball moving as one, with their momentum conserved."""
+    """Return the velocity of box and ball after they join, from conservation of momentum."""
     return box - q.epsilon * q.inverse_mass * (box - ball)
 
 
 @inlined
 def box_accelerations(q, walls, boxes, sine):
-    """Return the accelerations of both boxes."""
+    """Return the accelerations of both boxes, given the walls to which balls stick and the sine of the phase."""
     i1, i2 = inverse_masses(q, mode_of(walls))
     return acceleration(q, (i1, i2), (boxes[0], boxes[1]), (boxes[2], boxes[3]), (q.f1 * sine, q.f2 * sine))
 
 
 @inlined
 def _hold(q, jets, boxes, i, wall, sticking):
-    """Return the sign of the contact force on ball i at rest on a wall: > 0 holds it there, < 0 would have to pull.
+    """Return a number > 0 if ball i, at rest on a wall, is pushed by the wall, and < 0 if the wall would have to pull.
 
-    If the force vanishes within rounding, its first nonzero derivative decides. The same holds for a sticking ball if
-    the pull is too brief to lift it by more than rounding: the lift is 2 |force|^3 / (3 change^2).
+    The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. The
+    derivative also decides if the pull on a sticking ball is so brief that it lifts the ball by no more than rounding:
+    the lift is 2 |force|^3 / (3 change^2).
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -196,7 +199,7 @@ def _hold(q, jets, boxes, i, wall, sticking):
 
 @inlined_source
 def _ends_soon(flow, motion, remaining, i, wall):
-    """Return True if the chatter of ball i after an impact would end within one proof and within the run."""
+    """Return True if the chatter of ball i after an impact would end within the time of one proof and the run."""
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     a = wall * box_accelerations(q, motion.walls, boxes, motion.sine)[i]
     u = -wall * (boxes[2 + i] - balls[2 + i])
@@ -205,11 +208,12 @@ def _ends_soon(flow, motion, remaining, i, wall):
 
 @inlined_source
 def _end_of_chatter(flow, motion, i, counters):
-    """Return (True if the chatter of ball i may be completed now, time to its end).
+    """Return (True if the chatter of ball i may be completed now, time until the chatter ends).
 
-    After an impact with inward speed u under the push a the flights shrink by kappa each and end after
-    T = 2 u / (a (1 - kappa)). Completing at once conserves the momentum of box and ball. It neglects the spring force
-    due to the distance of the ball in the meantime, of order u^3 / a^2.
+    The ball leaves the wall at the inward speed u, and the box accelerates towards it at a. Each hop is shorter than
+    the last one by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)). Completing it at once
+    conserves the momentum of box and ball, but neglects the spring force due to the ball's distance from the wall
+    during the hops, of order u^3 / a^2.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     wall = motion.touching[i]
@@ -242,7 +246,7 @@ def _end_of_chatter(flow, motion, i, counters):
 
 @inlined_source
 def _complete(flow, motion, i, counters):
-    """Complete the chatter of ball i if possible; return (motion, time to its end or -1)."""
+    """Complete the chatter of ball i if possible; return (motion, time until the chatter ends or -1)."""
     done, end = _end_of_chatter(flow, motion, i, counters)
     if not done:
         return motion, -1.0
@@ -252,7 +256,7 @@ def _complete(flow, motion, i, counters):
 
 @inlined
 def _joined(q, motion, i):
-    """Return the motion with ball i moving with its box, with their momentum conserved."""
+    """Return the motion after ball i joins its box, with momentum conserved."""
     boxes, balls = motion.boxes, motion.balls
     common = common_velocity(q, boxes[2 + i], balls[2 + i])
     return with_boxes_and_balls(motion, with_velocity(boxes, i, common), with_velocity(balls, i, common))
@@ -262,8 +266,8 @@ def _joined(q, motion, i):
 def resolve(flow, motion, moment, log):
     """Return the motion after all events of this instant.
 
-    Forces on balls at rest are checked after all impacts, since an impact in one module can release the ball of the
-    other. Ends of chatters, which are later, come last.
+    Contact forces on balls at rest are checked after all impacts, since an impact in one module can release the ball of
+    the other. Chatters are completed last, since they end later.
     """
     due, elapsed = moment.due, moment.elapsed
     pulled = due if due >= 0 and motion.walls[due] != 0 else -1
@@ -282,9 +286,9 @@ def resolve(flow, motion, moment, log):
 
 @inlined_source
 def _meet(flow, motion, i, moment, log):
-    """Apply the impact of a flying ball on the wall ahead if it is there.
+    """Apply the impact of a flying ball i that has reached a wall, if any.
 
-    Returns (motion, True if a chatter would end soon).
+    Returns (motion, True if a chatter that begins with this impact would end soon).
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
@@ -292,7 +296,7 @@ def _meet(flow, motion, i, moment, log):
     if i != moment.due and 1.0 - wall * relative > gap_rounding(q, boxes, balls, i):
         return motion, False
     slow = RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i]))
-    if i != moment.due and wall * velocity < -slow and wall * relative < 1.0:  # it moves away from the wall
+    if i != moment.due and wall * velocity < -slow and wall * relative < 1.0:  # the ball moves away from the wall
         return with_contacts(motion, i, 0, wall), False
     balls = with_position(balls, i, boxes[i] - wall)
     motion = with_contacts(with_boxes_and_balls(motion, boxes, balls), i, 0, wall)
@@ -303,7 +307,7 @@ def _meet(flow, motion, i, moment, log):
     log.counters[RESIDUAL] = max(log.counters[RESIDUAL], abs(1.0 - wall * relative))
     box, ball = impact(q, boxes[2 + i], balls[2 + i])
     motion = with_boxes_and_balls(motion, with_velocity(boxes, i, box), with_velocity(balls, i, ball))
-    if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # the rebound is within rounding
+    if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # the rebound is below rounding
         motion = _joined(q, motion, i)
     record(log, moment.elapsed, i, wall, IMPACT, motion.boxes, motion.balls, velocity)
     return motion, _ends_soon(flow, motion, moment.remaining, i, wall)
@@ -311,10 +315,10 @@ def _meet(flow, motion, i, moment, log):
 
 @inlined
 def _rest(q, motion, i, pulled, elapsed, log):
-    """Return the motion after a ball at rest on a wall sticks to it or is released."""
+    """Return the motion after deciding whether ball i, at rest on a wall, sticks to it, stays stuck or is released."""
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
-    # Use the acceleration of box and ball together in both cases. That of the box alone is 1 + epsilon times as large,
-    # and with a force within rounding of zero a ball would stick and be released endlessly.
+    # Use the acceleration of box and ball together in both cases. The box alone accelerates 1 + epsilon times as much;
+    # if the force is zero within rounding, the two accelerations would make the ball stick and be released endlessly.
     together = mode_of(pair(motion.walls, i, 1))
     jets = jet(q, together, boxes, motion.sine, motion.cosine)
     if wall != 0:
@@ -330,9 +334,9 @@ def _rest(q, motion, i, pulled, elapsed, log):
 
 @inlined_source
 def _complete_both(flow, motion, chatters, elapsed, log):
-    """Return the motion after completing the chatters of both balls, where possible.
+    """Return the motion after completing the chatter of each ball, where possible.
 
-    Their ends are recorded last, in order of time and with the states at these times.
+    The ends of the chatters are recorded last, in order of time and with the states at these times.
     """
     boxes, balls = motion.boxes, motion.balls
     ends, inward = (-1.0, -1.0), (abs(boxes[2] - balls[2]), abs(boxes[3] - balls[3]))
@@ -340,7 +344,7 @@ def _complete_both(flow, motion, chatters, elapsed, log):
         if chatters[i] and motion.touching[i] != 0:
             motion, end = _complete(flow, motion, i, log.counters)
             ends = pair(ends, i, end)
-    for i in range(2):  # this may pull the other ball off its wall
+    for i in range(2):  # completing a chatter may pull the other ball off its wall
         if motion.walls[i] != 0 and ends[i] < 0.0:
             motion = _rest(flow.coefficients, motion, i, False, elapsed, log)
     sooner = 0 if ends[0] <= ends[1] else 1

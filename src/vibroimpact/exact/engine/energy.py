@@ -1,12 +1,13 @@
-"""Energy balance of a run: work of the forces, dissipation of dampers and impacts, stored energy.
+"""Energy balance of a run: work of the forces, dissipation in dampers and impacts, stored energy.
 
-Work and dissipation are integrals of quadratic forms along the flights. Each is computed independently, so that the
-balance is a test of all of them. The stick that ends a chatter takes the remaining energy of the relative motion: that
-of the rebounds that are not listed.
+Work and dissipation are integrals of quadratic forms along the flights. Each term is computed independently, so that
+the balance tests all terms. The stick that ends a chatter dissipates the remaining energy of the relative motion, which
+the omitted impacts would dissipate.
 
-In flight z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. With damping, z G z is the rate of a potential z S z + c t,
-where A' S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation), and only the ends of a flight count. With very little
-damping, S is so large that its differences lose all digits; then Gauss's rule integrates along the Taylor polynomials.
+In flight, z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. With damping, a quadratic form z G z is the rate of change
+of a potential z S z + c t, where A' S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation). The integral is then the
+difference of the potential between the ends of a flight. With very little damping, S is so large that this difference
+loses its digits. In that case Gauss's rule integrates along the Taylor polynomials.
 """
 
 import math
@@ -37,15 +38,15 @@ from vibroimpact.system.stored_energy import stored
 SIZE, TRIANGLE = 6, 21
 ROWS, COLUMNS = np.triu_indices(SIZE)
 LARGEST = 1e3
-"""Largest product of an entry of S and the largest rate at which differences of potentials keep enough digits."""
+"""Limit on (largest entry of S) x (largest rate in A): below it, differences of potentials keep enough digits."""
 NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggauss(4))
-"""Gauss's rule; over one spacing of the flow table its error is below rounding."""
+"""Gauss's rule with four nodes; over one spacing of the flow table its error is below rounding."""
 
 
 class Squares(NamedTuple):
-    """Potentials S (4, k, 6, 6) and drifts c (4, k) of k integrals in each contact state.
+    """Potentials S (4, k, 6, 6) and drifts c (4, k) for k integrals in each of the 4 contact states.
 
-    With k = 0 there are no potentials.
+    k = 0 means that Gauss's rule computes the integrals instead.
     """
 
     potentials: np.ndarray
@@ -56,7 +57,7 @@ NO_POTENTIALS = Squares(np.empty((4, 0, SIZE, SIZE)), np.empty((4, 0)))
 
 
 def _kernels():
-    """Return the matrices G of z G z = sin X_1', sin X_2', X_1'^2, X_2'^2, (X_1' - X_2')^2, shape (5, 6, 6)."""
+    """Return matrices G with z G z = sin X_1', sin X_2', X_1'^2, X_2'^2 and (X_1' - X_2')^2, shape (5, 6, 6)."""
     unit = np.eye(SIZE)
     work = [(np.outer(unit[2 + i], unit[4]) + np.outer(unit[4], unit[2 + i])) / 2 for i in range(2)]
     difference = unit[2] - unit[3]
@@ -64,21 +65,24 @@ def _kernels():
 
 
 POSITIONS = np.stack([np.diag(np.eye(SIZE)[i]) for i in range(2)])
-"""Matrices G with z G z = X_i^2."""
+"""Matrices G with z G z = X_1^2 and X_2^2, shape (2, 6, 6)."""
 OBSERVED = np.concatenate([POSITIONS, _kernels()])
-"""Quadratic forms that are integrated: X_1^2, X_2^2 and those of the energy balance."""
+"""Matrices G of all quadratic forms to integrate: X_1^2, X_2^2 and the terms of the energy balance, (7, 6, 6)."""
 LOST, STORED, ENTRIES = 7, 9, 10
-"""Indices in a row: after the integrals the losses in the impacts of both modules, then the change of stored energy."""
+"""Indices in a row, and its length: 7 integrals, losses in the impacts of both modules, change of stored energy."""
 ENERGY = np.dtype(
     [("work", "f8", (2,)), ("ground", "f8", (2,)), ("coupling", "f8"), ("impacts", "f8", (2,)), ("stored", "f8")]
 )
-"""Data type of energies over a time, in units of M L^2 omega_10^2: work of each force, dissipation of each damper to
-ground and of the coupling damper, loss in the impacts of each module, and change of the stored energy."""
+"""Data type for energies over some time, in units of M L^2 omega_10^2: work of each force, dissipation in each damper
+to ground and in the coupling damper, loss in the impacts of each module, change of the stored energy."""
 impact_loss, energy_stored = inlined(energy_lost), inlined(stored)
 
 
 def _lyapunov():
-    """Return the map A -> A' S + S A, (36, 441), and sin^2 + cos^2, (21,), on the upper triangle of S."""
+    """Return the linear map from A to the matrix of S -> A' S + S A, (36, 441), and the form sin^2 + cos^2, (21,).
+
+    Symmetric matrices are represented by the 21 entries of their upper triangle.
+    """
     units = np.zeros((TRIANGLE, SIZE, SIZE))
     units[np.arange(TRIANGLE), ROWS, COLUMNS] = units[np.arange(TRIANGLE), COLUMNS, ROWS] = 1.0
     rates = np.eye(SIZE * SIZE).reshape(-1, 1, SIZE, SIZE)
@@ -91,15 +95,15 @@ OPERATORS, FORCED = _lyapunov()
 
 
 def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return potentials (n, 4, k, 6, 6), drifts (n, 4, k) and flags (n,) of the integrals of z G z.
+    """Return potentials S (n, 4, k, 6, 6), drifts c (n, 4, k) and flags (n,) for the integrals of z G z.
 
-    The kernels G have shape (k, 6, 6), the rate matrices (n, 4, 6, 6). A flag is True for a system whose potential
-    differences keep enough digits.
+    The kernels G have shape (k, 6, 6) and the rate matrices (n, 4, 6, 6). A flag is True if the differences of
+    potentials in this system keep enough digits.
     """
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
     images = rates.reshape(-1, SIZE * SIZE) @ OPERATORS
     equations[..., :-1, :-1] = images.reshape(*rates.shape[:2], TRIANGLE, TRIANGLE)
-    equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED  # S and S + sin^2 + cos^2 are equivalent
+    equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED  # make S unique: a multiple of sin^2 + cos^2 is constant
     sides = np.zeros((TRIANGLE + 1, len(kernels)))
     sides[:-1] = kernels[:, ROWS, COLUMNS].T
     sides = np.broadcast_to(sides, (*rates.shape[:2], *sides.shape))
@@ -118,7 +122,7 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @lru_cache(maxsize=64)
 def squares_of(system) -> Squares:
-    """Return the potentials of OBSERVED in a system, or NO_POTENTIALS if their differences lose digits."""
+    """Return the potentials for the forms OBSERVED, or NO_POTENTIALS if differences of potentials lose digits."""
     _, rates = numbers_of([system], 2)
     potentials, drifts, sound = potentials_of(rates[:, 0], OBSERVED)
     return Squares(potentials[0], drifts[0]) if sound[0] else NO_POTENTIALS
@@ -135,16 +139,16 @@ class Energy(Representation):
     work : ndarray
         Work of the force on each box, shape (2,).
     ground : ndarray
-        Energy dissipated by the damper from each box to ground, shape (2,).
+        Energy dissipated by the damper between each box and the ground, shape (2,).
     coupling : float
         Energy dissipated by the damper between the boxes.
     impacts : ndarray
-        Energy lost in the impacts of each module, completed chatters included, shape (2,).
+        Energy lost in the impacts of each module, including completed chatters, shape (2,).
     stored : float
         Change of the energy stored in boxes, balls and springs.
     per_cycle : ndarray
-        Structured array (cycles,) of type ENERGY with the same fields for each forcing period since the start of the
-        run. An event between two periods belongs to the later one.
+        Structured array (cycles,) of type ENERGY with these five energies for each forcing period since the start of
+        the run. An event exactly between two periods counts in the later one.
 
     Examples
     --------
@@ -173,12 +177,12 @@ class Energy(Representation):
 
     @property
     def residual(self) -> float:
-        """Difference of the two sides of the balance, which is due to rounding."""
+        """Difference between the two sides of the balance, which is due to rounding only."""
         return float(self.work.sum() - self.ground.sum() - self.coupling - self.impacts.sum() - self.stored)
 
     @property
     def impact_share(self) -> float:
-        """Share of the work of both forces that impacts dissipate."""
+        """Energy lost in impacts divided by the work of both forces."""
         return float(self.impacts.sum() / self.work.sum())
 
     def _shown(self):
@@ -186,16 +190,16 @@ class Energy(Representation):
 
 
 def energies(system, rows) -> np.ndarray:
-    """Return energies (...,), ENERGY, from rows (..., ENTRIES) of `accumulate_energy`."""
+    """Return an array (...,) of type ENERGY from rows (..., ENTRIES) that `accumulate_energy` filled."""
     factors = [*system.forcing, system.gamma1, system.gamma2, system.gamma12, 1.0, 1.0, 1.0]
     return np.ascontiguousarray(rows[..., len(POSITIONS) :] * factors).view(ENERGY)[..., 0]
 
 
 @compiled
 def accumulate_energy(flow, flights, events, squares, period, rows):
-    """Add integrals, losses and stored energy along the flights of a run to rows (k, ENTRIES) of zeros.
+    """Fill rows (k, ENTRIES), initially 0, with the integrals, losses and change of stored energy along a run.
 
-    Each row covers a period, the last one the rest of the run.
+    Each row covers one period; the last row also covers the rest of the run.
     """
     q, row, passed = flow.coefficients, 0, 0.0
     boxes, balls, walls = start_of(flights[0])
@@ -222,7 +226,7 @@ def accumulate_energy(flow, flights, events, squares, period, rows):
         if n < len(events):
             event = events[n]
             if not completes_chatter(events, n):
-                passed = event[0]  # sums of lengths would accumulate rounding
+                passed = event[0]  # the sum of the lengths would accumulate rounding errors
             kappa = q.kappa if event[3] == IMPACT else 0.0
             rows[row, LOST + int(event[1]) - 1] += impact_loss(q.epsilon, kappa, event[APPROACH])
     rows[row, STORED] += energy_stored(q.ground, -q.k12, q.epsilon, boxes, balls)
@@ -230,7 +234,7 @@ def accumulate_energy(flow, flights, events, squares, period, rows):
 
 @inlined_source
 def _follow(flow, squares, motion, t, row):
-    """Return the boxes after a flight no longer than flow.longest; add its integrals to a row."""
+    """Return the boxes after a flight of length t <= flow.longest, and add the integrals over the flight to a row."""
     mode = mode_of(motion.walls)
     boxes, sine, cosine = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, t)
     if squares.drifts.shape[1] == 0:
@@ -245,7 +249,7 @@ def _follow(flow, squares, motion, t, row):
 
 @inlined
 def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
-    """Add sign times the potentials at a point of a flight to sums (k,)."""
+    """Add the potentials z S z at one point of a flight, multiplied by `sign`, to sums (k,)."""
     z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
     for k in range(squares.drifts.shape[1]):
         total = 0.0
@@ -259,7 +263,7 @@ def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
 
 @inlined
 def _add_quadrature(flow, mode, motion, length, row):
-    """Add the integrals of OBSERVED over a flight no longer than flow.longest to a row."""
+    """Add the integrals of the forms OBSERVED over a flight of length <= flow.longest to a row, by Gauss's rule."""
     for j in range(int(length * flow.density + 0.5) + 1):
         jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
         sine, cosine = rotate_phase(flow, motion.sine, motion.cosine, j)

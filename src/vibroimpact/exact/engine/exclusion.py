@@ -1,13 +1,13 @@
-"""Bound from below the time over which the constraints of a flight hold, and bracket the time when they end.
+"""Prove how long the constraints of a flight hold at least, and bracket the time at which one ceases to hold.
 
 A constraint is a smooth function g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. Its Taylor
 polynomial of degree 6 and a bound on its seventh derivative give a lower bound c0 + ... + c7 t^7 with coefficients
-c (8,). This polynomial is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are. Repeated steps
-of such lengths T converge to the first zero of g and never pass it (conservative advancement). If the rate of g
-certainly keeps its sign, there is at most one zero, which can be approached from either side.
+c (8,). This polynomial is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are positive.
+Repeated steps of such lengths T converge to the first zero of g and never pass it (conservative advancement). If the
+rate of g certainly keeps its sign, there is at most one zero, which can be approached from either side.
 
-The tests use floating-point arithmetic. Callers lower c0 by a margin for the rounding of g; "certain" means certain by
-these tests with that margin.
+The tests use floating-point arithmetic, and callers lower c0 by a margin for the rounding errors of g. "Certain" means
+proved by these tests with that margin.
 """
 
 import math
@@ -17,12 +17,12 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import inlined, inlined_source
 from vibroimpact.exact.engine.flow import half_curvature, jet, mode_of, slope, value
 
-MOMENT = 1e-300  # times do not shrink below this
+MOMENT = 1e-300  # shortest time that is tried
 
 
 @inlined
 def least(c, t):
-    """Return a lower bound of the polynomial c (8,) on [0, t]: its least coefficient in the Bernstein basis."""
+    """Return a lower bound for the polynomial c (8,) on [0, t]: its least coefficient in the Bernstein basis."""
     t2 = t * t
     t3, t4 = t2 * t, t2 * t2
     b = (
@@ -36,7 +36,7 @@ def least(c, t):
         c[7] * (t3 * t4),
     )
     low = c[0]
-    for _ in range(7):  # the k-th coefficient is the sum of the first with Pascal's k-th row as weights
+    for _ in range(7):  # coefficient k is the sum of the terms b with row k of Pascal's triangle as weights
         b = (b[0] + b[1], b[1] + b[2], b[2] + b[3], b[3] + b[4], b[4] + b[5], b[5] + b[6], b[6] + b[7], b[7])
         low = low if low < b[0] else b[0]  # nan if a coefficient is nan
     return low
@@ -46,7 +46,7 @@ def least(c, t):
 def positive(c, t):
     """Return True if the polynomial c (8,) is certainly positive on [0, t].
 
-    In most cases a bound on the terms from the fourth power on decides, at half the cost of `least`.
+    In most cases a bound on the terms of degree 4 and above suffices, at half the cost of `least`.
     """
     t2 = t * t
     line, square = c[1] * t * (1 / 3), c[2] * t2 * (1 / 3)
@@ -57,12 +57,11 @@ def positive(c, t):
 
 @inlined
 def safe_time(c, horizon):
-    """Return a time in [0, horizon] up to which the polynomial c (8,) is positive, 0 if not c[0] > 0.
+    """Return a time in [0, horizon] up to which the polynomial c (8,) is certainly positive; 0 if not c[0] > 0.
 
-    The time is close to the first zero if that is simple, and at least half of the time that the Bernstein coefficients
-    prove.
-
-    They prove it at least for times t such that no real or complex zero lies in the disc with diameter [0, t].
+    The time is close to the first zero if this zero is simple, and at least half of the longest time for which the
+    Bernstein coefficients are positive. They are positive for a time t if no real or complex zero lies in the disc with
+    diameter [0, t].
     """
     if not c[0] > 0.0:
         return 0.0
@@ -84,15 +83,16 @@ def safe_time(c, horizon):
 
 UNCERTAIN = (False, 0.0, math.inf)
 MOST_STEPS = 8
-CONVERGING = 1e-8  # after a shorter Newton step the error is below rounding
+CONVERGING = 1e-8  # after a Newton step shorter than this, the error is below rounding
 
 
 @inlined
 def crossing(c, remainder, margin, horizon, short):
-    """Return (certain, time, width): True if a decreasing constraint provably meets zero, and when, time +- width.
+    """Return (certain, time, width): whether a decreasing constraint certainly reaches zero, at time +- width.
 
-    c: its Taylor polynomial (8,), c1 < 0; remainder: bound on its seventh derivative over 5040; margin: rounding of c0.
-    If width is inf, the constraint holds up to time = horizon. A time of at most `short` is exact to rounding.
+    c: Taylor polynomial (8,) of the constraint, c1 < 0; remainder: bound on |seventh derivative| / 5040; margin:
+    rounding error of c0. If certain and width is inf, the constraint holds up to time = horizon instead. A time no
+    longer than `short` is exact to rounding.
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)
@@ -133,10 +133,10 @@ def nearby_zero(c, t):
 
 @inlined
 def return_time(c, remainder, horizon):
-    """Return the end of a very short hop, c0 = 0 and c1 > 0, to rounding, or inf if it does not certainly end.
+    """Return the time, exact to rounding, at which a very short hop (c0 = 0, c1 > 0) ends, or inf if this is uncertain.
 
-    c, remainder: as for `crossing`. The zero at the start is divided out, so that the time keeps its relative accuracy
-    for short hops.
+    c, remainder: as for `crossing`. The polynomial is divided by t to remove its zero at the start, so that the time
+    keeps its relative accuracy for short hops.
     """
     t = -c[1] / c[2] if c[2] < 0.0 else math.inf
     if t > 0.5 * horizon or 8.0 * t * spread(c, remainder, t) > -c[2]:
@@ -146,30 +146,30 @@ def return_time(c, remainder, horizon):
 
 @inlined
 def spread(c, remainder, t):
-    """Return a bound on the change over [0, t] of half the second derivative of a constraint, per unit of time."""
+    """Return a bound on the mean rate of change over [0, t] of half the second derivative of a constraint."""
     high = 15.0 * abs(c[6]) + t * 21.0 * remainder
     return 3.0 * abs(c[3]) + t * (6.0 * abs(c[4]) + t * (10.0 * abs(c[5]) + t * high))
 
 
 RESOLUTION = 4.0 * np.finfo(float).eps
-MET = 2.0  # in units of the margin; a constraint below it counts as met, since proofs would need ever smaller steps
+MET = 2.0  # in units of the margin; a smaller constraint counts as zero, since proofs would need ever smaller steps
 DOUBTED = 2.0 * MET
-"""In units of the margin: below it, rounding decides a turn or a shallow impact. With other steps, as in a lane of an
-ensemble, the same motion may meet a wall that it misses here, or miss one that it meets here."""
+"""In units of the margin: below this distance, rounding decides whether a ball hits or misses a wall. If the same
+motion is computed with other steps, as in a lane of an ensemble, the decision may differ."""
 LOOKAHEAD = 2.5
-NOTHING = 1e-300  # margin of a force that stays zero
-SHORT = 0.02  # in units of the flow; over shorter times a jet is exact to rounding
+NOTHING = 1e-300  # margin for a force that stays zero
+SHORT = 0.02  # in units of `Flow.unit`; over shorter times a jet is exact to rounding
 
 
 @inlined
 def remainder(q, mode, jets, growth):
-    """Return a bound on |X_i^(7)| / 7! of both boxes.
+    """Return a bound on |X_i^(7)| / 7! that holds for both boxes.
 
-    `growth` bounds the integral of the seventh derivative of the force.
+    growth: bound on the time integral of the sixth derivative of the force.
 
     The sixth derivative of the boxes obeys the equations of the boxes under the sixth derivative of the force. The
-    square root of twice its energy, which bounds its velocity, grows no faster than the time integral of that force,
-    since damping only removes energy.
+    square root of twice the energy in these equations bounds the velocity, which is the seventh derivative. This root
+    grows by no more than the time integral of the force, since damping only removes energy.
     """
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
@@ -180,10 +180,10 @@ def remainder(q, mode, jets, growth):
 
 @inlined
 def own_remainder(q, mode, jets, both, i, force, horizon):
-    """Return `remainder` for box i alone; force: bound on the sixth derivative of its force; both: that of both boxes.
+    """Return a bound like `remainder` for box i alone.
 
-    The energy of a box grows by its own force and by the force of the coupling. With weak coupling this bound does not
-    contain the energy of the other box.
+    force: bound on the sixth derivative of the force on box i; both: `remainder`. The energy of a box grows by the
+    work of its own force and of the coupling. With weak coupling, this bound hardly depends on the other box.
     """
     m, k, p = (q.mass if mode & (i + 1) else 1.0), (q.k11 if i == 0 else q.k22), (jets[0] if i == 0 else jets[1])
     passed = (abs(q.k12) / math.sqrt(q.ground if i == 0 else 1.0) + abs(q.c12)) * both
@@ -193,7 +193,7 @@ def own_remainder(q, mode, jets, both, i, force, horizon):
 
 @inlined
 def acceleration_rounding(q, boxes, i):
-    """Return the size below which the acceleration of box i is rounding."""
+    """Return the size of the rounding error in the acceleration of box i."""
     x1, x2, v1, v2 = abs(boxes[0]), abs(boxes[1]), abs(boxes[2]), abs(boxes[3])
     coupling = abs(q.k12) * (x2 if i == 0 else x1) + abs(q.c12) * (v2 if i == 0 else v1)
     if i == 0:
@@ -203,24 +203,24 @@ def acceleration_rounding(q, boxes, i):
 
 @inlined
 def gap_rounding(q, boxes, balls, i):
-    """Return the size below which a gap of module i is rounding error of a flight."""
-    x1, x2, v1, v2 = boxes  # velocities count like positions over a unit of time
+    """Return the size of the rounding error in a gap of module i after a flight."""
+    x1, x2, v1, v2 = boxes  # a velocity counts as the distance moved in a unit of time
     return RESOLUTION * (1.0 + abs(x1) + abs(x2) + abs(v1) + abs(v2) + abs(balls[i]) + abs(balls[2 + i]) + q.shift)
 
 
 @inlined
 def gap(p, position, velocity, w):
-    """Return the gap between a ball in free flight and wall w of its box, whose jet is p (8,), as a polynomial (8,)."""
+    """Return the Taylor polynomial (8,) of the gap between a free ball and wall w of its box with jet p (8,)."""
     near, approach = 1.0 - w * (p[0] - position), -w * (p[1] - velocity)
     return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
 
 
 @inlined
 def push(q, mode, jets, i, wall, sine, cosine, horizon):
-    """Return (polynomial (8,), remainder) of the force per unit of ball mass with which a wall pushes a sticking ball.
+    """Return (Taylor polynomial (8,), remainder) for the force on a sticking ball from its wall, per unit of ball mass.
 
-    The force is the acceleration of the box, which obeys the equations of the boxes under the second derivative of the
-    forcing.
+    Up to the sign of the wall, this force is the acceleration of the box. The accelerations obey the equations of the
+    boxes under the second derivative of the forcing.
     """
     one, two = jets
     fall = -q.omega * q.omega
@@ -243,9 +243,10 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
 
 @inlined
 def _safe_time(c, bound, margin, horizon):
-    """Return (time the constraint certainly holds, True if it is met at once, within rounding of zero).
+    """Return (time over which a constraint certainly holds, True if an event is due at once).
 
-    Within rounding of zero the constraint is met at once, unless it certainly rises by more than rounding first.
+    An event is due at once if the constraint is zero within rounding and falls; if it does not fall, it holds for the
+    `_leaving_time`.
     """
     if c[0] > MET * margin:
         return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
@@ -257,10 +258,10 @@ def _safe_time(c, bound, margin, horizon):
 
 @inlined
 def _leaving_time(c, bound, margin, horizon, rises):
-    """Return how long a constraint that starts within rounding of zero certainly holds.
+    """Return a time over which a constraint that is initially zero within rounding certainly holds.
 
-    If it rises, its zero at the start is divided out. If it does not rise, or if only the bound makes that time short,
-    it holds within rounding as long as it stays above minus its margin.
+    If the constraint rises, its polynomial is divided by t to remove the zero at the start. If it does not rise, or if
+    only the remainder bound makes the proved time short, values above -margin also count as holding.
     """
     time = 0.0
     if rises:
@@ -272,11 +273,10 @@ def _leaving_time(c, bound, margin, horizon, rises):
 
 @inlined_source
 def _hop_time(c, bound, margin, horizon, short):
-    """Return (time, True if the hop ends then) for the wall that the ball touches.
+    """Return (time, True if the ball is back at the wall that it touches now) for a hop from this wall.
 
-    c[1] >= 0 is its velocity away from the wall.
-
-    A hop up to `short` is timed to its end.
+    c[1] >= 0 is the relative velocity away from the wall. If the hop ends within `short`, the time is its end.
+    Otherwise the hop certainly does not end before the time.
     """
     if c[1] == 0.0:
         rise = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
@@ -289,17 +289,17 @@ def _hop_time(c, bound, margin, horizon, short):
 
 @inlined
 def module_time(q, motion, i, jets, bound, horizon, short):
-    """Return how far module i may fly: (time, width, undecided).
+    """Return (time, width, undecided): a time without events in module i, or the time of its next event.
 
-    If width is inf, the module has no event before time. Otherwise its next event is certainly at time +- width; width
-    0 means to rounding, and time is slightly negative if the event was just passed. undecided is True for a tangential
-    contact that is a miss within rounding. jets: of both boxes; bound: their remainder over the horizon; short: the
-    longest time over which a jet is exact to rounding.
+    If width is inf, the module has no event before time. Otherwise its next event is certainly at time +- width. Width
+    0 means exact to rounding; time is slightly negative if the event was just passed. undecided: True if rounding
+    decides whether the constraint reaches zero (tangential contact). jets: Taylor polynomials of both boxes; bound:
+    `remainder` up to the horizon; short: longest time over which a jet is exact to rounding.
     """
     if motion.walls[i] != 0:
         return _sticking_time(q, motion, i, jets, horizon, short)
     velocity = motion.boxes[2 + i] - motion.balls[2 + i]
-    if velocity != 0.0:  # as long as it keeps its sign, only the wall ahead matters
+    if velocity != 0.0:  # as long as the velocity keeps its sign, only the wall ahead matters
         ahead = 1.0 if velocity > 0.0 else -1.0
         c = gap(jets[0] if i == 0 else jets[1], motion.balls[i], motion.balls[2 + i], ahead)
         certain, t, width = crossing(c, bound, gap_rounding(q, motion.boxes, motion.balls, i), horizon, short)
@@ -310,9 +310,9 @@ def module_time(q, motion, i, jets, bound, horizon, short):
 
 @inlined_source
 def _sticking_time(q, motion, i, jets, horizon, short):
-    """Return module_time of a sticking ball; the constraint is that the wall pushes the ball."""
+    """Return `module_time` for a sticking ball; the constraint is that the wall pushes the ball."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
-    # if the box is still at rest: the rounding of the force that may develop in the meantime
+    # the second term matters if the box is still at rest: rounding of the force that may develop up to the horizon
     margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + NOTHING
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)
@@ -324,9 +324,9 @@ def _sticking_time(q, motion, i, jets, horizon, short):
 
 @inlined_source
 def _turning_time(q, motion, i, jets, bound, horizon, short):
-    """Return module_time of a flying ball whose relative velocity may change sign.
+    """Return `module_time` for a flying ball whose relative velocity may change sign.
 
-    The constraints are both gaps.
+    The constraints are the gaps to both walls.
     """
     boxes, balls = motion.boxes, motion.balls
     margin = gap_rounding(q, boxes, balls, i)
