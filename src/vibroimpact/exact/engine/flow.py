@@ -1,10 +1,10 @@
 """Free flight in closed form: the linear flow of the boxes and the forcing phase, evaluated without time stepping.
 
 Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix).
-The flow over a time t is the Taylor polynomial at j h, from a table (`jet_at`), over the remaining time of at most h/2,
-which is short enough to be exact to rounding. No eigenvalues are used, so that repeated, defective, undamped and
-resonant spectra need no special treatment. The phase Omega tau is reduced exactly at the start of a run (`Instant`) and
-advanced without loss of digits.
+A table gives Taylor polynomials of the motion at the times j h (`jet_at`). The flow over a time t evaluates the one at
+the nearest j h over the rest of the time, at most h/2, which is exact to rounding. No eigenvalues are used, so that
+repeated, defective, undamped and resonant spectra need no special treatment. The phase Omega tau is reduced exactly at
+the start of a run (`Instant`) and advanced without loss of digits.
 """
 
 import math
@@ -20,7 +20,7 @@ from vibroimpact.exact.engine.flow_tables import exact_rates, tables
 from vibroimpact.exact.engine.vectors import fused, to_fixed_tuple, weighted_sum
 
 CONTACT_STATES = ((False, False), (True, False), (False, True), (True, True))
-"""Sticking of both balls, in the order of the tables: index = stuck_1 + 2 stuck_2."""
+"""(ball 1 sticks, ball 2 sticks) for each contact state, in the order of the tables: index = stuck_1 + 2 stuck_2."""
 STEPS_PER_UNIT = 32
 LONGEST_TABLE = 8192
 TWO_PI = 2.0 * math.pi
@@ -29,16 +29,17 @@ QUARTER = 0.5 * math.pi
 QUARTER_TAIL = 0.25 * TWO_PI_TAIL
 SINE_SERIES = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(1, 8))
 COSINE_SERIES = tuple((-1) ** k / math.factorial(2 * k) for k in range(2, 9))
-"""Taylor coefficients of the sine from the third power on, and of the cosine from the fourth."""
+"""Taylor coefficients of the sine from x^3, and of the cosine from x^4."""
 _GUARD_BITS = 192
 
 
 class Coefficients(NamedTuple):
     """Scalars of (10.2) used by the compiled loops.
 
-    ground: stiffness of box 2 to ground (that of box 1 is 1). drive: |(f1, f2)|. growth: that of the sixth derivative
-    of the force. shift: bound on the displacement of a box from rest by the force within a period. mass: mass of box
-    and ball together. impulse, impulse_rest: (1 + kappa) / (1 + epsilon), the nearest float and the remainder.
+    ground: stiffness between box 2 and the ground (1 for box 1). drive: |(f1, f2)|. growth: amplitude of the sixth
+    derivative of the force, drive omega^6. shift: bound on the displacement of a box by the force within a period, from
+    rest. mass: mass of box and ball together. impulse, impulse_rest: (1 + kappa) / (1 + epsilon), as the nearest float
+    and the remainder.
     """
 
     k11: float
@@ -63,11 +64,11 @@ class Coefficients(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """Tables of one system (`tables`).
+    """Coefficients and flow tables of one system.
 
-    series (4, n, 6, 16), rotations (n, 2); spacing, its inverse (density) and the longest time. unit: a time over which
-    the system changes little, 1 / its fastest rate. rate: a bound on the rate of the boxes in free flight, in the
-    energy norm.
+    series (4, n, 6, 16), rotations (n, 2): from `tables`. spacing, density, longest: time step of the tables, its
+    inverse, and the last time. unit: time over which the system changes little, 1 / its fastest rate. rate: bound on
+    the rate of change of the boxes in free flight, in the energy norm.
     """
 
     coefficients: Coefficients
@@ -82,7 +83,7 @@ class Flow(NamedTuple):
 
 SCALARS = len(Coefficients._fields)
 NUMBERS = SCALARS + len(Flow._fields[3:])
-"""Number of scalars packed by `tables_of`: the coefficients, and the fields of Flow after its arrays."""
+"""Number of scalars that `tables_of` packs: the coefficients, and the fields of Flow after its arrays."""
 SPACING, LONGEST, RATE, OMEGA = SCALARS, SCALARS + 2, SCALARS + 4, Coefficients._fields.index("omega")
 PARAMETERS = (
     *("epsilon", "kappa", "alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat"),
@@ -91,11 +92,11 @@ PARAMETERS = (
 
 
 def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the scalars of flows, (n, NUMBERS), and their `exact_rates`.
+    """Return the scalars of the flows of n systems, (n, NUMBERS), and the rate matrices from `exact_rates`.
 
     `count` is the number of times in the tables.
 
-    The shift is a bound, since the square root of twice the energy grows at most by the time integral of the force.
+    `shift` is a bound because the square root of twice the energy grows by at most the time integral of the force.
     """
     parameters = np.array([[getattr(system, name) for name in PARAMETERS] for system in systems])
     rates, impulses, fastest = exact_rates(parameters)
@@ -117,9 +118,9 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 @lru_cache(maxsize=64)
 def flow_of(system) -> Flow:
-    """Return the flow tables of a system.
+    """Return the coefficients and flow tables of a system.
 
-    They cover at least one forcing period, unless the fastest rate is extremely high.
+    The tables cover at least one forcing period, unless this needs more than LONGEST_TABLE times.
     """
     (numbers,), (rates,) = numbers_of([system], 2)
     count = min(LONGEST_TABLE, int(np.ceil(system.period / numbers[SPACING])) + 1)
@@ -130,9 +131,9 @@ def flow_of(system) -> Flow:
 
 @lru_cache(maxsize=64)
 def tables_of(system) -> tuple[np.ndarray, ...]:
-    """Return `flow_of` as three arrays.
+    """Return `flow_of` packed into three arrays: (scalars, series, rotations).
 
-    Numba inspects tuples item by item, which takes 4 us per call instead of 1.5 us.
+    For a tuple of many items, Numba would inspect each item, which takes 4 us per call instead of 1.5 us.
     """
     coefficients, series, rotations, *rest = flow_of(system)
     return np.array([*coefficients, *rest]), series, rotations
@@ -140,20 +141,23 @@ def tables_of(system) -> tuple[np.ndarray, ...]:
 
 @inlined_source
 def unpacked(numbers, series, rotations):
-    """Return the Flow of these tables."""
+    """Return the Flow that `tables_of` packed into these arrays."""
     n = to_fixed_tuple(numbers, NUMBERS)
     return Flow(Coefficients(*n[:SCALARS]), series, rotations, *n[SCALARS:])
 
 
 @inlined
 def jet_at(flow, mode, boxes, sine, cosine, j):
-    """Return the `jet` at the j-th time of the table, j * flow.spacing, of a free flight from these boxes on."""
+    """Return the `jet` at time j * flow.spacing in a free flight that starts at time 0 with these boxes and phase."""
     return weighted_sum(flow.series, mode, j, (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine))
 
 
 @inlined
 def acceleration(q, inverses, positions, velocities, forces):
-    """Return the accelerations of both boxes (of derivatives: the next one); inverses: of the moving masses."""
+    """Return the accelerations of both boxes; inverses: 1 / moving mass of each module.
+
+    If positions, velocities and forces are time derivatives of order k, so is the result.
+    """
     (i1, i2), (x1, x2), (v1, v2), (s1, s2) = inverses, positions, velocities, forces
     a1 = i1 * (s1 - q.k11 * x1 - q.k12 * x2 - q.c11 * v1 - q.c12 * v2)
     a2 = i2 * (s2 - q.k12 * x1 - q.k22 * x2 - q.c12 * v1 - q.c22 * v2)
@@ -162,19 +166,19 @@ def acceleration(q, inverses, positions, velocities, forces):
 
 @inlined
 def inverse_masses(q, mode):
-    """Return 1 / moving mass of each module in a contact state."""
+    """Return 1 / moving mass of each module in contact state `mode`: the box, or box and ball if the ball sticks."""
     return (q.inverse_mass if mode & 1 else 1.0), (q.inverse_mass if mode & 2 else 1.0)
 
 
 @inlined
 def mode_of(walls):
-    """Return the index of the contact state in the flow tables."""
+    """Return the index of the contact state in the flow tables, given the walls to which balls stick."""
     return (1 if walls[0] != 0 else 0) + (2 if walls[1] != 0 else 0)
 
 
 @inlined
 def jet(q, mode, boxes, sine, cosine):
-    """Return Taylor coefficients X_i^(k) / k!, k = 0 to 7, of both boxes in free flight: two tuples."""
+    """Return the Taylor coefficients X_i^(k) / k!, k = 0 to 7, in free flight: one tuple (8,) for each box."""
     i1, i2 = inverse_masses(q, mode)
     x1, x2, v1, v2 = boxes
     fall = -q.omega * q.omega
@@ -192,13 +196,13 @@ def jet(q, mode, boxes, sine, cosine):
 
 @inlined
 def _scaled(x, v, a, b, c, d, e, g):
-    """Return derivatives 0 to 7 over their factorials."""
+    """Return the derivatives of order 0 to 7, each divided by k!."""
     return x, v, a * (1 / 2), b * (1 / 6), c * (1 / 24), d * (1 / 120), e * (1 / 720), g * (1 / 5040)
 
 
 @inlined
 def value(p, t):
-    """Return a polynomial of degree 7, p (8,), at t; the upper half is summed in independent pairs."""
+    """Return the polynomial p (8,) at t; the higher terms are summed in independent pairs, which is faster."""
     t2 = t * t
     upper = (p[2] + t * p[3]) + t2 * ((p[4] + t * p[5]) + t2 * (p[6] + t * p[7]))
     return p[0] + t * (p[1] + t * upper)
@@ -206,7 +210,7 @@ def value(p, t):
 
 @inlined
 def slope(p, t):
-    """Return the derivative of a polynomial of degree 7, p (8,), at t."""
+    """Return the derivative of the polynomial p (8,) at t."""
     t2 = t * t
     upper = (3.0 * p[3] + t * (4.0 * p[4])) + t2 * ((5.0 * p[5] + t * (6.0 * p[6])) + t2 * (7.0 * p[7]))
     return p[1] + t * (2.0 * p[2] + t * upper)
@@ -214,28 +218,28 @@ def slope(p, t):
 
 @inlined
 def half_curvature(p, t):
-    """Return half the second derivative of a polynomial of degree 7, p (8,), at t."""
+    """Return half the second derivative of the polynomial p (8,) at t."""
     t2 = t * t
     return (p[2] + t * (3.0 * p[3])) + t2 * ((6.0 * p[4] + t * (10.0 * p[5])) + t2 * (15.0 * p[6] + t * (21.0 * p[7])))
 
 
 @inlined
 def evaluate(jets, t):
-    """Return the boxes (X1, X2, X1', X2') a short time t (of either sign) later, from their jets."""
+    """Return the boxes (X1, X2, X1', X2') at a short time t (of either sign) from the origin of their jets."""
     one, two = jets
     return value(one, t), value(two, t), slope(one, t), slope(two, t)
 
 
 @inlined
 def rotate_phase(flow, sine, cosine, j):
-    """Return sine and cosine of the forcing phase at the j-th time of the table."""
+    """Return sine and cosine of the forcing phase a time j * flow.spacing later."""
     ca, sa = flow.rotations[j, 0], flow.rotations[j, 1]
     return sine * ca + cosine * sa, cosine * ca - sine * sa
 
 
 @inlined
 def advance(flow, mode, boxes, sine, cosine, t):
-    """Return boxes and forcing phase a time t (0 <= t <= flow.longest) later: (X1, X2, X1', X2'), sin, cos."""
+    """Return ((X1, X2, X1', X2'), sine, cosine of the forcing phase) a time t later, 0 <= t <= flow.longest."""
     j = int(t * flow.density + 0.5)
     r = t - j * flow.spacing
     jets = jet_at(flow, mode, boxes, sine, cosine, j)
@@ -249,16 +253,16 @@ def advance(flow, mode, boxes, sine, cosine, t):
 
 @dataclass(frozen=True)
 class Instant:
-    """Exact time offset + 2 pi turns with rational offset and turns, such as the end of a run.
+    """Exact time offset + 2 pi turns, with rational numbers offset and turns, such as the end time of a run.
 
-    `float` returns the nearest float.
+    float(instant) is the nearest float.
 
     Attributes
     ----------
     offset, turns : Fraction
-        Terms of the time.
+        The two numbers in offset + 2 pi turns.
     reached : bool
-        True if this is the end of a run, so that a run from there continues it.
+        True if this is the end time of a run; a run that starts here continues that run.
     """
 
     offset: Fraction
@@ -266,7 +270,7 @@ class Instant:
     reached: bool = False
 
     def later(self, cycles: int, omega: float) -> "Instant":
-        """Return the time a number of periods 2 pi / omega later, as the end of a run."""
+        """Return the time after `cycles` more periods 2 pi / omega, marked as the end of a run."""
         return Instant(self.offset, self.turns + Fraction(cycles) / Fraction(omega), reached=True)
 
     def __float__(self):
@@ -274,18 +278,18 @@ class Instant:
 
 
 def exactly(tau: float | Instant) -> Instant:
-    """Return the Instant of a float or another rational number."""
+    """Return a float or another rational number as an Instant, without rounding."""
     return tau if isinstance(tau, Instant) else Instant(Fraction(tau))
 
 
 def continues(begin: float | Instant) -> bool:
-    """Return True if a run from this time continues another, so that balls at rest on a wall already stick."""
+    """Return True if a run from this time continues another run, so that a ball at rest on a wall already sticks."""
     return isinstance(begin, Instant) and begin.reached
 
 
 @lru_cache(maxsize=1024)
 def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
-    """Return the phase omega tau modulo 2 pi as a float in [0, 2 pi) and the remainder."""
+    """Return the phase omega tau modulo 2 pi as (float in [0, 2 pi), remainder of its rounding)."""
     instant = exactly(tau)
     part, turns = Fraction(omega) * instant.offset, Fraction(omega) * instant.turns % 1
     two_pi = _two_pi(_digits(part))
@@ -295,19 +299,19 @@ def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
 
 
 def _digits(value):
-    """Return the number of bits of 2 pi needed for guard bits behind the binary point after these turns."""
+    """Return the bits after the binary point of 2 pi that leave _GUARD_BITS accurate bits in value x 2 pi."""
     return _GUARD_BITS + max(math.ceil(abs(value)).bit_length(), 0)
 
 
 @lru_cache(maxsize=64)
 def _two_pi(bits):
-    """Return 2 pi, rounded to a multiple of 2**-bits (Machin's formula)."""
+    """Return 2 pi as a multiple of 2**-bits, by Machin's formula."""
     one = 1 << (bits + 16)
     return Fraction((8 * (4 * _arctan(5, one) - _arctan(239, one))) >> 16, 1 << bits)
 
 
 def _arctan(inverse, one):
-    """Return arctan(1 / inverse) in units of 1 / one, to a few units."""
+    """Return arctan(1 / inverse) as an integer multiple of 1 / one, accurate to a few units."""
     power = total = one // inverse
     k = 1
     while power:
@@ -319,9 +323,9 @@ def _arctan(inverse, one):
 
 @inlined
 def sine_and_cosine(phase, tail):
-    """Return sine and cosine of a phase in [0, 2 pi] plus its remainder, to a unit in the last place.
+    """Return sine and cosine of phase + tail, phase in [0, 2 pi], to one unit in the last place.
 
-    The Taylor series over the eighth of a turn next to the nearest quarter gives the same bits on every machine.
+    Taylor series about the nearest multiple of a quarter turn give the same bits on every machine.
     """
     quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
     x, y = fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
@@ -333,7 +337,7 @@ def sine_and_cosine(phase, tail):
 
 @inlined
 def sine_and_cosine_near(x, y):
-    """Return sine and cosine of an angle within an eighth of a turn of 0, plus its remainder."""
+    """Return sine and cosine of the angle x + y, |x| up to an eighth of a turn, where y is the remainder of x."""
     z = x * x
     half = 0.5 * z
     one = 1.0 - half
@@ -344,7 +348,7 @@ def sine_and_cosine_near(x, y):
 
 @inlined
 def _series(c, z):
-    """Return a polynomial of degree 6, c (7,), at z; in independent pairs."""
+    """Return the polynomial c (7,) at z, summed in independent pairs, which is faster."""
     w = z * z
     upper = fused(w, fused(w, c[6], fused(z, c[5], c[4])), fused(z, c[3], c[2]))
     return fused(w, upper, fused(z, c[1], c[0]))
@@ -352,9 +356,9 @@ def _series(c, z):
 
 @inlined
 def advance_phase(phase, tail, omega, t):
-    """Return the phase a time t later, not reduced.
+    """Return (phase, tail) a time t later, without reducing the phase to one turn.
 
-    Rounding errors of product and sum go to the tail.
+    The rounding errors of the product omega t and of the sum are added to the tail.
     """
     step = omega * t
     total = phase + step
@@ -364,7 +368,7 @@ def advance_phase(phase, tail, omega, t):
 
 @inlined
 def reduced(phase, tail):
-    """Return a phase reduced by a full turn, with its tail made small again."""
+    """Return (phase, tail) less one full turn; the tail is again the remainder of the rounded phase."""
     phase, tail = phase - TWO_PI, tail - TWO_PI_TAIL
     total = phase + tail
     part = total - phase

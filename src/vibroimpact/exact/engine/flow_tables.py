@@ -1,7 +1,7 @@
-"""Tabulate Taylor series of the flow at many equally spaced times, with a single rounding.
+"""Tabulate Taylor polynomials of the flow at many equally spaced times, each entry rounded nearly once.
 
-The computation uses double-double numbers, pairs of a float and its remainder (Dekker 1971). Matrices of pairs have
-shape (2, 6, 6, times), so that the processor multiplies those of several times at once.
+The computation uses double-double numbers ("pairs"): a float and its remainder (Dekker 1971). Matrices of pairs at many
+times have shape (2, 6, 6, times), so that the processor multiplies the matrices at several times at once.
 """
 
 import math
@@ -11,21 +11,21 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.vectors import fused
 
-SIZE, BOXES = 6, 4  # length of z = [X1, X2, X1', X2', sin, cos] and of its part for the boxes
-TERMS = 20  # terms of the exponential series; over one spacing the next term is below 1e-40
-ORDERS = 8  # coefficients of the Taylor polynomials
+SIZE, BOXES = 6, 4  # length of z = [X1, X2, X1', X2', sin, cos], and number of its entries for the boxes
+TERMS = 20  # number of terms in the exponential series; over one spacing the next term is below 1e-40
+ORDERS = 8  # number of coefficients in a Taylor polynomial
 
 
 @compiled
 def exact_rates(parameters):
-    """Return rate matrices, velocity changes and largest rates of each system.
+    """Return (rate matrices, velocity changes, fastest rates) of n systems.
 
-    parameters: (n, 10), with Omega in place of sigma_e_hat. Returns the rate matrices of the contact states as pairs,
-    (n, 2, 4, 6, 6); the velocity change of a ball at an impact per unit of relative velocity, (n, 2); and the largest
-    rates of stiffness and damping, (n, 2).
+    parameters: (n, 10), in the order of `flow.PARAMETERS`. Rate matrices: one for each contact state, in pairs,
+    (n, 2, 4, 6, 6). Velocity changes: (1 + kappa) / (1 + epsilon) as pairs, (n, 2), the velocity change of a ball at an
+    impact per unit of relative velocity. Fastest rates: due to stiffness and due to damping, (n, 2).
 
-    With rounded entries, a stiff coupling would not cancel exactly for equal motions of both boxes, and would shift the
-    slow frequency.
+    With rounded entries, a stiff coupling would not cancel exactly if both boxes move equally, which would shift the
+    low natural frequency.
     """
     n = len(parameters)
     rates, impulses, fastest = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2)), np.empty((n, 2))
@@ -63,7 +63,7 @@ def exact_rates(parameters):
 
 @inlined_source
 def _put(rows, i, j, base, e, first, second):
-    """Set an entry to base + e (first + second), in pairs."""
+    """Set entry (i, j) to base + e (first + second), computed in pairs."""
     high, low = _plus_product(base, 0.0, e, 0.0, first, 0.0)
     high, low = _plus_product(high, low, e, 0.0, second, 0.0)
     rows[0, i, j], rows[1, i, j] = _normal(high, low)
@@ -78,13 +78,13 @@ def _ratio(high, low, other, other_low):
 
 
 def tables(rates, spacing, count):
-    """Return tables at the times j h, j < count, for rate matrices A in pairs (2, k, 6, 6), z' = A z.
+    """Return (series, rotations): tables at the times j h, j < count, for k rate matrices A, z' = A z.
 
-    h = spacing, a power of two; count is at least 2.
+    rates: the matrices in pairs, (2, k, 6, 6). spacing: h, a power of two. count: at least 2.
 
-    Returns the Taylor coefficients of the boxes for each initial state, (k, count, 6, 16), with X_i^(m) / m! of box i
-    at index 8 i + m (positions and velocities are exp(A j h) to rounding); and cosine and sine of the forcing phase,
-    (count, 2).
+    series (k, count, 6, 16): for each initial unit vector of z, the Taylor coefficients X_i^(m) / m! of both boxes at
+    index 8 i + m, i = 0, 1. Their positions and velocities are exp(A j h) to rounding. rotations (count, 2): cosine and
+    sine of the forcing phase.
     """
     series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     for mode in range(rates.shape[1]):
@@ -94,13 +94,13 @@ def tables(rates, spacing, count):
 
 @compiled
 def fill_table(rates, mode, spacing, series, rotations, step, change):
-    """Write series[mode] and the rotations of `tables`, and the change of the state in `step` steps, (2, 6, 6)."""
+    """Write series[mode] and rotations as in `tables`; write exp(A step h) - 1 in pairs to `change`, (2, 6, 6)."""
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
     _fill_unit(power, 0)
     _fill_exponential(rates, mode, spacing, power, one, other)
-    last = np.intp(1)  # a literal would compile `_entries` once more
+    last = np.intp(1)  # a literal would make Numba compile `_entries` again
     while last < count - 1:
         _multiply(power, last, min(last, count - 1 - last))
         last *= 2
@@ -116,7 +116,7 @@ def fill_table(rates, mode, spacing, series, rotations, step, change):
 
 @inlined_source
 def _fill_unit(matrices, place):
-    """Set the matrix at a place to the identity, in pairs."""
+    """Set the matrix with index `place` to the identity, in pairs."""
     for i in range(SIZE):
         for j in range(SIZE):
             matrices[0, i, j, place], matrices[1, i, j, place] = 1.0 if i == j else 0.0, 0.0
@@ -124,9 +124,9 @@ def _fill_unit(matrices, place):
 
 @inlined_source
 def _fill_exponential(rates, k, spacing, powers, term, after):
-    """Write the first power, exp(A_k spacing), at place 1.
+    """Write exp(A_k spacing), the first power, to index 1 of `powers`.
 
-    term, after: (2, 6, 6, 1), workspace.
+    term, after: workspace, (2, 6, 6, 1).
     """
     _fill_unit(powers, 1)
     _fill_unit(term, 0)
@@ -149,11 +149,11 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
 
 @inlined_source
 def _fill_coefficients(rates, k, rows, power, after):
-    """Write the Taylor coefficients of the boxes by the state, (6, 16), for z' = A_k z.
+    """For each unit vector of the state z, write the Taylor coefficients of both boxes to rows (6, 16), z' = A_k z.
 
-    X_i^(m) / m! is at index 8 i + m.
+    X_i^(m) / m! is at index 8 i + m, i = 0, 1.
 
-    power, after: (2, 6, 6, 1), workspace.
+    power, after: workspace, (2, 6, 6, 1).
     """
     _fill_unit(power, 0)
     for m in range(ORDERS):
@@ -172,7 +172,7 @@ def _fill_coefficients(rates, k, rows, power, after):
 
 @inlined_source
 def _expand(coefficients, powers, series, mode):
-    """Write series[mode], (count, 6, 16), from the coefficients by the state and the powers (2, 6, 6, count)."""
+    """Write series[mode], (count, 6, 16): products of coefficients (6, 16) with powers exp(A j h) (2, 6, 6, count)."""
     for j in range(powers.shape[3]):
         for m in range(SIZE):
             a, b, c = powers[0, 0, m, j], powers[0, 1, m, j], powers[0, 2, m, j]
@@ -185,9 +185,9 @@ def _expand(coefficients, powers, series, mode):
 
 @inlined_source
 def _multiply(powers, last, many):
-    """Append the next `many` powers: the products of power `last` with the first powers.
+    """Append `many` powers of P = exp(A h) to P, ..., P^last: the products of P^last with P, ..., P^many.
 
-    Products with the boxes are left out in the rows of the forcing phase, which does not depend on the boxes.
+    The forcing phase does not depend on the boxes, so its rows have zeros there, and these products are left out.
     """
     for i in range(BOXES):
         for j in range(BOXES):
@@ -201,19 +201,19 @@ def _multiply(powers, last, many):
 
 @inlined
 def _entries(powers, last, many, i, j, first, end):
-    """Write entry (i, j) of all powers; terms outside first to end are zero."""
+    """Write entry (i, j) of the `many` new powers; only terms n with first <= n < end are nonzero."""
     for time in range(1, many + 1):
         high, low = 0.0, 0.0
         for n in range(first, end):
             a, a_low = powers[0, i, n, time], powers[1, i, n, time]
             high, low = _plus_product(high, low, a, a_low, powers[0, n, j, last], powers[1, n, j, last])
-        there = np.uintp(last + time)  # an unsigned index, so that the loop is vectorised
+        there = np.uintp(last + time)  # unsigned, so that the compiler vectorises the loop
         powers[0, i, j, there], powers[1, i, j, there] = _normal(high, low)
 
 
 @inlined
 def _plus_product(high, low, a, a_low, b, b_low):
-    """Return a pair plus the product of two others; the second number may exceed the rounding of the first."""
+    """Return the pair plus the product of pairs a and b, not yet normalised: the low part may be large (`_normal`)."""
     product = a * b
     total = high + product
     part = total - high
@@ -238,6 +238,6 @@ def _over(high, low, k):
 
 @inlined
 def _normal(high, low):
-    """Return the nearest float and the remainder as a pair."""
+    """Return high + low as a pair: the nearest float and the remainder."""
     total = high + low
     return total, low - (total - high)

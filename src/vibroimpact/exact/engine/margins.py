@@ -1,11 +1,11 @@
-"""Distances of a run from a change of its event sequence, at every event and every turn.
+"""Measure how far a run is from a different event sequence, at every event and every turn.
 
-A turn is a minimum of the gap between a ball and a wall, or of the force that holds a sticking ball. A flight is cut
-into pieces in which the rate of each constraint, or the derivative of this rate, certainly keeps its sign. Then there
-is at most one turn, and the signs at both ends show it. The rates are bounded by their Taylor polynomials and the bound
-on the seventh derivative of the boxes, in the Bernstein basis, as in the proof of the flight (exclusion).
+A turn is a minimum of the gap between a ball and a wall, or of the contact force on a sticking ball. A flight is cut
+into pieces in which the rate of each constraint, or the derivative of this rate, certainly keeps its sign. Each piece
+then has at most one turn, which the signs of the rate at both ends show. The sign is proved as for the flight itself
+(exclusion): from Taylor polynomials and a bound on the seventh derivative of the boxes, in the Bernstein basis.
 
-A distance is given in units of the error of the state that would bridge it.
+A margin is given as the error of the state that would change the event sequence.
 """
 
 import math
@@ -27,19 +27,19 @@ from vibroimpact.exact.engine.flow import acceleration, advance, advance_phase, 
 from vibroimpact.exact.engine.variation import FORCING, LENGTH, completes_chatter, end_of, start_of
 from vibroimpact.system.state import IMPACT, RELEASE
 
-SHORTEST = 1e-9  # in units of the flow; shorter pieces move by less than rounding
-SHARP = 1e-10  # in units of the flow; half of the digits of the time suffice, since a gap is stationary at its turn
-UNSEEN = 1e-17  # an uncertainty of a constraint below this is rounding
+SHORTEST = 1e-9  # in units of `Flow.unit`; in a shorter piece the motion is below rounding
+SHARP = 1e-10  # in units of `Flow.unit`; half the digits of the time suffice, since a gap is stationary at its turn
+UNSEEN = 1e-17  # a smaller uncertainty of a constraint is below rounding
 MOST_STEPS = 60
 GAP, FORCE, DOUBTS = 0, 1, 2
 
 
 @compiled
 def turning_points(flow, flights):
-    """Return the least gap, the least force and the number of doubtful turns of each flight, rows (m + 1, 3).
+    """For each flight, return the least gap, the least force and the number of doubtful turns, rows (m + 1, 3).
 
-    Gap and force (per unit of ball mass) are those at turns, inf if there is none. A turn is doubtful if rounding
-    decides it (DOUBTED).
+    The gap and the contact force (per unit of ball mass) are the least values at the turns in the flight, inf without
+    turns. A turn is doubtful if rounding decides whether the ball misses the wall (DOUBTED).
     """
     turns = np.empty((len(flights), 3))
     for n in range(len(flights)):
@@ -57,7 +57,7 @@ def turning_points(flow, flights):
 
 @inlined_source
 def _search(flow, motion, length, least_of):
-    """Record the turns of a flight no longer than flow.longest; return boxes and balls at its end."""
+    """Record the turns in a flight of length <= flow.longest in `least_of`; return boxes and balls at its end."""
     q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
     now, there, s, c, t = motion.boxes, motion.balls, motion.sine, motion.cosine, 0.0
@@ -90,10 +90,10 @@ def _search(flow, motion, length, least_of):
 
 @inlined
 def _rate(q, jets, boxes, balls, walls, i, bound):
-    """Return the rate of module i's constraint up to the sign of the wall: (polynomial (8,), bounds (8,) on its error).
+    """Return (polynomial (8,), bounds (8,) on its error) for the rate of the constraint of module i, up to the sign.
 
-    The constraint is the gap of a flying ball, the acceleration of the box of a sticking one. If the
-    rate and its derivative vanish within rounding, the ball was just released.
+    The constraint is the gap if the ball flies, and the acceleration of the box if the ball sticks. If the ball was just
+    released, the rate is zero, and its derivative is set to 0 if it is zero within rounding.
     """
     p = jets[0] if i == 0 else jets[1]
     if walls[i] != 0:
@@ -108,7 +108,7 @@ def _rate(q, jets, boxes, balls, walls, i, bound):
 
 @inlined
 def _turns_once(rate, doubt, t):
-    """Return True if a rate with a bounded error certainly changes its sign at most once on [0, t]."""
+    """Return True if the rate certainly changes sign at most once on [0, t]; doubt: bounds on its error."""
     if value(doubt, t) * t < UNSEEN:
         doubt = (0.0,) * 8
     if _one_sign(rate, doubt, t):
@@ -118,7 +118,7 @@ def _turns_once(rate, doubt, t):
 
 @inlined
 def _one_sign(c, e, t):
-    """Return True if every polynomial within c +- e, (8,), is of one sign (or zero) on [0, t]."""
+    """Return True if all polynomials within c +- e, (8,), are certainly >= 0, or all <= 0, on [0, t]."""
     return least(_minus(c, e), t) >= 0.0 or least(_minus(_minus((0.0,) * 8, c), e), t) >= 0.0
 
 
@@ -134,7 +134,7 @@ def _derivative(c):
 
 @inlined
 def _rate_at(q, walls, boxes, balls, sine, cosine, i):
-    """Return the rate of module i's constraint at a point of a flight, up to the sign of the wall."""
+    """Return the rate of the constraint of module i at one point of a flight, up to the sign (see `_rate`)."""
     if walls[i] == 0:
         return boxes[2 + i] - balls[2 + i]
     jets = jet(q, mode_of(walls), boxes, sine, cosine)
@@ -143,7 +143,7 @@ def _rate_at(q, walls, boxes, balls, sine, cosine, i):
 
 @inlined_source
 def _note(flow, motion, i, times, rates, least_of):
-    """Find the turn of module i between two times of a flight, given the rates there; record a minimum."""
+    """Find the turn of module i between two times with given rates; record it in `least_of` if it is a minimum."""
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
     (low, high), (early, late) = times, rates
     t = low + (high - low) * abs(early) / (abs(early) + abs(late))
@@ -179,10 +179,11 @@ DEPTH, DOUBT = 0, 1
 
 @compiled
 def hits_of(q, flights, events):
-    """Return the prevented depth and the doubt of each event, rows (m, 2).
+    """For each event, return (prevented depth, doubt), rows (m, 2).
 
-    An impact at speed u under the deceleration b prevents the depth u^2 / (2 b), inf if nothing decelerates the ball.
-    The doubt is 1 if rounding decides it (DOUBTED). Other events have inf and 0.
+    Without the impact, a ball at relative speed u and deceleration b would reach the depth u^2 / (2 b) beyond the wall,
+    or inf without deceleration. The doubt is 1 if rounding decides whether the ball hits the wall (DOUBTED), else 0.
+    Events other than impacts have depth inf and doubt 0.
     """
     hits = np.empty((len(events), 2))
     for n in range(len(events)):
@@ -201,11 +202,11 @@ def hits_of(q, flights, events):
 
 @compiled
 def margins_of(q, flights, turns, hits, events, start_phase, duration):
-    """Return the least margin of each flight, in units of the error at its start and at its end: rows (m + 1, 2).
+    """For each flight, return the least margin at its start and at its end, rows (m + 1, 2).
 
-    Margins are distances from: another contact state at the start of the run; another number of turns of a flight
-    (turning_points); a miss instead of an event (hits_of), or an event after the end of the run; a different effect of
-    an impact on the other ball; and a further event just after the end.
+    Each margin is the error of the state that would lead to a change: another contact state at the start of the run; an
+    additional event at a turn (turning_points); a miss instead of an event (hits_of), or an event only after the end of
+    the run; another effect of an impact on the sticking ball in the other module; an additional event at the end.
     """
     margins = np.full((len(flights), 2), math.inf)
     for n in range(len(flights)):
@@ -231,17 +232,21 @@ def margins_of(q, flights, turns, hits, events, start_phase, duration):
 
 @inlined
 def _lower(margins, margin):
-    """Lower the margins (2,) of a flight to one that holds at its start and at its end."""
+    """Lower both margins (2,) of a flight to a margin that applies to its start and its end."""
     for k in range(2):
         margins[k] = np.minimum(margins[k], margin)
 
 
 @inlined_source
 def _of_event(q, walls, boxes, balls, events, n, left):
-    """Return the distance of an event from the end of the run, a given time later; for a release, at most its depth."""
+    """Return the margin by which event n is not after the end of the run, a time `left` later.
+
+    For a release, it is also at most the depth to which the contact force would fall below zero. It is inf for a stick
+    that does not complete a chatter.
+    """
     i, wall, kind, phase = int(events[n, 1]) - 1, events[n, 2], events[n, 3], events[n, PHASE]
     force = wall * box_accelerations(q, walls, boxes, math.sin(phase))[i]
-    if kind == IMPACT:  # distance of the ball beyond the wall by then
+    if kind == IMPACT:  # distance beyond the wall that the ball would reach at the end of the run
         return left * (wall * (boxes[2 + i] - balls[2 + i]) + 0.5 * left * max(force, 0.0))
     if kind == RELEASE:
         change, bend = _changes(q, walls, boxes, phase, i)
@@ -254,7 +259,7 @@ def _of_event(q, walls, boxes, balls, events, n, left):
 
 @inlined_source
 def _at_start(q, boxes, balls, phase):
-    """Return the distance of the start from another contact state of its balls."""
+    """Return the margin by which the balls are in their contact states at the start of the run."""
     margin = math.inf
     for i in range(2):
         gap, speed = 1.0 - abs(boxes[i] - balls[i]), abs(boxes[2 + i] - balls[2 + i])
@@ -267,9 +272,9 @@ def _at_start(q, boxes, balls, phase):
 
 @inlined_source
 def _at_end(q, walls, boxes, balls, phase):
-    """Return the distance of the end from the next event.
+    """Return the margin by which the next event is not before the end of the run.
 
-    The event is that of a ball approaching a wall, or of a sticking ball whose contact force decreases.
+    It is the gap of a ball that approaches a wall, or the contact force on a sticking ball if this force decreases.
     """
     margin = math.inf
     for i in range(2):
@@ -284,13 +289,13 @@ def _at_end(q, walls, boxes, balls, phase):
 
 @inlined
 def _force(q, walls, boxes, phase, i):
-    """Return the acceleration of box i over the effect of a unit error on it."""
+    """Return the acceleration of box i, divided by the effect of a unit error on it (`_force_weight`)."""
     return box_accelerations(q, walls, boxes, math.sin(phase))[i] / _force_weight(q, walls, i)
 
 
 @inlined
 def _force_weight(q, walls, i):
-    """Return the effect of a unit error of the boxes on the acceleration of box i."""
+    """Return the largest change of the acceleration of box i due to a unit error in the boxes."""
     one, two = inverse_masses(q, mode_of(walls))
     if i == 0:
         return one * math.sqrt(q.k11 * q.k11 + q.k12 * q.k12 + q.c11 * q.c11 + q.c12 * q.c12)
@@ -299,7 +304,7 @@ def _force_weight(q, walls, i):
 
 @inlined
 def _changes(q, walls, boxes, phase, i):
-    """Return the first and second rate of change of the acceleration of box i."""
+    """Return the first and second time derivative of the acceleration of box i."""
     one, two = inverse_masses(q, mode_of(walls))
     s, c, fall = math.sin(phase), q.omega * math.cos(phase), -q.omega * q.omega
     x1, x2, v1, v2 = boxes

@@ -1,9 +1,9 @@
 """Flights of a finished run, replayed from its events, and their variational flow.
 
-Perturbations pass a flight by its linear flow and an impact by its saltation matrix. They pass a release by continuity
-(the force vanishes there), or together with the impact that forces it. They pass a completed chatter by the derivative
-of its completion, without multiplying infinitely many saltation matrices. In this module states are ordered
-[boxes, balls]; PUBLIC_ORDER and INNER_ORDER convert. `growth` counts sticking in the same pass.
+Perturbations are multiplied by the linear flow for a flight, and by the saltation matrix for an impact. A release
+leaves them unchanged, since the contact force is zero there; if an impact forces the release, the saltation matrix of
+the impact includes it. A completed chatter has its own derivative, so that infinitely many saltation matrices need not
+be multiplied. This file orders states as [boxes, balls]; PUBLIC_ORDER and INNER_ORDER convert between the orders.
 """
 
 import math
@@ -26,19 +26,19 @@ from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.system.state import IMPACT, RELEASE, STICK, takes_part
 
 LENGTH, WALLS, FORCING, BEFORE, AFTER, COLUMNS = 0, 1, 3, 4, 12, 20
-"""Indices in a flight's row: its length, the wall (or 0) that each ball sticks to, the forcing phase and the state (8,)
-at its start, the state (8,) at its end. States are ordered [boxes, balls]."""
+"""Indices in the row of a flight: its length; the wall (or 0) to which each ball sticks; the forcing phase and the
+state (8,) at its start; the state (8,) at its end. States are ordered [boxes, balls]."""
 PUBLIC_ORDER = np.array([0, 4, 1, 5, 2, 6, 3, 7])
-"""Indices in [boxes, balls] of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+"""Index in [boxes, balls] of each component of the public state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
 INNER_ORDER = np.argsort(PUBLIC_ORDER)
 
 
 @compiled
 def replayed(flow, start, events, start_phase, duration):
-    """Return the flights of a run, rows (m + 1, COLUMNS): one before each event and one to the end.
+    """Return the flights of a run, rows (m + 1, COLUMNS): one before each event and one to the end of the run.
 
-    The events are rows of the log; start (8,) is in public order. The flight before the stick that completes a chatter
-    is empty, because the stick is applied at the last impact of the chatter, ahead of its time.
+    events: rows of the log. start (8,): initial state in public order. The flight before a stick that completes a
+    chatter has zero length, because the stick is applied at the last simulated impact, ahead of its time.
     """
     flights = departures(flow.coefficients, start, events, start_phase, duration)
     for n in range(len(flights)):
@@ -47,7 +47,7 @@ def replayed(flow, start, events, start_phase, duration):
 
 
 class Departure(NamedTuple):
-    """Start of a flight: boxes and balls, the wall (or 0) each ball sticks to, the time and the forcing phase."""
+    """Start of a flight: boxes and balls, the wall (or 0) to which each ball sticks, the time and the forcing phase."""
 
     boxes: tuple[float, float, float, float]
     balls: tuple[float, float, float, float]
@@ -58,7 +58,7 @@ class Departure(NamedTuple):
 
 @inlined_source
 def departures(q, start, events, start_phase, duration):
-    """Return the flights of a run (see `replayed`) without the states at their ends."""
+    """Return the flights of a run as in `replayed`, but with zeros instead of the states at their ends."""
     flights = np.zeros((len(events) + 1, COLUMNS))
     leaving = first_departure(start, start_phase)
     for n in range(len(flights)):
@@ -74,7 +74,7 @@ def departures(q, start, events, start_phase, duration):
 
 @inlined
 def first_departure(start, phase):
-    """Return the first departure of a run from a state (8,), in public order."""
+    """Return the first departure of a run that starts from a state (8,) in public order."""
     return Departure(
         (start[0], start[2], start[4], start[6]), (start[1], start[3], start[5], start[7]), (0, 0), 0.0, phase
     )
@@ -82,7 +82,7 @@ def first_departure(start, phase):
 
 @inlined
 def next_departure(q, events, n, leaving, end):
-    """Return the departure after event n; after the last one, with time and phase of the end of the run."""
+    """Return the departure after event n; if there is no event n, the previous one with time and phase in `end`."""
     if n == len(events):
         return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
     event, walls = events[n], leaving.walls
@@ -100,14 +100,14 @@ def next_departure(q, events, n, leaving, end):
 
 @inlined_source
 def _length(q, lapse, turned):
-    """Return the time between two events, as accurate as the difference of their phases."""
+    """Return the time between two events, corrected to the accuracy of the difference of their phases (`turned`)."""
     more = turned - q.omega * lapse
     return max(lapse + (more - TWO_PI * math.floor(more / TWO_PI + 0.5)) / q.omega, 0.0)
 
 
 @inlined_source
 def land(flow, flight):
-    """Write the state at the end of a flight."""
+    """Compute the state at the end of a flight and write it to the row of the flight."""
     boxes, balls, walls = start_of(flight)
     left, phase, tail = flight[LENGTH], flight[FORCING], 0.0
     while left > 0.0:
@@ -136,13 +136,13 @@ def end_of(flight):
 
 @inlined
 def completes_chatter(events, n):
-    """Return True if event n is the stick that completes a chatter, recorded at its last impact."""
+    """Return True if event n is a stick that completes a chatter."""
     return events[n, 3] == STICK and events[n, APPROACH] > 0.0
 
 
 @inlined
 def rests_at_start(events, n):
-    """Return True if event n is the stick of a ball at rest on its wall at the start of the run."""
+    """Return True if event n is a stick at the start of the run, of a ball that rests on its wall."""
     first = events[n, 0] == 0.0 and events[n, 3] == STICK
     for k in range(n):
         first = first and events[k, 1] != events[n, 1]
@@ -151,7 +151,7 @@ def rests_at_start(events, n):
 
 @inlined
 def walls_after(events, n, walls):
-    """Return the walls that the balls stick to after all events at the instant of event n."""
+    """Return the walls to which balls stick after the releases that follow event n at the same instant."""
     for k in range(n + 1, len(events)):
         if events[k, 0] != events[n, 0]:
             break
@@ -162,10 +162,9 @@ def walls_after(events, n, walls):
 
 @compiled
 def propagate(flow, flights, events, total):
-    """Return perturbations (8, k) of the initial state, propagated to the end of a run.
+    """Propagate perturbations `total` (8, k) of the initial state to the end of a run and return them.
 
-    The order is [boxes, balls]. The flights are those of `replayed`, the events rows of `motion`; the given array is
-    overwritten.
+    Rows are in the order [boxes, balls]. flights: from `replayed`. events: rows of the log. `total` is overwritten.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(total)
     for n in range(len(flights)):
@@ -182,7 +181,7 @@ def propagate(flow, flights, events, total):
 
 @compiled
 def fill_product(matrix, vectors, product):
-    """Write the product with (8, k) vectors; at this size BLAS has too much overhead."""
+    """Write the product of a matrix (8, 8) and vectors (8, k); at this size BLAS has too much overhead."""
     for row in range(8):
         for column in range(vectors.shape[1]):
             total = 0.0
@@ -193,7 +192,7 @@ def fill_product(matrix, vectors, product):
 
 @compiled
 def fill_flight(flow, flight, matrix):
-    """Write the derivative (8, 8) of the state at the end of a flight by the state at its start."""
+    """Write the derivative (8, 8) of the state at the end of a flight with respect to the state at its start."""
     _, _, walls = start_of(flight)
     left = min(flight[LENGTH], flow.longest)
     _fill_free(flow, walls, left, matrix)
@@ -207,12 +206,12 @@ def fill_flight(flow, flight, matrix):
 
 @compiled
 def _fill_free(flow, walls, t, matrix):
-    """Write the derivative (8, 8) of the state after a flight of t <= flow.longest by the state before."""
+    """Write the derivative (8, 8) of the state after a flight of length t <= flow.longest w.r.t. the state before."""
     mode = mode_of(walls)
     j = int(t * flow.density + 0.5)
     rest = t - j * flow.spacing
     matrix[:] = 0.0
-    for k in range(4):  # without the force, the motion of a box is linear in the state
+    for k in range(4):  # column k: response of the boxes to the k-th unit vector, without force
         p = flow.series[mode, j, k]
         matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = evaluate((p[:ORDERS], p[ORDERS:]), rest)
     for i in range(2):
@@ -226,7 +225,7 @@ def _fill_free(flow, walls, t, matrix):
 
 @inlined
 def _copy(rows, to):
-    """Copy rows (n, 8); an assignment to a slice would make Numba compile a check of shapes."""
+    """Copy rows (n, 8) entry by entry; for an assignment to a slice, Numba would compile a check of shapes."""
     for n in range(len(rows)):
         for k in range(8):
             to[n, k] = rows[n, k]
@@ -234,7 +233,7 @@ def _copy(rows, to):
 
 @compiled
 def fill_event(q, flights, events, n, matrix):
-    """Write the derivative (8, 8) of the state after event n by the state before it."""
+    """Write the derivative (8, 8) of the state after event n with respect to the state before it."""
     i, wall, kind, phase = int(events[n, 1]) - 1, int(events[n, 2]), events[n, 3], events[n, PHASE]
     _, _, walls = start_of(flights[n])
     before = flights[n, AFTER:]
@@ -254,7 +253,7 @@ def fill_event(q, flights, events, n, matrix):
 
 @compiled
 def fill_rate(q, walls, state, phase, field):
-    """Write the rate of change (8,) of a state (8,) in a contact state."""
+    """Write the time derivative (8,) of a state (8,), given the walls to which balls stick and the forcing phase."""
     i1, i2 = inverse_masses(q, mode_of(walls))
     force = math.sin(phase)
     a1, a2 = acceleration(q, (i1, i2), (state[0], state[1]), (state[2], state[3]), (q.f1 * force, q.f2 * force))
@@ -266,12 +265,12 @@ def fill_rate(q, walls, state, phase, field):
 
 @compiled
 def _saltation_matrix(q, i, before, after, walls, walls_after, phase, matrix):
-    """Write the saltation matrix (8, 8) of an impact in module i (0, 1), from the states (8,) around it.
+    """Write the saltation matrix (8, 8) of an impact in module i (0 or 1), given the states (8,) before and after it.
 
-    S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004), where R is
-    the restitution matrix, n the normal of the wall, and f- and f+ the fields before and after. walls_after differs
-    from walls if the impact releases a ball. Other implementations: `orbits.floquet.impact_saltation` for orbits, and
-    `orbits.proof.passage` in intervals.
+    S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004), where R is the
+    restitution matrix, n the normal of the wall, and f- and f+ the vector fields before and after the impact.
+    walls_after differs from walls if the impact releases the other ball. Other implementations:
+    `orbits.floquet.impact_saltation` for orbits, and `orbits.proof.passage` with intervals.
     """
     box, ball = 2 + i, 6 + i
     through, outgoing = np.empty(8), np.empty(8)
@@ -297,13 +296,13 @@ def _fill_identity(matrix):
 
 @compiled
 def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
-    """Write the derivative (8, 8) of completing a chatter of ball i.
+    """Write the derivative (8, 8) of the state after a stick of ball i with respect to the state before.
 
-    The chatter starts with an inward speed under a push.
+    For a completed chatter, inward = u and push = a as in `contact._end_of_chatter`; otherwise both are 0.
 
-    Box and ball keep their momentum and centre of mass. While the gap closes, springs and dampers act on the box at its
-    present position: the time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), that of its rate is the gap, and
-    both contribute to first order in the perturbation.
+    Box and ball keep their momentum and centre of mass. During the chatter, springs and dampers act on the box at its
+    actual position, not at the centre of mass. The time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), and the
+    time integral of the gap's rate is the gap. Both contribute to first order in the perturbation.
     """
     e = q.epsilon
     share = e / (1.0 + e)
@@ -333,11 +332,11 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 
 
 class Growth(NamedTuple):
-    """Growth of an orthonormal frame of k perturbations in each of the n cycles of a run.
+    """Growth of k orthonormal perturbations in each of the n cycles of a run.
 
-    factors: (n, k) moduli of the diagonal of R; where a perturbation is lost, they are above 0 by rounding only.
-    impacts, stuck: (n,) number of impacts, and largest number of balls that stick at one time. frame: (8, k) the final
-    frame, orthonormal again.
+    factors (n, k): growth factors, |diagonal of R| in the QR decomposition. Where sticking loses a perturbation, its
+    factor is above 0 by rounding only. impacts (n,): number of impacts. stuck (n,): largest number of balls that stick
+    at the same time. frame (8, k): final perturbations, orthonormal again.
     """
 
     factors: np.ndarray
@@ -347,14 +346,14 @@ class Growth(NamedTuple):
 
 
 def growth(run, frame: np.ndarray) -> Growth:
-    """Propagate an orthonormal frame (8, k) along a run, with a QR decomposition after every cycle.
+    """Propagate k orthonormal perturbations along a run, with a QR decomposition after every cycle.
 
     Parameters
     ----------
     run : Run
         A simulated motion.
     frame : ndarray
-        Columns in the order of the public state, 0 in the components of a module that takes no part.
+        Perturbations as columns (8, k), in public order; 0 in a module that is not driven (`System.modules`).
     """
     flow, flights, events = run.trajectory
     factors, counts = np.empty((run.cycles, frame.shape[1])), np.zeros((run.cycles, 2), dtype=int)
@@ -365,10 +364,10 @@ def growth(run, frame: np.ndarray) -> Growth:
 
 @compiled
 def _carried_by_cycles(flow, flights, events, period, frame, places, factors, counts):
-    """Return the frame after the last cycle; write factors (n, k) and counts (n, 2), which are 0 initially.
+    """Return the frame after the last cycle; fill factors (n, k) and counts (n, 2), which are initially 0.
 
-    The frame is 0 except at the given places of the state. Flights are cut at the ends of cycles: their derivative
-    depends only on their length and on the balls that stick.
+    places: indices of the components in which the frame is not 0. Flights are cut at the ends of cycles, which is easy
+    since the derivative of a flight depends only on its length and on the balls that stick.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(frame)
     cycle, elapsed = 0, 0.0
@@ -401,9 +400,9 @@ def _carried_by_cycles(flow, flights, events, period, frame, places, factors, co
 
 @compiled
 def _orthonormalize(a, places, sizes):
-    """Replace the rows of a (m, k) at the given places by Q of their QR decomposition.
+    """Replace the rows of a (m, k) at the given places by Q from their QR decomposition, and sizes (k,) by |diag R|.
 
-    |diag R| is written to sizes (k,). The other rows are 0; QR would fill them with rounding errors.
+    The other rows are left out because they are 0, and QR would fill them with rounding errors.
     """
     q, r = np.linalg.qr(a[places])
     for row in range(len(places)):

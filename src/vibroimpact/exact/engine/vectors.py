@@ -1,10 +1,11 @@
-"""Instructions that Numba's Python does not offer: fused products, sums of table rows, vectors of eight floats.
+"""Operations that Numba does not offer: fused multiply-add, weighted sums of table rows, vectors of eight floats.
 
-This is the only file that emits code through Numba's internals. It is tested with Numba 0.68 and llvmlite 0.50;
+This is the only file that generates code through Numba's internals. It is tested with Numba 0.68 and llvmlite 0.50;
 pyproject.toml excludes later versions.
 
-The compiler does not vectorise the sums of rows by itself. Each operation on `Lanes`, the type of eight floats, rounds
-like that on a float: a formula gives the same bits for both. Comparisons return a `Mask`; `where` selects by it.
+The sums of rows are written with vectors since the compiler would not vectorise them. `Lanes` is the type of eight
+floats. Each operation on it rounds like the operation on a float, so that a formula gives the same bits for both.
+Comparisons return a `Mask`, with which `where` selects values.
 """
 
 import math
@@ -24,7 +25,7 @@ NOTHING = ir.Constant(NUMBERS, ir.Undefined)
 
 @intrinsic
 def weighted_sum(_, table, mode, j, weights):
-    """Return the sum over m of weights[m] * table[mode, j, m], a table (modes, n, m, 16), as two tuples of eight."""
+    """Return the sum over m of weights[m] * table[mode, j, m] as two tuples (8,); the table is (modes, n, m, 16)."""
     eight = types.UniTuple(types.float64, WIDTH)
 
     def generate(context, builder, signature, arguments):
@@ -44,13 +45,13 @@ def weighted_sum(_, table, mode, j, weights):
 
 
 def row_at(context, builder, start, place):
-    """Load the vector at a place after the start."""
+    """Load the vector that begins 8 x place numbers after the start."""
     pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * place)])
     return builder.load(builder.bitcast(pointer, NUMBERS.as_pointer()), align=8)
 
 
 def weighted(builder, rows, weights):
-    """Return the weighted sum of vectors; product and sum are rounded once if the processor can."""
+    """Return the weighted sum of vectors; product and sum are rounded together if the processor supports it."""
     total = None
     for row, weight in zip(rows, weights, strict=True):
         part = builder.fmul(row, weight, flags=("contract",))
@@ -59,7 +60,7 @@ def weighted(builder, rows, weights):
 
 
 def _in_all(builder, number):
-    """Return a vector with this number in every entry."""
+    """Return a vector of eight copies of a number."""
     first = builder.insert_element(NOTHING, number, ir.IntType(32)(0))
     return builder.shuffle_vector(first, NOTHING, INDICES([0] * WIDTH))
 
@@ -101,14 +102,14 @@ class _MaskModel(models.PrimitiveModel):
 
 
 def _wide(context, builder, value, kind):
-    """Return a float or integer in all lanes."""
+    """Return a value as Lanes; a float or integer is copied to all lanes."""
     if isinstance(kind, Lanes):
         return value
     return _in_all(builder, context.cast(builder, value, kind, types.float64))
 
 
 def _operation(function, result, generate):
-    """Register an operation with two operands, one of which may be a scalar."""
+    """Register an operation on two operands for Lanes; one operand may be a scalar."""
 
     class Typing(AbstractTemplate):
         def generic(self, args, kws):
@@ -140,7 +141,7 @@ _operation(operator.eq, MASK, _comparison("=="))
 
 
 def _function(function, kind, generate):
-    """Register a function of one argument."""
+    """Register a function of one argument for the type of this argument (Lanes or Mask)."""
 
     class Typing(AbstractTemplate):
         def generic(self, args, kws):
@@ -180,7 +181,7 @@ _joined(operator.or_, lambda builder, a, b: builder.or_(a, b))
 
 @intrinsic
 def fused(_, a, b, c):
-    """Return a b + c, rounded once, of floats or in each lane."""
+    """Return a b + c, rounded only once, for floats or in each lane."""
     if LANES in (a, b, c):
 
         def generate(context, builder, signed, args):
@@ -195,13 +196,13 @@ def fused(_, a, b, c):
 if config.DISABLE_JIT:
 
     def fused(*_):
-        """Raise RuntimeError, since only compiled code rounds a b + c once."""
+        """Raise RuntimeError, since only compiled code can round a b + c once."""
         raise RuntimeError("the simulation requires compiled code; unset NUMBA_DISABLE_JIT")
 
 
 @intrinsic
 def where(_, mask, a, b):
-    """Return a where the mask is true, else b, in each lane."""
+    """In each lane, return a if the mask is true and b otherwise."""
 
     def generate(context, builder, signed, args):
         _, one, other = signed.args
@@ -223,7 +224,7 @@ def load(_, array, k):
 
 @intrinsic(prefer_literal=True)
 def load_rows(_, array, k, count):
-    """Return a number of rows of an array (n, 8), from row k on; the number is a literal."""
+    """Return rows k, ..., k + count - 1 of an array (n, 8) as a tuple; count is a literal."""
     kind = types.UniTuple(LANES, count.literal_value)
 
     def generate(context, builder, signed, args):
@@ -235,7 +236,7 @@ def load_rows(_, array, k, count):
 
 @intrinsic
 def store(_, array, k, value):
-    """Write row k of an array (n, 8)."""
+    """Write a value to row k of an array (n, 8)."""
 
     def generate(context, builder, signed, args):
         value = _wide(context, builder, args[2], signed.args[2])
@@ -247,7 +248,7 @@ def store(_, array, k, value):
 
 @intrinsic
 def replace_rows(_, array, k, mask, values):
-    """Write a tuple of values to the rows of an array (n, 8) from row k on, in the lanes where the mask is true."""
+    """Write a tuple of values to rows k, k + 1, ... of an array (n, 8), in the lanes where the mask is true."""
 
     def generate(context, builder, signed, args):
         for n, kind in enumerate(signed.args[3]):
@@ -260,7 +261,7 @@ def replace_rows(_, array, k, mask, values):
 
 
 def _pointer(context, builder, signed, args, later=0):
-    """Return a pointer to the row `later` rows after the one that the arguments name."""
+    """Return a pointer to row k + later, where args begins with (array, k)."""
     array = context.make_array(signed.args[0])(context, builder, args[0])
     row, zero = builder.add(args[1], context.get_constant(types.intp, later)), context.get_constant(types.intp, 0)
     pointer = cgutils.get_item_pointer(context, builder, signed.args[0], array, [row, zero])
