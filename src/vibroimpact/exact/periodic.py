@@ -1,8 +1,8 @@
 """Find periodic motions of any period and any sequence of events, by Newton's method on the stroboscopic map.
 
-The map leads from a state to the one n forcing periods later. The engine computes it and its derivative through
-impacts, chatter, sticking and release. It is discontinuous where an event passes the instant of the stroboscope, so
-this instant is placed in the longest interval without events.
+The map leads from a state to the state n forcing periods later. The engine computes the map and its derivative through
+impacts, chatter, sticking and release. The map is discontinuous where an event passes the instant of the stroboscope,
+so this instant is placed in the middle of the longest interval without events.
 """
 
 from dataclasses import dataclass
@@ -21,9 +21,9 @@ from vibroimpact.system.state import BALLS, IMPACT, MODULES, idle_at_rest, takes
 from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 
 SAME = 1e-6
-"""Largest difference of equal states: near a bifurcation they are accurate to the square root of rounding only."""
+"""Largest difference between states that count as equal; near a bifurcation, their error is about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-_NEUTRAL = 1e-10  # relative: a ball whose velocity depends less on the state meets no wall
+_NEUTRAL = 1e-10  # relative: if the velocity of a ball depends less on the state, the ball hits no wall
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
 _CONVERGED = ((1e-5, 1e-8), (1e-12, 1e-6))
@@ -33,18 +33,18 @@ _TOUCH = 1e-9
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PeriodicOrbit(Representation):
-    """A periodic motion with any number of impacts, dimensionless.
+    """A periodic motion with any number of impacts, in dimensionless quantities.
 
     Attributes
     ----------
     system : System
-        System of the motion.
+        Dimensionless parameters.
     periods : int
-        Number of forcing periods after which it repeats.
+        Number of forcing periods after which the motion repeats.
     state : ndarray
-        State at tau = 0, just after the events there, (8,).
+        State at tau = 0, just after any events at this time, (8,).
     run : Run
-        One period of the motion, which starts between two events.
+        Run over one period of the motion, which starts between two events.
 
     Examples
     --------
@@ -59,12 +59,12 @@ class PeriodicOrbit(Representation):
 
     @property
     def period(self) -> float:
-        """Period in units of tau."""
+        """Period of the motion in units of tau."""
         return self.periods * self.system.period
 
     @cached_property
     def multipliers(self) -> np.ndarray:
-        """Floquet multipliers over the period, (8,), of a single machine (4,), complex, by descending modulus."""
+        """Complex Floquet multipliers over the period in descending modulus, (8,), or (4,) if one module is driven."""
         part = takes_part(self.system)
         return multipliers(self.run.jacobian[part][:, part])
 
@@ -72,8 +72,8 @@ class PeriodicOrbit(Representation):
     def stability(self) -> str:
         """Stability: "stable", "unstable" or "undecided".
 
-        It is undecided if a multiplier is on the unit circle within its error, or if a ball meets no wall, so that two
-        multipliers are 1.
+        It is undecided if a multiplier is on the unit circle within its error and none is outside. It is also undecided
+        if a ball hits no wall, so that two multipliers are 1, and none is outside.
         """
         part = _held(self.run)
         verdict = by_multipliers(self.run.jacobian[part][:, part], self.residual, self._slowest)
@@ -86,34 +86,34 @@ class PeriodicOrbit(Representation):
 
     @property
     def impacts(self) -> np.ndarray:
-        """Impacts in one period, (2, 2), [module, wall +1 / wall -1]; chatter counts until its completion."""
+        """Number of impacts in one period, (2, 2), [module, wall +1 / wall -1]; a chatter counts until its completion."""
         events = self._impacts
         return np.array([[np.sum((events["module"] == i) & (events["wall"] == w)) for w in (1, -1)] for i in (1, 2)])
 
     @cached_property
     def symmetric(self) -> bool:
-        """True if the state half a period later is the mirror image, which needs an odd number of forcing periods."""
+        """True if the state half a period later is the mirror image; this requires an odd number of forcing periods."""
         half = _state_at(self.run, self.run.tau0 + self.period / 2)
         return self.periods % 2 == 1 and bool(np.abs(half + self.run.start).max() <= SAME)
 
     @property
     def grazing(self) -> bool:
-        """True if a ball touches a wall without relative speed; if it begins to impact, a multiplier is unbounded."""
+        """True if a ball touches a wall without relative speed; where it begins to impact, a multiplier diverges."""
         return _grazes(self.run)
 
     @property
     def admissible(self) -> bool:
-        """True if the balls are at the walls at their impacts, as in every completed run."""
+        """True if each ball is on the wall at its impacts, as in every completed run."""
         return self.run.certificate.wall_residual <= _TOUCH
 
     @property
     def residual(self) -> float:
-        """Largest difference of the states before and after one period."""
+        """Largest difference between the states before and after one period."""
         return _gap(self.run)
 
     @cached_property
     def amplitudes(self) -> np.ndarray:
-        """Largest displacements |X_i| of the boxes, (2,); NaN for a module that takes no part."""
+        """Largest displacement |X_i| of each box, (2,); NaN for a module that is not driven (`System.modules`)."""
         largest = ensemble(self.system, self.state, self.periods)["largest"]
         return np.where(takes_part(self.system)[[0, 2]], largest, np.nan)
 
@@ -123,7 +123,7 @@ class PeriodicOrbit(Representation):
 
     @property
     def _slowest(self):
-        """Smallest relative speed after an impact."""
+        """Smallest relative speed after an impact, at most 1."""
         states, rows = self._impacts["state"], np.arange(len(self._impacts))
         boxes = 2 * self._impacts["module"] + 2
         return np.abs(states[rows, boxes] - states[rows, boxes + 1]).min(initial=1.0)
@@ -140,24 +140,25 @@ class PeriodicOrbit(Representation):
 
 
 def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> PeriodicOrbit:
-    """Refine a periodic motion of any period, with any impacts, chatter and sticking, from a state near it.
+    """Find a periodic motion of any period, with any impacts, chatter and sticking, from a state near it.
 
     Newton's method is applied to the map over `periods` forcing periods, with the exact derivative `run.jacobian`. It
-    finds unstable motions too; from a distant start it may converge to another motion than the nearest one.
+    also finds unstable motions. From a distant start it may converge to a motion that is not the nearest one.
 
     Parameters
     ----------
     system : System
         Dimensionless parameters.
     state : array_like
-        State at tau = 0, (8,), usually the end of a settled run. A module that takes no part is put at rest.
+        State at tau = 0, (8,), usually the end of a settled run. A module that is not driven (`System.modules`) is put
+        at rest.
     periods : int, default 1
-        Number of forcing periods after which the motion repeats, and not earlier.
+        Smallest number of forcing periods after which the motion repeats.
 
     Returns
     -------
     PeriodicOrbit
-        The motion with .state, .period, .multipliers, .stability, .impacts, .symmetric, .amplitudes and .residual.
+        The motion, with .state, .period, .multipliers, .stability, .impacts, .symmetric, .amplitudes and .residual.
 
     Raises
     ------
@@ -183,7 +184,7 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
 
 
 def refined(system, state, periods) -> PeriodicOrbit:
-    """Return the motion near a state (8,) that repeats after some number of forcing periods, or after a divisor of it.
+    """Return the motion near a state (8,) that repeats after `periods` forcing periods, or after a divisor of them.
 
     Raises
     ------
@@ -211,9 +212,9 @@ def refined(system, state, periods) -> PeriodicOrbit:
 
 
 def _held(run):
-    """Return True (8,) for coordinates of modules that take part, except those of balls in neutral equilibrium.
+    """Return a mask (8,) of the coordinates of driven modules (`System.modules`), without those of neutral balls.
 
-    Such a ball meets no wall, or its mass is immense; its position is a free parameter of the motion.
+    A neutral ball hits no wall, or its mass is immense; its position is a free parameter of the motion.
     """
     changes = np.abs(run.jacobian - np.eye(8))
     turned = changes[[5, 7]].max(axis=1) > _NEUTRAL * max(1.0, changes.max())
@@ -222,7 +223,7 @@ def _held(run):
 
 
 def _nearer(run, step):
-    """Return the run from a start moved by a step or a part of it, if that reduces the gap of its ends, else None."""
+    """Move the start of a run by a step, or by a part of it that reduces the gap; return the new run, or None."""
     for _ in range(_HALVINGS):
         x = run.start + step
         if within_walls(x[None])[0]:
@@ -246,14 +247,14 @@ def _gap(run):
 
 
 def _between_events(run):
-    """Return the middle of the longest interval of a run without events."""
+    """Return the time in the middle of the longest interval without events in a run."""
     edges = np.array([run.tau0, *run.events["tau"], float(run.end)])
     longest = np.diff(edges).argmax()
     return float(edges[longest : longest + 2].mean())
 
 
 def _at_zero(run):
-    """Return the state at the end of the last forcing period, which is that at tau = 0, after the events there."""
+    """Return the state at tau = 0 after any events there, from the same phase at the end of the last forcing period."""
     tau = run.cycles * run.system.period
     there = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
     return there[-1].copy() if len(there) else _state_at(run, tau)

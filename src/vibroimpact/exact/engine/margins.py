@@ -92,8 +92,8 @@ def _search(flow, motion, length, least_of):
 def _rate(q, jets, boxes, balls, walls, i, bound):
     """Return (polynomial (8,), bounds (8,) on its error) for the rate of the constraint of module i, up to the sign.
 
-    The constraint is the gap if the ball flies, and the acceleration of the box if the ball sticks. If the ball was just
-    released, the rate is zero, and its derivative is set to 0 if it is zero within rounding.
+    The constraint is the gap if the ball flies, and the acceleration of the box if the ball sticks. If the ball was
+    just released, the rate is zero, and its derivative is set to 0 if it is zero within rounding.
     """
     p = jets[0] if i == 0 else jets[1]
     if walls[i] != 0:

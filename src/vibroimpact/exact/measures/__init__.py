@@ -1,1 +1,1 @@
-"""Measure period, symmetry, impacts per cycle, slow variables and bursts of a simulated motion."""
+"""Measure the period, symmetry, impacts per cycle, slow variables and resonant bursts of a simulated motion."""

@@ -1,4 +1,4 @@
-"""Measure modulated responses: amplitudes per cycle, their variation, bursts of resonance."""
+"""Measure modulated responses: amplitude in each cycle, variation of the amplitude, bursts of resonance."""
 
 import numpy as np
 
@@ -6,11 +6,11 @@ from vibroimpact.exact.engine.simulation import Run, simulate
 from vibroimpact.system.state import IMPACT, STICK
 
 PER_CYCLE = 24
-"""Samples per forcing period used for amplitudes."""
+"""Number of samples per forcing period from which amplitudes are computed."""
 
 
 def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
-    """Return half the peak-to-peak value in each whole forcing period, shape (cycles,).
+    """Return half the peak-to-peak value in each complete forcing period, shape (cycles,).
 
     `values` has shape (n,), with `per_cycle` values in each period.
     """
@@ -20,33 +20,32 @@ def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
 
 
 def variation(amplitudes) -> float:
-    """Return the standard deviation of the amplitudes over their mean.
+    """Return the standard deviation of the amplitudes divided by their mean.
 
-    It is 0 for a steady response and d / sqrt(2) for a beat 1 + d cos.
+    The result is 0 for a steady response and d / sqrt(2) for a beat 1 + d cos.
 
-    It converges with the length of the window, unlike the depth from the largest and smallest amplitude.
+    It converges as the window becomes longer, unlike `extreme_depth`.
     """
     mean = np.mean(amplitudes)
     return float(np.std(amplitudes) / mean) if mean > 0 else 0.0
 
 
 def extreme_depth(amplitudes) -> float:
-    """Return (largest - smallest) / (largest + smallest) amplitude.
+    """Return the modulation depth (largest - smallest) / (largest + smallest) from the extreme amplitudes.
 
-    This measure grows with the window and is kept for comparison.
+    This measure grows with the length of the window and is kept for comparison with `variation`.
     """
     largest, smallest = np.max(amplitudes), np.min(amplitudes)
     return float((largest - smallest) / (largest + smallest)) if largest > 0 else 0.0
 
 
 def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
-    """Return the cycles at which the amplitude has swollen.
+    """Return the cycles in which the amplitude swells, as indices (s,) into the amplitudes (n,).
 
-    A swell begins where the amplitude rises above `high` of its range after it was below `low`.
+    A swell is counted when the amplitude rises above `high` for the first time after it was below `low`. The thresholds
+    are fractions of the range between the smallest and the largest amplitude. Two thresholds exclude ripples.
 
-    Two thresholds (fractions of the range between smallest and largest amplitude) exclude ripples.
-    Returns indices into the amplitudes (n,), shape (s,): their distances are the modulation periods. Empty for a
-    steady response.
+    The differences between successive indices are the modulation periods. A steady response has no swells.
     """
     amplitudes = np.asarray(amplitudes, dtype=float)
     lowest, span = np.min(amplitudes), np.ptp(amplitudes)
@@ -62,15 +61,15 @@ def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
 
 
 def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
-    """Return the resonant bursts of one ball, from its impacts in order: start and end times, shape (b, 2).
+    """Return the start and end time of each resonant burst of one ball, shape (b, 2), from its impacts.
 
     A flight is resonant if it leads to the opposite wall and lasts between a quarter and three quarters of the forcing
-    period; a burst is an unbroken sequence of at least `least` resonant flights.
+    period. A burst is an unbroken sequence of at least `least` resonant flights.
 
     Parameters
     ----------
     tau, wall
-        Time and wall of each impact, shape (m,).
+        Time and wall of each impact in order of time, shape (m,).
     """
     tau, wall = np.asarray(tau), np.asarray(wall)
     duration = np.diff(tau)
@@ -82,25 +81,25 @@ def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
 
 
 def bursts_in(run: Run, module: int) -> np.ndarray:
-    """Return the resonant bursts of a module's ball in a run: start and end time of each, shape (b, 2)."""
+    """Return the start and end time of each resonant burst (`bursts`) of a module's ball in a run, shape (b, 2)."""
     mine = run.events[(run.events["module"] == module) & (run.events["kind"] == IMPACT)]
     return bursts(mine["tau"], mine["wall"], run.system.period)
 
 
 def sampled(system, state, cycles: int) -> Run:
-    """Return a run over `cycles` forcing cycles from a state at the start of a cycle.
+    """Return a run over `cycles` forcing cycles from a state at tau = 0.
 
-    It has PER_CYCLE samples in each cycle and one at the end.
+    The run has PER_CYCLE samples in each cycle and one at the end.
     """
     return simulate(system, state, cycles, sample_times=np.arange(cycles * PER_CYCLE + 1) * (system.period / PER_CYCLE))
 
 
 def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
-    """Return measures of a modulated motion by (quantity, module), over `cycles` forcing cycles.
+    """Return measures of a modulated motion over `cycles` forcing cycles from a state at tau = 0.
 
-    The state is that at the start of a cycle. "amplitude variation" is that of the box, cycle by cycle (`variation`);
-    "resonant share" is the fraction of the time within bursts (`bursts`); "burst length" is their mean [cycles], nan
-    without bursts. Impacts are counted per cycle, sticks per 1000 cycles.
+    The keys are (quantity, module). "amplitude variation" is the `variation` of the box amplitude from cycle to cycle.
+    "resonant share" is the fraction of the time within bursts (`bursts`). "burst length" is the mean duration of a
+    burst in cycles, nan without bursts. "impacts per cycle" and "sticks per 1000 cycles" are mean numbers of events.
     """
     run = sampled(system, state, cycles)
     found = {}
@@ -119,9 +118,9 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
 
 
 def mean_and_error(values) -> tuple[float, float, int]:
-    """Return the mean over starts, its standard error and the number of starts that have the quantity.
+    """Return (mean, standard error of the mean, number) of the finite values; each value is from one initial state.
 
-    The error of a single start is nan.
+    The mean of no value is nan, and so is the error of fewer than two values.
     """
     values = np.asarray(values, dtype=float)
     values = values[np.isfinite(values)]

@@ -1,6 +1,6 @@
-"""Recognise the motion that a run has settled on: period, symmetry, number of impacts.
+"""Identify the motion to which a run has settled: period, symmetry, number of impacts.
 
-All functions use displacements (X1, Y1, X2, Y2), evenly sampled with an integer number of samples per forcing period.
+The functions use displacements (X1, Y1, X2, Y2), evenly sampled with a whole number of samples per forcing period.
 Velocities are not used, since they jump at impacts.
 """
 
@@ -8,12 +8,12 @@ import numpy as np
 
 
 def samples_per_cycle(tau, period: float) -> int:
-    """Return the number of samples per forcing period of evenly spaced times tau, shape (n,).
+    """Return the number of samples per forcing period for evenly spaced sample times tau, shape (n,).
 
     Raises
     ------
     ValueError
-        If the times are not evenly spaced, or do not divide the period, or span less than one period.
+        If the times are not evenly spaced, their spacing does not divide the period, or they span less than a period.
     """
     tau = np.asarray(tau, dtype=float)
     if tau.ndim != 1 or len(tau) < 2:
@@ -29,19 +29,19 @@ def samples_per_cycle(tau, period: float) -> int:
 
 
 def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
-    """Return the largest change of any displacement over some forcing periods, over the whole window.
+    """Return the largest change of any displacement within `cycles` forcing periods, anywhere in the window.
 
-    0 for a motion that repeats after `cycles` periods.
+    The result is 0 for a motion that repeats after `cycles` periods.
 
     Parameters
     ----------
     displacements
-        Shape (n, k), evenly sampled, per_cycle times in a forcing period.
+        Shape (n, k), sampled evenly with per_cycle samples in each forcing period.
 
     Raises
     ------
     ValueError
-        If the window is shorter than `cycles` periods.
+        If the window is not longer than `cycles` periods.
     """
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
@@ -50,7 +50,7 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
 
 
 def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None:
-    """Return the smallest number of forcing periods after which the motion repeats within a tolerance, or None.
+    """Return the smallest number of forcing periods after which a motion repeats within a tolerance, or None.
 
     Only numbers up to half of the window are tried, so that every repetition is observed at least twice.
 
@@ -64,14 +64,15 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
     later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
     back = 1 + np.flatnonzero(
         np.abs(later - displacements[0]).max(axis=1) <= tolerance
-    )  # candidates, which repeat at least at the start
+    )  # candidates: the first displacements repeat
     return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 
 def mirror_distance(displacements, per_cycle: int) -> float:
-    """Return the largest |x(tau + T/2) + x(tau)| over the window: 0 for a motion that is its own mirror image.
+    """Return the largest |x(tau + T/2) + x(tau)| over the window, which is 0 for a symmetric motion.
 
-    The equations of motion are invariant under a change of sign of the state and a shift by half a period.
+    The equations of motion stay the same if the sign of the state changes and time shifts by half a period. A motion is
+    symmetric if it also stays the same.
 
     Raises
     ------
@@ -85,14 +86,14 @@ def mirror_distance(displacements, per_cycle: int) -> float:
 
 
 def impacts_per_cycle(tau, module, wall, start: float, period: float, cycles: int) -> np.ndarray:
-    """Return the number of impacts in each forcing period, module and wall (+1, -1), shape (cycles, 2, 2).
+    """Return the number of impacts for each forcing period, module and wall (+1, -1), shape (cycles, 2, 2).
 
     Parameters
     ----------
     tau, module, wall
         Time, module and wall of each impact, shape (m,).
     start : float
-        Time at which the first of the periods begins.
+        Time at which the first period begins.
     """
     tau, module, wall = np.asarray(tau), np.asarray(module), np.asarray(wall)
     edges = start + period * np.arange(cycles + 1)

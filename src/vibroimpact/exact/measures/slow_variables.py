@@ -1,4 +1,4 @@
-"""Measure the slow variables of (10.9)-(10.12) in a sampled motion, for comparison with fixed points."""
+"""Measure the slow variables of (10.9)-(10.12) in a sampled motion, to compare them with fixed points."""
 
 from dataclasses import dataclass
 
@@ -10,19 +10,19 @@ WALLS = (1, -1)
 
 
 def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return B and psi [rad] of the first harmonic B sin(Omega tau - psi), per column of values.
+    """Return B and psi [rad] of the first harmonic B sin(Omega tau - psi) in each column of values.
 
     Parameters
     ----------
     tau
-        Evenly spaced times that cover whole forcing periods, the end left out, shape (n,).
+        Evenly spaced times over a whole number of forcing periods, without the end point, shape (n,).
     values
         Shape (n, k), for example U_1 and U_2.
 
     Returns
     -------
     tuple[ndarray, ndarray]
-        B and psi in (-pi, pi], each shape (k,).
+        B, and psi in [-pi, pi], each of shape (k,).
     """
     turning = np.exp(-1j * Omega * np.asarray(tau))[:, None]
     phasor = 2j * np.mean(np.asarray(values) * turning, axis=0)
@@ -30,12 +30,12 @@ def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray
 
 
 def phase_in_cycle(tau, period: float):
-    """Return the fraction of the forcing period, in [0, 1), of times tau; the shape is that of tau."""
+    """Return the times tau as fractions of the forcing period, in [0, 1), with the shape of tau."""
     return np.remainder(np.asarray(tau) / period, 1.0)
 
 
 def mean_phase(phases) -> float:
-    """Return the mean of phases (fractions of a period) on the circle, in [0, 1)."""
+    """Return the circular mean of phases given as fractions of a period, in [0, 1)."""
     return float(np.angle(np.mean(np.exp(2j * np.pi * np.asarray(phases)))) / (2 * np.pi) % 1.0)
 
 
@@ -46,11 +46,11 @@ class SlowVariables:
     Attributes
     ----------
     B, psi : ndarray
-        Amplitude and lag [rad] of the first harmonic of U_i, each shape (2,).
+        Amplitude and phase lag [rad] of the first harmonic of U_i, each of shape (2,).
     C : ndarray
-        Saw-tooth amplitude from the mean path of the ball from wall to wall, shape (2,).
+        Saw-tooth amplitude, from the mean distance that the ball travels between its walls, shape (2,).
     impact_phases : ndarray
-        Mean phase in the cycle, [module, wall +1 / wall -1], shape (2, 2), fractions in [0, 1).
+        Mean phase of the impacts as a fraction of the cycle, in [0, 1), [module, wall +1 / wall -1], shape (2, 2).
     """
 
     B: np.ndarray
@@ -59,24 +59,25 @@ class SlowVariables:
     impact_phases: np.ndarray
 
     def distance(self, point) -> float:
-        """Return the distance of the phasors B_i exp(-i psi_i) of both modules from those of a fixed point."""
+        """Return the distance between the phasors B_i exp(-i psi_i) of this motion and those of a fixed point."""
         return float(np.linalg.norm(self.B * np.exp(-1j * self.psi) - point.B * np.exp(-1j * np.asarray(point.psi))))
 
 
 def measure(system, tau, displacements, impacts) -> SlowVariables:
-    """Measure the slow variables of a periodic motion.
+    """Return the slow variables of a periodic motion.
 
     Parameters
     ----------
     tau, displacements
-        Evenly spaced times of whole periods (end left out) and X1, Y1, X2, Y2 there, shape (n, 4).
+        Evenly spaced times over a whole number of periods, without the end point, shape (n,), and X1, Y1, X2, Y2 at
+        these times, shape (n, 4).
     impacts
-        Mapping of arrays (m,): tau, module, wall, Y1, Y2.
+        Mapping with arrays (m,) under the keys tau, module, wall, Y1, Y2.
 
     Raises
     ------
     ValueError
-        If a ball misses one of its walls.
+        If a ball has no impact at one of its walls.
     """
     X, Y = displacements[:, 0::2], displacements[:, 1::2]
     B, psi = amplitude_and_lag(tau, X + system.epsilon * Y, system.Omega)
