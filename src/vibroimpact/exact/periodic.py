@@ -86,7 +86,7 @@ class PeriodicOrbit(Representation):
 
     @property
     def impacts(self) -> np.ndarray:
-        """Number of impacts in one period, (2, 2), [module, wall +1 / wall -1]; a chatter counts until its completion."""
+        """Number of impacts per period, (2, 2), [module, wall +1 / wall -1]; a chatter counts until its completion."""
         events = self._impacts
         return np.array([[np.sum((events["module"] == i) & (events["wall"] == w)) for w in (1, -1)] for i in (1, 2)])
 

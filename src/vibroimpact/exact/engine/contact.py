@@ -25,7 +25,7 @@ from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses,
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 NEGLIGIBLE = 1e-18  # largest change of the state that completing a chatter may neglect
-LOW = 1e-12  # largest height of a hop, as a fraction of the clearance, at which a chatter may be completed
+LOW = 1e-12  # largest height of a hop, relative to the ball's play, at which a chatter may be completed
 
 
 class Motion(NamedTuple):
