@@ -223,7 +223,7 @@ def _held(run):
 
 
 def _nearer(run, step):
-    """Move the start of a run by a step, or by a part of it that reduces the gap; return the new run, or None."""
+    """Move the start of a run by a step, or a fraction of it, to reduce the gap; return the new run, or None."""
     for _ in range(_HALVINGS):
         x = run.start + step
         if within_walls(x[None])[0]:

@@ -1,10 +1,10 @@
 """Free flight in closed form: the linear flow of the boxes and the forcing phase, evaluated without time stepping.
 
 Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix).
-A table gives Taylor polynomials of the motion at the times j h (`jet_at`). The flow over a time t evaluates the one at
-the nearest j h over the rest of the time, at most h/2, which is exact to rounding. No eigenvalues are used, so that
-repeated, defective, undamped and resonant spectra need no special treatment. The phase Omega tau is reduced exactly at
-the start of a run (`Instant`) and advanced without loss of digits.
+A table gives Taylor polynomials of the motion about the times j h (`jet_at`). The motion at a time t is the value of
+the polynomial about the nearest j h. The remaining time is at most h/2, so that the value is exact to rounding. No
+eigenvalues are used, so that repeated, defective, undamped and resonant spectra need no special treatment. The phase Omega tau
+is reduced exactly at the start of a run (`Instant`) and advanced without loss of digits.
 """
 
 import math

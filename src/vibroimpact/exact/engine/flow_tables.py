@@ -1,4 +1,4 @@
-"""Tabulate Taylor polynomials of the flow at many equally spaced times, each entry rounded nearly once.
+"""Tabulate Taylor polynomials of the flow at many equally spaced times, with exp(A t) rounded only once.
 
 The computation uses double-double numbers ("pairs"): a float and its remainder (Dekker 1971). Matrices of pairs at many
 times have shape (2, 6, 6, times), so that the processor multiplies the matrices at several times at once.
@@ -94,7 +94,7 @@ def tables(rates, spacing, count):
 
 @compiled
 def fill_table(rates, mode, spacing, series, rotations, step, change):
-    """Write series[mode] and rotations as in `tables`; write exp(A step h) - 1 in pairs to `change`, (2, 6, 6)."""
+    """Write series[mode] and rotations as in `tables`; write exp(A step h) - I in pairs to `change`, (2, 6, 6)."""
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
