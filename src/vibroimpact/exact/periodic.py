@@ -254,7 +254,7 @@ def _between_events(run):
 
 
 def _at_zero(run):
-    """Return the state at tau = 0 after any events there, from the same phase at the end of the last forcing period."""
+    """Return the state at the end of the last forcing period, after any events there; it equals the one at tau = 0."""
     tau = run.cycles * run.system.period
     there = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
     return there[-1].copy() if len(there) else _state_at(run, tau)

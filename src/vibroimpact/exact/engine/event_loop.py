@@ -78,9 +78,9 @@ def fly(flow, motion, remaining, most_proofs, counters):
 
 @inlined_source
 def _first_event(q, motion, jets, bound, horizon, short):
-    """Return (module, time, width, safe, doubt): the first event at time +- width, and a time `safe` without events.
+    """Return (module, time, width, safe, doubt) for the first event, at time +- width; before `safe` no event happens.
 
-    The module is -1 if no event is certainly the first. doubt: a tangential contact is a miss within rounding.
+    The module is -1 if no event is certainly the first. doubt: `undecided` from `module_time` for this event.
     """
     one = _first_to_check(motion.boxes, motion.balls)
     two = 1 - one

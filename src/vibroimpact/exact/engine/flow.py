@@ -3,8 +3,8 @@
 Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix).
 A table gives Taylor polynomials of the motion about the times j h (`jet_at`). The motion at a time t is the value of
 the polynomial about the nearest j h. The remaining time is at most h/2, so that the value is exact to rounding. No
-eigenvalues are used, so that repeated, defective, undamped and resonant spectra need no special treatment. The phase Omega tau
-is reduced exactly at the start of a run (`Instant`) and advanced without loss of digits.
+eigenvalues are used, so that repeated, defective, undamped and resonant spectra need no special treatment. The phase
+Omega tau is reduced exactly at the start of a run (`Instant`) and advanced without loss of digits.
 """
 
 import math
