@@ -198,7 +198,9 @@ def test_a_strongly_unstable_motion_repeats_after_one_period_and_not_after_more(
 def test_what_went_wrong_is_said():
     system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.9)
     far = vi.simulate(system, np.zeros(8), 2000).final
-    with pytest.raises(ValueError, match=r"\Astate: no motion of period 1 found; the nearest one misses by 0.\d+\Z"):
+    with pytest.raises(
+        ValueError, match=r"\Astate: no motion of period 1 found; Newton's method stops at a gap of 0.\d+\Z"
+    ):
         vi.periodic_orbit(system.with_(kappa=0.2), vi.simulate(system.with_(kappa=0.2), np.zeros(8), 2000).final)
     with pytest.raises(ValueError, match=r"\Aperiods: "):
         vi.periodic_orbit(system, far, 0)

@@ -91,12 +91,14 @@ def test_a_moving_base_and_an_unbalance_move_the_box_as_in_closed_form(drive, om
 
 def test_a_machine_has_one_drive():
     machine = dict(M=1.0, m=0.1, k=1.0, c=0.1)
-    with pytest.raises(ValueError, match=r"\AF: 1.0 besides base = 0.1 and unbalance = 0.0; give one of them"):
+    with pytest.raises(ValueError, match=r"\AF, base: got 1.0 and 0.1; give one of them"):
         vi.PhysicalSystem.single(**machine, F=1.0, base=0.1)
     with pytest.raises(ValueError, match=r"\Abase, unbalance: got 0.1 and 0.2; give one of them"):
         vi.PhysicalSystem.single(**machine, base=0.1, unbalance=0.2)
     with pytest.raises(ValueError, match=r"\Aunbalance: -0.2 is below 0"):
         vi.PhysicalSystem.single(**machine, unbalance=-0.2)
+    with pytest.raises(ValueError, match=r"\AF: "):
+        vi.PhysicalSystem.single(**machine, F=[1.0, 2.0], base=0.1)
 
 
 positive = st.floats(0.05, 20.0)

@@ -75,7 +75,7 @@ class PeriodicOrbit(Representation):
         It is undecided if a multiplier is on the unit circle within its error and none is outside. It is also undecided
         if a ball hits no wall, so that two multipliers are 1, and none is outside.
         """
-        part = _held(self.run)
+        part = determined(self.run)
         verdict = by_multipliers(self.run.jacobian[part][:, part], self.residual, self._slowest)
         return UNDECIDED if verdict == STABLE and len(self.multipliers) > part.sum() else verdict
 
@@ -197,7 +197,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
     begin = _between_events(run)
     run = start = _with_free_balls_at_rest(system, _state_at(run, begin), periods, begin)
     for _ in range(_STEPS):
-        part, step = _held(run), np.zeros(8)
+        part, step = determined(run), np.zeros(8)
         restoring = (np.eye(8) - run.jacobian)[part][:, part]
         step[part] = np.linalg.lstsq(restoring, (run.final - run.start)[part])[0]
         size = np.abs(step).max() / (1 + np.abs(run.start).max())
@@ -208,10 +208,12 @@ def refined(system, state, periods) -> PeriodicOrbit:
     if any(size <= least and _gap(run) <= closed for least, closed in _CONVERGED):
         return PeriodicOrbit(system, periods, _at_zero(run), run)
     grazes = "; a ball grazes a wall" if _grazes(start) or _grazes(run) else ""
-    raise ValueError(f"state: no motion of period {periods} found; the nearest one misses by {_gap(run):.2g}{grazes}")
+    raise ValueError(
+        f"state: no motion of period {periods} found; Newton's method stops at a gap of {_gap(run):.2g}{grazes}"
+    )
 
 
-def _held(run):
+def determined(run):
     """Return a mask (8,) of the coordinates of driven modules (`System.modules`), without those of neutral balls.
 
     A neutral ball hits no wall, or its mass is immense; its position is a free parameter of the motion.
@@ -237,7 +239,7 @@ def _nearer(run, step):
 def _with_free_balls_at_rest(system, x, periods, begin):
     """Return the run from x, with a ball in neutral equilibrium at rest, since it returns to its position only then."""
     run = simulate(system, x, periods, begin)
-    free = _BALL_VELOCITIES & ~_held(run)
+    free = _BALL_VELOCITIES & ~determined(run)
     return simulate(system, np.where(free, 0.0, x), periods, begin) if x[free].any() else run
 
 

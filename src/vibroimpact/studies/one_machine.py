@@ -83,7 +83,8 @@ class Design:
     off : tuple of float
         Peaks at 0.8 and 1.2 times the clearance [m].
     natural, static : float
-        Natural frequency of the machine without ball [Hz], and its static deflection [m].
+        Natural frequency of the machine without ball [Hz], and its static deflection [m] under the force at that
+        frequency.
     window : tuple of int
         Forcing periods of the transient and of the window.
     candidates : list of dict

@@ -30,7 +30,8 @@ class PhysicalSystem:
     kappa : float
         Restitution coefficient.
     base, unbalance : float, default 0.0
-        Excitation of box 1 by ground motion or by an unbalance, see `single`. F10 is then computed from omega1.
+        Excitation of box 1 by ground motion or by an unbalance, see `single`. The value given as F10 is then replaced
+        by the one at omega1.
 
     Raises
     ------
@@ -127,7 +128,8 @@ class PhysicalSystem:
             Circular frequency of the force [rad/s]; the natural frequency by default.
         base : float, default 0.0
             Amplitude G of a motion of the ground below spring and damper [m], given in place of F. The force on the
-            box is G sqrt(k^2 + c^2 omega^2).
+            box is G sqrt(k^2 + c^2 omega^2); the ground lags behind it by arctan(c omega / k). Displacements are
+            absolute.
         unbalance : float, default 0.0
             Mass of a rotor times its eccentricity, u [kg m], given in place of F. The force on the box is u omega^2;
             M includes the rotor.
@@ -142,8 +144,9 @@ class PhysicalSystem:
         ValueError
             As for PhysicalSystem, or if several of F, base and unbalance are given.
         """
-        if F and (base or unbalance):
-            raise ValueError(f"F: {F} besides base = {base} and unbalance = {unbalance}; give one of them")
+        drives = {name: real(name, value) for name, value in (("F", F), ("base", base), ("unbalance", unbalance))}
+        if len(given := {name: value for name, value in drives.items() if value}) > 1:
+            raise ValueError(f"{', '.join(given)}: got {' and '.join(map(str, given.values()))}; give one of them")
         k, M = real("k", k), real("M", M)
         if min(k, M) <= 0:
             raise ValueError(f"{'k' if k <= 0 else 'M'}: {min(k, M)} is not above 0")

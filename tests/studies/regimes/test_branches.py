@@ -371,10 +371,19 @@ def test_a_motion_of_two_periods_is_followed_from_one_period_doubling_to_the_nex
     for f10_hat, periods in ((end - 0.003, 2), (end + 0.003, 4)):
         there = system.with_(f10_hat=f10_hat)
         vi.periodic_orbit(there, vi.simulate(there, np.zeros(8), 3000).final, periods)
-    with pytest.raises(ValueError, match=r"\Aof: a motion of another system; f10_hat may differ alone\Z"):
+    with pytest.raises(ValueError, match=r"\Aof: a motion of another system; only f10_hat may differ\Z"):
         vi.branches(system.with_(kappa=0.5), "f10_hat", (1.78, 2.02), of=motion)
     with pytest.raises(ValueError, match=r"\Aof: a motion at f10_hat = 1.9, outside between = \(1.91, 2.0\)\Z"):
         vi.branches(system, "f10_hat", (1.91, 2.0), of=motion)
+
+
+def test_a_motion_without_impacts_is_followed_until_the_box_reaches_the_ball():
+    """The ball rests in the middle; the box moves as a linear oscillator, whose amplitude reaches 1 at the end."""
+    system = MACHINE.with_(f10_hat=0.1)
+    still = vi.periodic_orbit(system, np.zeros(8))
+    (branch,) = vi.branches(system, "f10_hat", (0.05, 5.0), of=still, progress=False)
+    assert [node.kind for node in branch.special] == ["lost"]
+    assert branch.nodes[-1].p == pytest.approx(0.1 / still.amplitudes[0], rel=1e-6)
 
 
 def test_a_branch_of_a_given_motion_ends_at_the_symmetric_motion_and_where_a_ball_grazes():

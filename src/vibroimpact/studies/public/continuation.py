@@ -99,7 +99,7 @@ def branches(
     if isinstance(of, PeriodicOrbit):
         families, values = (PeriodicOrbits(of),), [getattr(of.system, names[0])]
         if path(values[0]) != of.system:
-            raise ValueError(f"of: a motion of another system; {' = '.join(names)} may differ alone")
+            raise ValueError(f"of: a motion of another system; only {' = '.join(names)} may differ")
         if not low <= values[0] <= high:
             raise ValueError(f"of: a motion at {' = '.join(names)} = {values[0]}, outside between = ({low}, {high})")
     else:
@@ -108,6 +108,8 @@ def branches(
         report = _report(f"{family.name}: {' = '.join(names)} =", progress)
         found += one_parameter.branches(family, path, (low, high), values, (high - low) / _STEPS, report, found)
     _end(progress)
+    if isinstance(of, PeriodicOrbit) and not found:
+        raise ValueError(f"of: the motion cannot be followed from {' = '.join(names)} = {values[0]}")
     return Found(found, one_parameter.COLUMNS)
 
 

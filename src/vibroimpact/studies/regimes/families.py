@@ -19,7 +19,7 @@ from vibroimpact.exact.orbits import asymmetric, symmetric
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric_solutions
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
-from vibroimpact.exact.periodic import PeriodicOrbit
+from vibroimpact.exact.periodic import PeriodicOrbit, determined
 from vibroimpact.studies.regimes.classification import OTHER, Regime
 from vibroimpact.studies.regimes.continuation import Lost
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
@@ -153,12 +153,16 @@ class AsymmetricOrbits(SymmetricOrbits):
 
 
 class PeriodicOrbits(AsymmetricOrbits):
-    """Motions of any period near a PeriodicOrbit: x = state (8,) at its stroboscopic instant, between events."""
+    """Motions of any period near a PeriodicOrbit: x = state (8,) at its stroboscopic instant, between events.
+
+    Coordinates of inactive modules and of balls that meet no wall keep their values.
+    """
 
     angles, modules, rest = slice(0, 0), MODULES, np.zeros(8)
 
     def __init__(self, orbit):
         self.orbit, self.name = orbit, f"motion of period {orbit.periods}"
+        self._free = ~determined(orbit.run)
         self._own = self._equal_images(orbit.system, orbit.run.start)
 
     def roots(self, system) -> np.ndarray:
@@ -185,11 +189,13 @@ class PeriodicOrbits(AsymmetricOrbits):
         Raises
         ------
         Lost
-            If both modules are active, and x is a response of one module.
+            If a module becomes active or inactive, or a ball begins or ceases to impact.
         """
-        _refuse_one_of_two(self, system, x)
-        run, idle = self._run(system, x), _idle(self, system)
-        return np.where(idle, x, run.final - x), np.where(idle, np.eye(8), run.jacobian - np.eye(8))
+        run = self._run(system, x)
+        if (self._free == determined(run)).any():
+            raise Lost("other balls impact")
+        residual = np.where(self._free, x - self.orbit.run.start, run.final - x)
+        return residual, np.where(self._free[:, None], np.eye(8), run.jacobian - np.eye(8))
 
     @staticmethod
     def speed(x) -> float:
@@ -204,6 +210,11 @@ class PeriodicOrbits(AsymmetricOrbits):
     def tests(system, orbit) -> dict[str, float]:
         """Return the values of the test functions, by kind; there is none for grazing, where the branch is lost."""
         return _tests(orbit.multipliers, PERIOD_DOUBLING)
+
+    @staticmethod
+    def stable(system, orbit) -> bool | None:
+        """Return the stability of the motion, None if it is undecided."""
+        return orbit.stable
 
     def member(self, system, x):
         """Return the PeriodicOrbit of a root."""
