@@ -16,7 +16,7 @@ ROWS = [
     for line in (ROOT / "docs/published.md").read_text(encoding="utf-8").splitlines()
     if line.startswith("| [")
 ]
-NAMES = [re.fullmatch(r"\[(\w+)\]\(published\.py\)", row[0])[1] for row in ROWS]
+NAMES, LINES = zip(*(re.fullmatch(r"\[(\w+)\]\(published\.py#L(\d+)\)", row[0]).groups() for row in ROWS), strict=True)
 MOST_LINES = 8
 SAME = "the same"
 """Text in the column "computed" if the numbers equal those in the column "published"."""
@@ -38,7 +38,8 @@ def published():
 def test_each_row_has_a_function_of_a_few_lines():
     functions = {node.name: node for node in ast.parse(CODE.read_text(encoding="utf-8")).body if hasattr(node, "args")}
     assert set(NAMES) <= set(functions)
-    for name in NAMES:
+    for name, line in zip(NAMES, LINES, strict=True):
+        assert functions[name].lineno == int(line)
         assert functions[name].end_lineno - functions[name].lineno <= MOST_LINES
 
 
@@ -53,8 +54,8 @@ def test_the_function_of_a_row_gives_the_computed_numbers_of_the_page(published,
 
 def test_the_published_numbers_that_are_closed_forms():
     said = [[float(text) for text in texts(row[3])] for row in ROWS]
-    # (64), (66): mu* D / ((1 + mu) m) with M = D = 1; (76) at the values of z for both speeds.
-    assert said[1] == [pytest.approx(0.3 / 1.3 / (1 + 0.3 / 1.3) / 0.3, abs=5e-5)] * 2
+    # (66) with M = D = 1: mu D / (1 + mu), mu = m / (m + M); (76) at the values of z for both speeds.
+    assert said[1] == [pytest.approx(0.3 / 1.3 / (1 + 0.3 / 1.3), abs=5e-5)] * 2
     for value, V in zip(said[2], (0.5, 2.0), strict=True):
         z = value / V
         assert value == pytest.approx(1 / (1 + 0.3 * math.tan(z) / z), abs=5e-4)
@@ -70,13 +71,20 @@ def test_the_published_numbers_that_are_closed_forms():
         c = math.sin(T) * (1 + r) / (1 - math.cos(T))
         root = math.sqrt((gamma * c) ** 2 - (sigma**2 - gamma**2) * loss**2)
         assert value == pytest.approx(2 * (sign * root - c * sigma) / (c**2 + loss**2), abs=5.1e-6)
-    # Largest clearance on the backbone curve by CC.
+    # Amplitudes of the frequency response by CC at the clearance 0.3, and its largest clearance on the backbone curve.
     rho, D, a = 2 / np.pi * 0.2 / 1.8, 1e-3, 0.02
     xi = np.geomspace(1.00001 * rho / math.hypot(1, rho), 100, 1_000_000)
     theta = (1 + np.sqrt((1 + rho**2) * xi**2 - rho**2)) / (1 + rho**2)
     lag = np.arccos((theta - 1) / xi)
-    r = np.sqrt(xi / ((1 - a) * xi + 8 * a * theta * np.cos(lag) / np.pi**2))
-    stiff = (1 - (1 - a) * r**2 + 2j * D * r) * xi - 8 * a * theta * r**2 * np.exp(-1j * lag) / np.pi**2
-    widest = 2 * D / abs(stiff)
+
+    def width(r):
+        """Return the clearance at which the motion (xi, theta) has the frequency ratio r."""
+        stiff = (1 - (1 - a) * r**2 + 2j * D * r) * xi - 8 * a * theta * r**2 * np.exp(-1j * lag) / np.pi**2
+        return 2 * D / abs(stiff)
+
+    for value, r in zip(said[7], (0.98, 0.9885, 0.99, 0.992), strict=True):
+        assert value == pytest.approx(theta[np.flatnonzero(np.diff(np.sign(width(r) - 0.3)))[-1]], abs=5.1e-5)
+    backbone = np.sqrt(xi / ((1 - a) * xi + 8 * a * theta * np.cos(lag) / np.pi**2))
+    widest = width(backbone)
     assert said[9] == [pytest.approx(widest.max(), abs=5e-5)]
-    assert r[widest.argmax()] == pytest.approx(0.98846, abs=5e-6)
+    assert backbone[widest.argmax()] == pytest.approx(0.98846, abs=5e-6)
