@@ -13,17 +13,17 @@ from pathlib import Path
 
 SOURCES = Path(__file__).resolve().parents[1]
 """Folder that contains the packages: `src` of a checkout, or the installation folder."""
-SHIPPED = Path(__file__).resolve().with_name("checkout")
+PACKAGED = Path(__file__).resolve().with_name("checkout")
 """Folder in a wheel for files of the checkout other than packages (listed in pyproject.toml)."""
-INSTALLED = SHIPPED.is_dir()
-ROOT = SHIPPED if INSTALLED else SOURCES.parent
+INSTALLED = PACKAGED.is_dir()
+ROOT = PACKAGED if INSTALLED else SOURCES.parent
 """Root of the checkout; for an installed pipeline, the folder that contains files of the checkout."""
 PACKAGES = "vibroimpact", "vibroimpact_pipeline"
 CODE = ".py", ".pyi", ".typed"
 DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
 
 
-def behind(*roots: str) -> list[Path]:
+def code_files(*roots: str) -> list[Path]:
     """Return all code and data files on which a job depends, sorted.
 
     Parameters
@@ -45,9 +45,9 @@ def behind(*roots: str) -> list[Path]:
 
 
 def fingerprint(*roots: str) -> str:
-    """Return the fingerprint of the files of `behind`; for folders it covers every byte, including comments."""
+    """Return the fingerprint of the files of `code_files`; for folders it covers every byte, including comments."""
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
-    for name, path in sorted((_name(path), path) for path in behind(*roots)):
+    for name, path in sorted((_name(path), path) for path in code_files(*roots)):
         content = path.read_bytes() if path in listed else _content(path)
         digest.update(f"{name}\n".encode() + content)
     return digest.hexdigest()[:16]
@@ -55,17 +55,17 @@ def fingerprint(*roots: str) -> str:
 
 def _name(path: Path) -> str:
     """Return a path relative to the checkout, or to `src` for a module; the result is the same in a wheel."""
-    top = SOURCES if path.is_relative_to(SOURCES) and not path.is_relative_to(SHIPPED) else ROOT
+    top = SOURCES if path.is_relative_to(SOURCES) and not path.is_relative_to(PACKAGED) else ROOT
     return path.relative_to(top).as_posix()
 
 
 def change_times(*roots: str) -> dict[Path, int]:
-    """Return the ctime [ns] of each file of `behind`; unlike the mtime, it changes when a file is restored."""
-    return {path: path.stat().st_ctime_ns for path in behind(*roots)}
+    """Return the ctime [ns] of each file of `code_files`; unlike the mtime, it changes when a file is restored."""
+    return {path: path.stat().st_ctime_ns for path in code_files(*roots)}
 
 
 def _paths(root: str) -> list[Path]:
-    """Return the files for one root of `behind`, without the modules that they import."""
+    """Return the files for one root of `code_files`, without the modules that they import."""
     if root.split(".")[0] in PACKAGES:
         return module_files(root)
     top = ROOT / root
@@ -73,7 +73,7 @@ def _paths(root: str) -> list[Path]:
         raise FileNotFoundError(f"{root}: expected a module of this project, or a file or folder of the checkout")
     found = [top] if top.is_file() else (path for path in top.rglob("*") if is_source(path.relative_to(top)))
     return [
-        path for path in found if path.is_file() and (not path.is_relative_to(SHIPPED) or top.is_relative_to(SHIPPED))
+        path for path in found if path.is_file() and (not path.is_relative_to(PACKAGED) or top.is_relative_to(PACKAGED))
     ]
 
 
@@ -86,7 +86,7 @@ def is_source(path: Path) -> bool:
 def modules() -> dict[str, Path]:
     """Return the file of each module of this project by the name of the module."""
     found = [
-        path for package in PACKAGES for path in (SOURCES / package).rglob("*.py") if not path.is_relative_to(SHIPPED)
+        path for package in PACKAGES for path in (SOURCES / package).rglob("*.py") if not path.is_relative_to(PACKAGED)
     ]
     files = [path.relative_to(SOURCES) for path in found]
     return {
@@ -141,5 +141,5 @@ def changed(code: dict) -> bool:
 
 
 def code_of(*roots: str) -> dict:
-    """Return the value of `params.code` for a rule: the arguments of `behind` and their fingerprint."""
+    """Return the value of `params.code` for a rule: the arguments of `code_files` and their fingerprint."""
     return {"of": sorted(roots), "fingerprint": fingerprint(*roots)}

@@ -15,7 +15,7 @@ from vibroimpact_pipeline.html.policy import guarded
 
 TEMPLATE = Path(__file__).with_name("results_page.html.j2")
 EXACT = re.compile(r"<p>(<strong>The exact system:</strong>.*?)</p>", re.DOTALL)
-LARGE = "Speed and accuracy"
+WIDE_HEADING = "Speed and accuracy"
 """Heading of the group of figures that the page shows at full text width."""
 KINDS = {"PNG": ".png", "SVG": ".svg", "PDF": ".pdf", "numbers (CSV)": ".csv"}
 TABLES = "*.csv", "*.json", "*.md", "regimes/*.csv", "accuracy/*.csv", "sweeps/*.csv"
@@ -39,7 +39,9 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     return guarded(
-        template.render(style=STYLE, counts=counts, tables=tables, groups=listed, large=LARGE, chosen=_choices(results))
+        template.render(
+            style=STYLE, counts=counts, tables=tables, groups=listed, large=WIDE_HEADING, chosen=_choices(results)
+        )
     )
 
 

@@ -273,7 +273,7 @@ def in_lanes(system, gene):
     return system.with_(sigma_e_hat=(numbers[RATE] * 3.9 ** (2 * gene - 1) - 1) / system.epsilon)
 
 
-def true_over_told(genes, most_events=150, many=False):
+def error_ratio(genes, most_events=150, many=False):
     """Return the ratio of true to estimated error of the final state; None if the run is undecided or long.
 
     With `many`, the true error is that of the final state of an ensemble.
@@ -291,7 +291,7 @@ def true_over_told(genes, most_events=150, many=False):
         return None
 
 
-def climbed(rng, draws, steps, ratio=true_over_told, genes=GENES):
+def climbed(rng, draws, steps, ratio=error_ratio, genes=GENES):
     """Return the ratios for random draws of genes, and for a hill climb from the draw with the largest ratio."""
     drawn = rng.uniform(0, 1, (draws, genes))
     ratios = [ratio(one) for one in drawn]
@@ -309,7 +309,7 @@ def climbed(rng, draws, steps, ratio=true_over_told, genes=GENES):
 
 # -- ensembles --------------------------------------------------------------------------------------------------------
 
-PROMISED = 2.6
+MAX_ERROR_RATIO = 2.6
 """Largest ratio of true to estimated error that docs/engine.md states."""
 
 
@@ -399,7 +399,7 @@ def unlike_single_runs(systems, states, cycles, tau0=0.0):
     """Return the index of each run in an ensemble that differs from `simulate`, with the reason.
 
     Decided runs must have the same numbers of impacts and sticks, except impacts before hops within rounding. Their
-    final states must differ by less than PROMISED times the estimated error.
+    final states must differ by less than MAX_ERROR_RATIO times the estimated error.
     """
     found, decided = [], 0
     for n, outcome in enumerate(vi.ensemble(systems, states, cycles, tau0)):
@@ -420,7 +420,7 @@ def unlike_single_runs(systems, states, cycles, tau0=0.0):
         if np.any(np.abs(np.array([outcome["impacts"], outcome["sticks"]]) - counts) > [free, [0, 0]]):
             found.append((n, f"{outcome['impacts']}, {outcome['sticks']} in place of {counts}"))
         far = np.abs(outcome["final"] - run.final).max()
-        if not far < PROMISED * run.certificate.error:
+        if not far < MAX_ERROR_RATIO * run.certificate.error:
             found.append((n, f"the final state differs by {far:.3g}, told error {run.certificate.error:.3g}"))
     assert decided > len(states) // 4
     return found

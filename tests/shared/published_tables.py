@@ -5,7 +5,7 @@ import numpy as np
 from pipeline_trees import ROOT
 from vibroimpact.tables import read
 from vibroimpact_pipeline.figure_check.check import compared_files
-from vibroimpact_pipeline.figure_check.table_distances import KINDS, OTHERS, table_differences
+from vibroimpact_pipeline.figure_check.table_distances import KINDS, OTHER_SERIES, table_differences
 from vibroimpact_pipeline.specs import each, specs
 
 FOLDERS = {path.name.removesuffix(".csv"): path.parent for path in sorted((ROOT / "figures").rglob("*.csv"))}
@@ -42,9 +42,9 @@ def by_kind(name):
     table, columns = published(name)
     for column, entry in columns.items():
         kinds = entry.get("compared", ())
-        series = kinds if isinstance(kinds, dict) else {OTHERS: kinds} if kinds else {}
+        series = kinds if isinstance(kinds, dict) else {OTHER_SERIES: kinds} if kinds else {}
         words = table.iloc[:, :2].itertuples(index=False, name=None)
-        own = [series.get(next((word for word in row if word in series), OTHERS)) for row in words]
+        own = [series.get(next((word for word in row if word in series), OTHER_SERIES)) for row in words]
         for kind in dict.fromkeys(series.values()):
             rows = table.index[[one == kind for one in own]]
             rows = rows[table.loc[rows, column].notna() & (table.loc[rows, column] != "")]

@@ -28,7 +28,7 @@ def briefly():
     """Watched for less time than a user's machine, for all that these tests compare."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(one_machine, "LONG", 120)
-        patch.setattr(one_machine, "WATCHED", 60)
+        patch.setattr(one_machine, "WINDOW", 60)
         yield
 
 
@@ -134,7 +134,7 @@ def test_displacement_and_impacts_are_those_of_one_motion_in_one_window(found):
     omega = 2 * np.pi * row["frequency_Hz"]
     system = replace(found.machine, omega1=omega, omega2=omega).dimensionless()
     runs, spans = [], (0, waited * system.period, (waited + watched) * system.period)
-    states = vi.starts(one_machine.AGAIN, 2)
+    states = vi.starts(one_machine.MORE_STARTS, 2)
     states[:, [2, 3, 6, 7]] = 0.0
     for state in states:
         times = np.linspace(0, spans[2], 200 * (waited + watched) + 1)

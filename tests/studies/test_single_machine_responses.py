@@ -96,8 +96,8 @@ def test_an_undamped_branch_ends_where_the_ball_has_no_speed_in_phase_with_the_f
     assert abs(end.amplitudes[0]) < 1e-9
 
 
-def test_a_path_on_which_the_other_module_takes_part_says_so():
-    with pytest.warns(UserWarning, match=r"fixed point at f20_hat = 0 not followed: both modules take part"):
+def test_a_path_on_which_the_other_module_is_active_says_so():
+    with pytest.warns(UserWarning, match=r"fixed point at f20_hat = 0 not followed: both modules are active"):
         found = vi.branches(MACHINE, "f20_hat", (0.0, 1.2), of="theory", seeds=2)
     assert all(np.isfinite(node.amplitudes).all() for branch in found for node in branch.nodes)
     assert found
@@ -125,7 +125,7 @@ def test_branches_of_orbits_break_their_symmetry_where_the_module_in_company_doe
 def test_the_response_of_one_module_is_not_followed_where_both_take_part(family):
     root = family.roots(SECOND)[-1]
     assert np.abs(family.equations(SECOND, root)[0]).max() < 1e-9
-    with pytest.raises(Lost, match="both modules take part"):
+    with pytest.raises(Lost, match="both modules are active"):
         family.equations(company(SECOND), root)
     assert all(np.abs(family.equations(SECOND, image)[0]).max() < 1e-9 for image in family.images(SECOND, root))
 

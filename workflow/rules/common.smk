@@ -314,12 +314,12 @@ def results_of_a_commit(wildcards):
 
 
 # All rules defined up to here belong to another workflow, which includes this workflow as a module.
-OTHERS = {rule.name for rule in workflow.rules}
+OUTER_RULES = {rule.name for rule in workflow.rules}
 
 
 def existing_outputs():
     """Return the outputs of all rules of this workflow; for outputs with wildcards, only the existing files."""
-    patterns = [output for rule in workflow.rules if rule.name not in OTHERS for output in rule.output]
+    patterns = [output for rule in workflow.rules if rule.name not in OUTER_RULES for output in rule.output]
     found = [path for pattern in patterns if "{" in pattern for path, _ in listfiles(pattern) if PARTIAL not in path]
     return [pattern for pattern in patterns if "{" not in pattern] + found
 

@@ -14,7 +14,7 @@ from ipykernel.inprocess import InProcessKernelManager
 from nbformat.v4 import output_from_msg
 from papermill.engines import Engine, papermill_engines
 
-SHOWN = "stream", "display_data", "execute_result", "error"
+OUTPUT_MESSAGES = "stream", "display_data", "execute_result", "error"
 """Types of kernel messages that are outputs of a cell."""
 
 
@@ -34,7 +34,7 @@ class InProcess(Engine):
             client.execute(cell.source)
             cell.execution_count = kernel.kernel.execution_count - 1
             messages = client.iopub_channel.get_msgs()
-            cell.outputs = [output_from_msg(message) for message in messages if message["msg_type"] in SHOWN]
+            cell.outputs = [output_from_msg(message) for message in messages if message["msg_type"] in OUTPUT_MESSAGES]
             if client.get_shell_msg()["content"]["status"] == "error":
                 manager.cell_exception(cell, index)
                 return

@@ -17,7 +17,7 @@ from vibroimpact.exact.orbits.floquet import by_multipliers, multipliers
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, whole
 from vibroimpact.system.representation import Representation, brief
-from vibroimpact.system.state import BALLS, IMPACT, MODULES, idle_at_rest, takes_part
+from vibroimpact.system.state import BALLS, IMPACT, MODULES, active_mask, inactive_at_rest
 from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 
 SAME = 1e-6
@@ -64,8 +64,8 @@ class PeriodicOrbit(Representation):
 
     @cached_property
     def multipliers(self) -> np.ndarray:
-        """Complex Floquet multipliers over the period in descending modulus, (8,), or (4,) if one module is driven."""
-        part = takes_part(self.system)
+        """Complex Floquet multipliers over the period in descending modulus, (8,), or (4,) if one module is active."""
+        part = active_mask(self.system)
         return multipliers(self.run.jacobian[part][:, part])
 
     @property
@@ -113,9 +113,9 @@ class PeriodicOrbit(Representation):
 
     @cached_property
     def amplitudes(self) -> np.ndarray:
-        """Largest displacement |X_i| of each box, (2,); NaN for a module that is not driven (`System.modules`)."""
+        """Largest displacement |X_i| of each box, (2,); NaN for an inactive module (`System.modules`)."""
         largest = ensemble(self.system, self.state, self.periods)["largest"]
-        return np.where(takes_part(self.system)[[0, 2]], largest, np.nan)
+        return np.where(active_mask(self.system)[[0, 2]], largest, np.nan)
 
     @property
     def _impacts(self):
@@ -150,7 +150,7 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
     system : System
         Dimensionless parameters.
     state : array_like
-        State at tau = 0, (8,), usually the end of a settled run. A module that is not driven (`System.modules`) is put
+        State at tau = 0, (8,), usually the end of a settled run. An inactive module (`System.modules`) is put
         at rest.
     periods : int, default 1
         Smallest number of forcing periods after which the motion repeats.
@@ -193,7 +193,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
     ArithmeticError
         If a run could not be finished.
     """
-    run = simulate(system, idle_at_rest(system, state), periods)
+    run = simulate(system, inactive_at_rest(system, state), periods)
     begin = _between_events(run)
     run = start = _with_free_balls_at_rest(system, _state_at(run, begin), periods, begin)
     for _ in range(_STEPS):
@@ -214,14 +214,14 @@ def refined(system, state, periods) -> PeriodicOrbit:
 
 
 def determined(run):
-    """Return a mask (8,) of the coordinates of driven modules (`System.modules`), without those of neutral balls.
+    """Return a mask (8,) of the coordinates of active modules (`System.modules`), without those of neutral balls.
 
     A neutral ball hits no wall, or its mass is immense; its position is a free parameter of the motion.
     """
     changes = np.abs(run.jacobian - np.eye(8))
     turned = changes[[5, 7]].max(axis=1) > _NEUTRAL * max(1.0, changes.max())
     balls = np.isin(np.arange(8), BALLS)
-    return takes_part(run.system) & (~balls | turned[MODULES - 1])
+    return active_mask(run.system) & (~balls | turned[MODULES - 1])
 
 
 def _nearer(run, step):

@@ -24,7 +24,7 @@ from vibroimpact.system import PhysicalSystem
 from vibroimpact.system.arguments import instance, pair, reals
 from vibroimpact.system.extras import need
 from vibroimpact.system.progress import track
-from vibroimpact.system.state import IMPACT, RELEASE, STICK, idle_at_rest
+from vibroimpact.system.state import IMPACT, RELEASE, STICK, inactive_at_rest
 
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.5, 0.8)
 """Default candidates for the restitution coefficient; steel on steel with damping has about 0.6."""
@@ -37,13 +37,13 @@ FEW = 3
 """Number of best candidates that are measured again."""
 PER_WIDTH, LEAST, MOST = 6, 41, 801
 """Frequencies per half-power width of the resonance without ball; smallest and largest number of them in a band."""
-TRIED, AGAIN = 3, 6
+FEW_STARTS, MORE_STARTS = 3, 6
 """Number of initial states for each candidate (at every other frequency), and for each of the best few."""
 SETTLED, LONGEST = 5, 2000
 """Length of the transient in time constants of the machine, and its upper limit in forcing periods."""
 SHORT, LONG = 100, 600
 """Forcing periods of the window for each candidate; shortest transient for the best few (it may be chaotic)."""
-WATCHED = 300
+WINDOW = 300
 """Forcing periods of the window for each of the best few."""
 NEAR, FRAGILE = 0.02, 1.1
 """Relative change of clearance to a neighbour; a design is fragile if a neighbour's peak is FRAGILE times as high."""
@@ -56,7 +56,7 @@ CURVES = {
     "absorber_m": ("best linear absorber", {"color": "black", "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9}),
 }
 """Lines of the plot of a design: columns of its response, with labels and styles."""
-OFF = (0.8, 1.2)
+SENSITIVITY_FACTORS = (0.8, 1.2)
 """Clearances of the sensitivity analysis, relative to that of the design."""
 
 
@@ -145,7 +145,7 @@ class Design:
             f"{worst['impulse_Ns']:.3g} N s each, {worst['impulse_Ns_per_s']:.3g} N s per second, at rest on a wall "
             f"for {worst['sticking']:.0%} of the time",
             f"hardest impacts {hardest['impact_speed_m_s']:.3g} m/s (mean at {hardest['frequency_Hz']:.4g} Hz)",
-            f"Settled: in {watched} periods of the force after {waited}, the largest of {AGAIN} starts.",
+            f"Settled: in {watched} periods of the force after {waited}, the largest of {MORE_STARTS} starts.",
             *self._warnings(),
             "The walls are rigid, so an impact has an impulse but no finite force.",
         ])  # fmt: skip
@@ -316,10 +316,10 @@ def _designed(study, clearances, restitutions, progress) -> Design:
         fixed=study.linear(fixed_balls),
         absorber=study.machine.L * absorber.peak(study.band),
         absorber_stroke=study.machine.L * absorber.stroke(study.band),
-        off=tuple(study.measured(measured.machine, factor).peak for factor in OFF),
+        off=tuple(study.measured(measured.machine, factor).peak for factor in SENSITIVITY_FACTORS),
         natural=study.hertz,
         static=study.static,
-        window=(study.wait, WATCHED),
+        window=(study.wait, WINDOW),
         candidates=rows,
         response=study.response(measured, absorber),
     )
@@ -392,7 +392,7 @@ class _Study:
 
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
         """Return a row per pair of clearance and restitution, with the peak from a few initial states."""
-        rows, states = [], self._starts(TRIED, 1)
+        rows, states = [], self._starts(FEW_STARTS, 1)
         for L, kappa in track(pairs, "design: tried", progress):
             systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]
             runs = finished(ensemble(np.array(systems)[:, None], states, self.settle + SHORT, settle=self.settle))
@@ -407,8 +407,8 @@ class _Study:
         machine = replace(machine, L=factor * machine.L)
         systems = self._systems(machine)
         each = np.array(systems)[:, None]
-        before = finished(ensemble(each, self._starts(AGAIN, 2), self.wait))
-        settled = finished(ensemble(each, before["final"], WATCHED))
+        before = finished(ensemble(each, self._starts(MORE_STARTS, 2), self.wait))
+        settled = finished(ensemble(each, before["final"], WINDOW))
         largest, settling = (machine.L * runs["largest"][..., 0] for runs in (settled, before))
         return _Measured(machine, systems, largest, settling[:, 0], before["final"], settled["final"])
 
@@ -423,13 +423,13 @@ class _Study:
         for k, start in enumerate(worst):
             row = {"frequency_Hz": self.frequencies[k], "without_m": without[k], "with_m": measured.largest[k, start]}
             row |= {"settling_m": measured.settling[k], "absorber_m": with_absorber[k]}
-            run = simulate(measured.systems[k], measured.states[k, start], WATCHED)
+            run = simulate(measured.systems[k], measured.states[k, start], WINDOW)
             row |= _impacts(measured.machine, run) | {"later_m": measured.machine.L * later["largest"][k, 0]}
             rows.append({name: float(value) for name, value in row.items()})
         return rows
 
     def _starts(self, count, seed):
-        return idle_at_rest(self.system, spread_starts(count, seed))
+        return inactive_at_rest(self.system, spread_starts(count, seed))
 
     def _systems(self, machine):
         omegas = (2 * math.pi * self.frequencies).tolist()

@@ -139,7 +139,7 @@ class System:
         coupled = self.alpha12_hat != 0 or self.gamma12_hat != 0
         return (1, 2) if coupled and forced else tuple(forced)
 
-    def with_idle_damped(self) -> "System":
+    def with_inactive_damped(self) -> "System":
         """Return the system with nonzero damping of the box in an inactive module.
 
         This box stays at rest; the damping removes its resonance, so that its equations have a unique solution.

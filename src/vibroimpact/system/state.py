@@ -79,7 +79,7 @@ def _labels(values):
     return None if numbered and not of_rows else [*labels]  # reject states in columns too
 
 
-def takes_part(system) -> np.ndarray:
+def active_mask(system) -> np.ndarray:
     """Return a mask (8,) of the components of the state that belong to an active module (see `System.modules`).
 
     If no module is active, both modules decay freely, and all entries are True.
@@ -87,6 +87,6 @@ def takes_part(system) -> np.ndarray:
     return np.isin(MODULES, system.modules or (1, 2))
 
 
-def idle_at_rest(system, states) -> np.ndarray:
+def inactive_at_rest(system, states) -> np.ndarray:
     """Return states (..., 8) with the components of an inactive module set to 0."""
-    return np.where(takes_part(system), states, 0.0)
+    return np.where(active_mask(system), states, 0.0)

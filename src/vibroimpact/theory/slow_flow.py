@@ -66,9 +66,9 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     psi, C
         Phases [rad] and saw-tooth amplitudes, each shape (2,).
     """
-    psi, C = (np.where(_taking_part(system)[::2], of, 0.0) for of in (psi, C))
+    psi, C = (np.where(_active(system)[::2], of, 0.0) for of in (psi, C))
     rest = np.column_stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C)).ravel()
-    return rest[_taking_part(system)], linearisation(system, psi, C)[0]
+    return rest[_active(system)], linearisation(system, psi, C)[0]
 
 
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
@@ -84,7 +84,7 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
         no effect.
     """
     r = rho(system.kappa)
-    psi, C = (np.where(_taking_part(system)[::2], of, 0.0) for of in (psi, C))
+    psi, C = (np.where(_active(system)[::2], of, 0.0) for of in (psi, C))
     B, B_C = B_of_C(C, r), slope(C, r)
     ball = FIRST_HARMONIC * (C * (1 - C) + 1j * r * C**2) / B
     ball_C = FIRST_HARMONIC * (1 - 2 * C + 2j * r * C) / B - ball * B_C / B
@@ -122,11 +122,11 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
     J[..., 1::2, ::2] -= _ONE * (drive.real * B_x / (2 * B**2))[..., None]
     M = np.zeros(J.shape)
     M[..., ::2, ::2], M[..., 1::2, 1::2] = _ONE * B_x[..., None], _ONE
-    part = _taking_part(system)
+    part = _active(system)
     return J[..., part, :][..., part], M[..., part, :][..., part]
 
 
-def _taking_part(system):
+def _active(system):
     """Return a mask (4,) of the slow variables that belong to an active module (see `System.modules`).
 
     If no module is active, the mask includes both modules, whose motions die out.

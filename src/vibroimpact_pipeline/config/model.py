@@ -146,7 +146,7 @@ class Config(Section):
 
     def conditions(self):
         yield from self.taken_names()
-        yield from self.unsound()
+        yield from self.parameter_errors()
 
     def named_rules(self) -> Iterator[Place]:
         """Yield the key path of each entry from which a rule of the same name is made."""
@@ -162,27 +162,27 @@ class Config(Section):
                 what = f"name already used by a rule or another figure, or begins with one of {', '.join(PREFIXES)}"
                 yield place, what
 
-    def unsound(self):
+    def parameter_errors(self):
         """Yield errors for parameters that System rejects: of cases or, if all cases are valid, of sweeps and paths."""
         systems, found = {}, False
         for name, case in self.cases.items():
             overrides = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)
             systems[name] = dict(self.system) | overrides
-            for place, what in _amiss(systems[name]):
+            for place, what in rejected(systems[name]):
                 found = True
                 yield ("system", *place) if {*place} - overrides.keys() else ("cases", name, *place), what
-        for place, case, moved in () if found else self.moves():
+        for place, case, moved in () if found else self.varied_parameters():
             at = ", ".join(f"{name} = {value:g}" for name, value in moved.items())
             for one in [case] if case else systems:
-                for key, what in _amiss(systems[one] | moved):
+                for key, what in rejected(systems[one] | moved):
                     yield place, f"at {at}: {': '.join([*key, what])}"
 
-    def moves(self) -> Iterable[tuple[Place, str | None, dict[str, float]]]:
+    def varied_parameters(self) -> Iterable[tuple[Place, str | None, dict[str, float]]]:
         """Return varied parameters to check, as tuples (key path of the entry, case or None for all, parameters)."""
         return ()
 
 
-def _amiss(parameters):
+def rejected(parameters):
     """Return why System rejects parameters, as pairs (key path, message); an empty list if they are valid."""
     try:
         Parameters.model_validate(parameters)

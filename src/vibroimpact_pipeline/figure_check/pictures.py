@@ -53,7 +53,7 @@ def is_blank(path) -> bool:
 
 def sums(files: dict[str, Path]) -> dict[str, str]:
     """Return the SHA-256 of the content of each file, without metadata and compression, by kind."""
-    return {kind: hashlib.sha256(SHOWN[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
+    return {kind: hashlib.sha256(COMPARED_CONTENT[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
 
 
 def _png(content):
@@ -87,4 +87,4 @@ def _rounded(content):
     return re.sub(rb"\d+\.\d{4,}", lambda found: b"%.*f" % (DECIMALS, float(found[0])), content)
 
 
-SHOWN = {"png": _png, "pdf": _pdf, "svg": _svg}
+COMPARED_CONTENT = {"png": _png, "pdf": _pdf, "svg": _svg}

@@ -11,7 +11,7 @@ KINDS = {}
 for path in (Path(__file__).with_name("tolerances.yaml"), Path(__file__).parents[1] / "studies/tolerances.yaml"):
     if path.is_file():  # the studies may be missing
         KINDS |= yaml.safe_load(path.read_text(encoding="utf-8"))
-OTHERS = "others"
+OTHER_SERIES = "others"
 """Key in `compared` for all series that the SPEC does not name."""
 MAX_DISTANCE = 999.0
 """Distance for changes that no limit allows, such as a value that becomes infinite or a class that vanishes."""
@@ -104,7 +104,7 @@ def _kind(columns, name, series):
     kinds = columns.get(name, {}).get("compared")
     if not isinstance(kinds, dict):
         return kinds
-    return next((kinds[word] for word in series if word in kinds), kinds.get(OTHERS))
+    return next((kinds[word] for word in series if word in kinds), kinds.get(OTHER_SERIES))
 
 
 def _words(table):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from attacks import PROMISED, ensembles, unlike_single_runs
+from attacks import MAX_ERROR_RATIO, ensembles, unlike_single_runs
 from hard_starts import example
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.exact.engine.event_loop import integrate
@@ -58,7 +58,7 @@ def test_the_order_is_enough_for_velocities(chapter):
         0.22513947365076552, -0.39396496754177773, -0.9908861139895444, -1.5751163005554978,
         0.3667377292729382, 0.05322632141505045, 0.13081064865789185, -0.12626233154957594,
     ]  # fmt: skip
-    assert error_ratio(system, start, 10) < PROMISED
+    assert error_ratio(system, start, 10) < MAX_ERROR_RATIO
 
 
 def test_roundings_that_repeat_in_every_step_do_not_add_up(chapter):
@@ -72,7 +72,7 @@ def test_roundings_that_repeat_in_every_step_do_not_add_up(chapter):
         0.32495989355551574, 0.8211185444534765, 0.34380572189191405, -0.2701199930059267,
         0.16950600282073186, -0.19608391814989234, -0.254105187216902, -0.05387950388101945,
     ]  # fmt: skip
-    assert error_ratio(system, start, 9) < PROMISED
+    assert error_ratio(system, start, 9) < MAX_ERROR_RATIO
 
 
 def test_roundings_of_a_slow_ball_that_repeat_in_every_flight_do_not_add_up(chapter):
@@ -82,7 +82,7 @@ def test_roundings_of_a_slow_ball_that_repeat_in_every_flight_do_not_add_up(chap
         sigma20_hat=1.0, sigma_e_hat=5.0,
     )  # fmt: skip
     start = [0.0, 0.0, 0.0, -1.0 + 1e-12, 0.717, 0.01, 0.0, 1e-7]
-    assert error_ratio(system, start, 8) < PROMISED
+    assert error_ratio(system, start, 8) < MAX_ERROR_RATIO
 
 
 def error_ratio(system, start, cycles):

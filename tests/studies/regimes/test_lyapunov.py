@@ -71,7 +71,7 @@ def watched(chapter):
     system = chapter(0.5, 0.5)
     state = vi.simulate(system, [0, 0, 0, 0, 0, 0.5, 0, 0.4], 300).final
     with pytest.MonkeyPatch.context() as patch:  # a run of many cycles rounds differently, and soon is another motion
-        patch.setattr(lyapunov, "AT_ONCE", 1)
+        patch.setattr(lyapunov, "CYCLES_PER_RUN", 1)
         found, runs = vi.lyapunov_spectrum(system, state, 600, 0, 0), []
     for _ in range(600):
         runs.append(vi.simulate(system, state, 1))
@@ -109,7 +109,7 @@ def test_it_does_not_matter_how_many_cycles_are_simulated_at_a_time(chapter, mon
     """On a stretch of 30 cycles: flights are cut where cycles end, also one with a ball that sticks."""
     system, found = chapter(0.5, 0.5), []
     for at_once in (1, 7, 1000):
-        monkeypatch.setattr(lyapunov, "AT_ONCE", at_once)
+        monkeypatch.setattr(lyapunov, "CYCLES_PER_RUN", at_once)
         found.append(vi.lyapunov_spectrum(system, BEFORE, 30, 0, 0))
     for other in found[1:]:
         assert (other.stuck == found[0].stuck).all()
@@ -146,7 +146,7 @@ def test_both_balls_stuck_at_once_leave_four_dimensions(chapter):
 
 def test_a_run_that_meets_a_double_stick_measures_the_dimension_of_one_that_does_not(chapter, monkeypatch):
     """Against the same motion from the cycle behind it on, whose frame has not met it."""
-    monkeypatch.setattr(lyapunov, "AT_ONCE", 1)
+    monkeypatch.setattr(lyapunov, "CYCLES_PER_RUN", 1)
     system, cycles = chapter(0.5, 0.5), 800
     found = vi.lyapunov_spectrum(system, BEFORE, cycles, 0, 0)
     assert found.double_sticks == 1
@@ -168,7 +168,7 @@ def test_a_run_that_meets_a_double_stick_measures_the_dimension_of_one_that_does
 def test_a_table_of_spectra_does_not_jump_at_a_double_stick_but_counts_it(chapter):
     system, cycles = chapter(0.5, 0.5), 500
     behind = vi.simulate(system, BEFORE, DOUBLE + 1).final
-    found = [spectra.watch(system, [state], cycles, 1) for state in (BEFORE, behind)]
+    found = [spectra.spectra_of(system, [state], cycles, 1) for state in (BEFORE, behind)]
     with_one, without = ({row["quantity"]: row for row in spectra.rows({}, part)} for part in found)
     for rows, met in ((with_one, 1), (without, 0)):
         assert rows[spectra.DOUBLE]["mean"] == pytest.approx(1e6 * met / cycles)

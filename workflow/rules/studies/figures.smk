@@ -77,10 +77,10 @@ for name, shown in config["report"]["animations"].items():
         "folder": "animations",
     }
 
-MADE = {figure: found for figure, takes in COMPANIONS.items() if (found := companion(figure, **takes))}
-MOVING = [figure for figure in MADE if COMPANIONS[figure].get("folder")]
+STUDY_FIGURES = {figure: found for figure, takes in COMPANIONS.items() if (found := companion(figure, **takes))}
+PAGE_FIGURES = [figure for figure in STUDY_FIGURES if COMPANIONS[figure].get("folder")]
 
-for figure, found in MADE.items():
+for figure, found in STUDY_FIGURES.items():
 
     rule:
         name:
@@ -99,7 +99,7 @@ for figure, found in MADE.items():
             "../../scripts/figure.py"
 
 
-STUDY_DRAWINGS = [figure for figure in MADE if figure not in MOVING]
+STUDY_DRAWINGS = [figure for figure in STUDY_FIGURES if figure not in PAGE_FIGURES]
 ALL_FIGURES += STUDY_DRAWINGS
 
 

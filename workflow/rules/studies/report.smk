@@ -8,7 +8,7 @@ rule report:
         rules.stability.input,
         rules.accuracy.input,
         rules.claims.output,
-        [getattr(rules, figure).output for figure in MOVING],
+        [getattr(rules, figure).output for figure in PAGE_FIGURES],
     output:
         site=directory("results/report"),
     params:

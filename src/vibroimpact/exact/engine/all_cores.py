@@ -8,7 +8,7 @@ from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-ALLOWED = ContextVar("allowed", default=sys.maxsize)
+THREAD_LIMIT = ContextVar("allowed", default=sys.maxsize)
 WORKER = threading.local()
 
 
@@ -24,15 +24,15 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
     """
     if min(cores(), len(pieces)) <= 1 and not progress:  # a pool would cost at least 0.1 ms and save nothing
         return [work(*piece) for piece in pieces]
-    given_up = threading.Event()
-    with ThreadPoolExecutor(cores(), initializer=setattr, initargs=(WORKER, "given_up", given_up)) as pool:
+    cancelled = threading.Event()
+    with ThreadPoolExecutor(cores(), initializer=setattr, initargs=(WORKER, "cancelled", cancelled)) as pool:
         todo = {pool.submit(work, *piece): count for piece, count in zip(pieces, runs, strict=True)}
         try:
             if progress:
                 _report(todo)
             return [one.result() for one in todo]
         except BaseException:
-            given_up.set()
+            cancelled.set()
             pool.shutdown(cancel_futures=True)
             raise
 
@@ -42,24 +42,24 @@ def stop_if_given_up():
 
     Work that takes long calls this function from time to time.
     """
-    if (given_up := getattr(WORKER, "given_up", None)) and given_up.is_set():
+    if (cancelled := getattr(WORKER, "cancelled", None)) and cancelled.is_set():
         raise CancelledError
 
 
 def cores() -> int:
     """Return the number of available cores, which a cluster, the user or `at_most` may limit."""
     there = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return min(there, ALLOWED.get())
+    return min(there, THREAD_LIMIT.get())
 
 
 @contextmanager
 def at_most(threads: int) -> Iterator[None]:
     """Limit parallel work to `threads` threads within a `with` block."""
-    token = ALLOWED.set(threads)
+    token = THREAD_LIMIT.set(threads)
     try:
         yield
     finally:
-        ALLOWED.reset(token)
+        THREAD_LIMIT.reset(token)
 
 
 def _report(todo):

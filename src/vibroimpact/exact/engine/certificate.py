@@ -21,10 +21,10 @@ from vibroimpact.exact.engine.variation import (
     FORCING,
     LENGTH,
     WALLS,
+    fill_end,
     fill_event,
     fill_flight,
     fill_rate,
-    land,
     start_of,
 )  # fmt: skip
 from vibroimpact.system.representation import Representation, brief
@@ -68,7 +68,7 @@ def errors_of(flow, flights, events, limit):
             _fly(flow, part, errors, matrix, product)
             estimates[n, 1] = UNIT * _root(errors)
         if n < len(events):
-            _pass(q, flights, events, n, errors, matrix, product)
+            _pass_event(q, flights, events, n, errors, matrix, product)
         else:
             _end(q, flights[n], 0.0, errors, product[0])
         root = _root(errors)
@@ -97,7 +97,7 @@ def errors_at(flow, flights, events, times, limit):
             _copy(errors.repeated.flat, there.repeated.flat)
             part[LENGTH] = min(max(times[k] - start, 0.0), flights[n, LENGTH])
             _fly(flow, part, there, matrix, product)
-            land(flow, part)
+            fill_end(flow, part)
             _end(q, part, times[k], there, product[0])
             if _root(there) <= largest:
                 estimates[k] = UNIT * _root(there)
@@ -106,7 +106,7 @@ def errors_at(flow, flights, events, times, limit):
             break
         _copy(flights[n], part)
         _fly(flow, part, errors, matrix, product)
-        _pass(q, flights, events, n, errors, matrix, product)
+        _pass_event(q, flights, events, n, errors, matrix, product)
         if not _root(errors) <= largest:
             break
         start += flights[n, LENGTH]
@@ -133,21 +133,21 @@ def _fly(flow, flight, errors, matrix, product):
         if flight[LENGTH] > 0.5 * flow.spacing:  # the first entry is the identity, without rounding
             _add_table(flow.coefficients, flight[BEFORE:AFTER], errors.repeated)
         fill_flight(flow, flight, matrix)
-        _carry(matrix, errors, product)
+        _propagate(matrix, errors, product)
         left -= flight[LENGTH]
         if left > 0.0:
-            land(flow, flight)
+            fill_end(flow, flight)
             _add_rounding(flow.coefficients, errors, flight[:AFTER], flight[AFTER:], (False, False))
             _copy(flight[AFTER:], flight[BEFORE:AFTER])
             flight[FORCING], _ = advance_phase(flight[FORCING], 0.0, flow.coefficients.omega, flight[LENGTH])
 
 
 @inlined
-def _pass(q, flights, events, n, errors, matrix, product):
+def _pass_event(q, flights, events, n, errors, matrix, product):
     """Propagate errors over event n, and add the rounding errors of the event."""
     _add_miss(errors.independent, flights[n], events[n])
     fill_event(q, flights, events, n, matrix)
-    _carry(matrix, errors, product)
+    _propagate(matrix, errors, product)
     i, reached = int(events[n, 1]) - 1, flights[n + 1, BEFORE:AFTER]
     if events[n, 3] == IMPACT:
         follows = (6 if q.epsilon <= 1.0 else 2) + i
@@ -158,12 +158,12 @@ def _pass(q, flights, events, n, errors, matrix, product):
 @inlined
 def _end(q, flight, elapsed, errors, rate):
     """At the end of a run or at a sample, add the effects of rounding the time and the state to errors."""
-    _add_lateness(q, errors.independent, flight, elapsed, rate)
+    _add_time_error(q, errors.independent, flight, elapsed, rate)
     _add_rounding(q, errors, flight[:AFTER], flight[AFTER:], (False, False))
 
 
 @inlined
-def _carry(matrix, errors, product):
+def _propagate(matrix, errors, product):
     """Propagate errors by a matrix M: replace the covariance C by M C M^T, and the sums S by M S."""
     covariance, sums = errors.independent, errors.repeated
     _multiply(matrix, covariance, product)
@@ -220,7 +220,7 @@ def _add_miss(covariance, flight, event):
 
 
 @inlined
-def _add_lateness(q, covariance, flight, elapsed, rate):
+def _add_time_error(q, covariance, flight, elapsed, rate):
     """Add the effect of a rounding error in the time to the covariance at the end of a flight.
 
     The time of the end of a run is a difference of phases. A sample time is a difference of elapsed times, whose
@@ -340,7 +340,7 @@ class Certificate(Representation):
         margins = margins_of(q, flights, turns, hits, rows, phase, duration)
         return cls(
             flights=int(counters[contact.FLIGHTS]),
-            exclusions=int(counters[contact.EVALUATIONS]),
+            exclusions=int(counters[contact.EXCLUSIONS]),
             chatters=int(counters[contact.CHATTERS]),
             neglected=float(counters[contact.NEGLECTED]),
             wall_residual=float(counters[contact.RESIDUAL]),

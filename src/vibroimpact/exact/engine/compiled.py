@@ -33,7 +33,7 @@ from numba.core import event
 SIMULATION = "the simulation, some 15 s"
 ON_DEMAND = "certificates, energies and Jacobians of runs, some 10 s"
 ENSEMBLE = "the simulation of ensembles, some 25 s"
-COMPILED_SEPARATELY = {"engine.flow_tables": SIMULATION, "engine.event_loop": SIMULATION, "lanes": ENSEMBLE}
+COMPILATION_NOTICES = {"engine.flow_tables": SIMULATION, "engine.event_loop": SIMULATION, "lanes": ENSEMBLE}
 """Message for each group of code that is compiled separately, by the package or module that starts the compilation."""
 
 
@@ -50,7 +50,7 @@ class _Notice(event.Listener):
     def on_start(self, compilation):
         module = compilation.data["dispatcher"].py_func.__module__ or ""
         _, exact, name = module.partition("vibroimpact.exact.")
-        what = next((what for start, what in COMPILED_SEPARATELY.items() if name.startswith(start)), ON_DEMAND)
+        what = next((what for start, what in COMPILATION_NOTICES.items() if name.startswith(start)), ON_DEMAND)
         if not self.within and exact and what not in self.said:
             self.said.add(what)
             say(f"compiling {what}, once{self.hint}")

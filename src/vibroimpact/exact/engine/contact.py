@@ -25,7 +25,7 @@ from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses,
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 NEGLIGIBLE = 1e-18  # largest change of the state that completing a chatter may neglect
-LOW = 1e-12  # largest height of a hop, relative to the ball's play, at which a chatter may be completed
+HIGHEST_HOP = 1e-12  # largest height of a hop, relative to the ball's play, at which a chatter may be completed
 
 
 class Motion(NamedTuple):
@@ -96,7 +96,7 @@ def free_flight(flow, motion, t):
     return Motion(boxes, drift_balls(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
 
 
-EVENTS, FLIGHTS, EVALUATIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
+EVENTS, FLIGHTS, EXCLUSIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
 """Indices of a run's counters, and the number of counters. RESIDUAL: largest ||W| - 1| at an impact. NEGLECTED: sum of
 the changes of the state that completing chatters neglected. The others are counts."""
 
@@ -177,7 +177,7 @@ def box_accelerations(q, walls, boxes, sine):
 
 
 @inlined
-def _hold(q, jets, boxes, i, wall, sticking):
+def _contact_push(q, jets, boxes, i, wall, sticking):
     """Return a number > 0 if ball i, at rest on a wall, is pushed by the wall, and < 0 if the wall would have to pull.
 
     The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. The
@@ -224,7 +224,7 @@ def _end_of_chatter(flow, motion, i, counters):
     neglected = q.epsilon * (q.k11 + q.k22) * u**3 / (a * a * (1.0 - q.kappa**3))
     height = u * u / (2.0 * a)
     unresolved = height <= gap_rounding(q, boxes, balls, i)
-    if (neglected > NEGLIGIBLE or height > LOW) and not unresolved:
+    if (neglected > NEGLIGIBLE or height > HIGHEST_HOP) and not unresolved:
         return False, 0.0
     total = 2.0 * u / (a * (1.0 - q.kappa))
     window = 2.0 * total
@@ -274,18 +274,18 @@ def resolve(flow, motion, moment, log):
     chatters = (False, False)
     for i in range(2):
         if motion.walls[i] == 0:
-            motion, ends = _meet(flow, motion, i, moment, log)
+            motion, ends = _apply_impact(flow, motion, i, moment, log)
             chatters = pair(chatters, i, ends)
     for i in range(2):
         if motion.walls[i] != 0 or (motion.touching[i] != 0 and motion.boxes[2 + i] == motion.balls[2 + i]):
-            motion = _rest(flow.coefficients, motion, i, i == pulled, elapsed, log)
+            motion = _stick_or_release(flow.coefficients, motion, i, i == pulled, elapsed, log)
     if chatters[0] or chatters[1]:
         motion = _complete_both(flow, motion, chatters, elapsed, log)
     return motion
 
 
 @inlined_source
-def _meet(flow, motion, i, moment, log):
+def _apply_impact(flow, motion, i, moment, log):
     """Apply the impact of a flying ball i that has reached a wall, if any.
 
     Returns (motion, True if a chatter that begins with this impact would end soon).
@@ -314,7 +314,7 @@ def _meet(flow, motion, i, moment, log):
 
 
 @inlined
-def _rest(q, motion, i, pulled, elapsed, log):
+def _stick_or_release(q, motion, i, pulled, elapsed, log):
     """Return the motion after deciding whether ball i, at rest on a wall, sticks to it, stays stuck or is released."""
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
     # Use the acceleration of box and ball together in both cases. The box alone accelerates 1 + epsilon times as much;
@@ -323,10 +323,10 @@ def _rest(q, motion, i, pulled, elapsed, log):
     jets = jet(q, together, boxes, motion.sine, motion.cosine)
     if wall != 0:
         falling = pulled and wall * (jets[0] if i == 0 else jets[1])[3] < 0.0
-        if falling or _hold(q, jets, boxes, i, wall, True) < 0.0:
+        if falling or _contact_push(q, jets, boxes, i, wall, True) < 0.0:
             record(log, elapsed, i, wall, RELEASE, boxes, motion.balls, 0.0)
             return with_contacts(motion, i, 0, wall)
-    elif _hold(q, jets, boxes, i, touching, False) > 0.0:
+    elif _contact_push(q, jets, boxes, i, touching, False) > 0.0:
         record(log, elapsed, i, touching, STICK, boxes, motion.balls, 0.0)
         return with_contacts(motion, i, touching, 0)
     return motion
@@ -346,7 +346,7 @@ def _complete_both(flow, motion, chatters, elapsed, log):
             ends = pair(ends, i, end)
     for i in range(2):  # completing a chatter may pull the other ball off its wall
         if motion.walls[i] != 0 and ends[i] < 0.0:
-            motion = _rest(flow.coefficients, motion, i, False, elapsed, log)
+            motion = _stick_or_release(flow.coefficients, motion, i, False, elapsed, log)
     sooner = 0 if ends[0] <= ends[1] else 1
     for i in (sooner, 1 - sooner):
         if ends[i] >= 0.0:

@@ -43,7 +43,7 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 """Gauss's rule with four nodes; over one spacing of the flow table its error is below rounding."""
 
 
-class Squares(NamedTuple):
+class Potentials(NamedTuple):
     """Potentials S (4, k, 6, 6) and drifts c (4, k) for k integrals in each of the 4 contact states.
 
     k = 0 means that Gauss's rule computes the integrals instead.
@@ -53,7 +53,7 @@ class Squares(NamedTuple):
     drifts: np.ndarray
 
 
-NO_POTENTIALS = Squares(np.empty((4, 0, SIZE, SIZE)), np.empty((4, 0)))
+NO_POTENTIALS = Potentials(np.empty((4, 0, SIZE, SIZE)), np.empty((4, 0)))
 
 
 def _kernels():
@@ -68,7 +68,7 @@ POSITIONS = np.stack([np.diag(np.eye(SIZE)[i]) for i in range(2)])
 """Matrices G with z G z = X_1^2 and X_2^2, shape (2, 6, 6)."""
 OBSERVED = np.concatenate([POSITIONS, _kernels()])
 """Matrices G of all quadratic forms to integrate: X_1^2, X_2^2 and the terms of the energy balance, (7, 6, 6)."""
-LOST, STORED, ENTRIES = 7, 9, 10
+LOSSES, STORED, ENTRIES = 7, 9, 10
 """Indices in a row, and its length: 7 integrals, losses in the impacts of both modules, change of stored energy."""
 ENERGY = np.dtype(
     [("work", "f8", (2,)), ("ground", "f8", (2,)), ("coupling", "f8"), ("impacts", "f8", (2,)), ("stored", "f8")]
@@ -121,11 +121,11 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 @lru_cache(maxsize=64)
-def squares_of(system) -> Squares:
+def squares_of(system) -> Potentials:
     """Return the potentials for the forms OBSERVED, or NO_POTENTIALS if differences of potentials lose digits."""
     _, rates = numbers_of([system], 2)
     potentials, drifts, sound = potentials_of(rates[:, 0], OBSERVED)
-    return Squares(potentials[0], drifts[0]) if sound[0] else NO_POTENTIALS
+    return Potentials(potentials[0], drifts[0]) if sound[0] else NO_POTENTIALS
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -228,7 +228,7 @@ def accumulate_energy(flow, flights, events, squares, period, rows):
             if not completes_chatter(events, n):
                 passed = event[0]  # the sum of the lengths would accumulate rounding errors
             kappa = q.kappa if event[3] == IMPACT else 0.0
-            rows[row, LOST + int(event[1]) - 1] += impact_loss(q.epsilon, kappa, event[APPROACH])
+            rows[row, LOSSES + int(event[1]) - 1] += impact_loss(q.epsilon, kappa, event[APPROACH])
     rows[row, STORED] += energy_stored(q.ground, -q.k12, q.epsilon, boxes, balls)
 
 

@@ -20,7 +20,7 @@ import numpy as np
 
 from vibroimpact.exact.engine import contact
 from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
-from vibroimpact.exact.engine.contact import EVALUATIONS, EVENTS, Log, Motion, drift_balls, free_flight, pack
+from vibroimpact.exact.engine.contact import EVENTS, EXCLUSIONS, Log, Motion, drift_balls, free_flight, pack
 from vibroimpact.exact.engine.exclusion import LOOKAHEAD, SHORT, gap, gap_rounding, module_time, nearby_zero, remainder
 from vibroimpact.exact.engine.flow import (
     TWO_PI,
@@ -54,7 +54,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
     while True:
         if t >= reach:
             return t, -1, now.boxes, now.balls
-        counters[EVALUATIONS] += 1
+        counters[EXCLUSIONS] += 1
         jets = jet_at(flow, mode, now.boxes, now.sine, now.cosine, 0)
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
@@ -70,7 +70,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
             return end, due, boxes, drift_balls(motion.balls, motion.walls, boxes, end)
         if not t + safe > t:
             return t, STUCK_IN_TIME, now.boxes, now.balls
-        if counters[EVALUATIONS] > most_proofs:
+        if counters[EXCLUSIONS] > most_proofs:
             return t, OUT_OF_PROOFS, now.boxes, now.balls
         t = min(t + safe, reach)
         now = free_flight(flow, motion, t)
@@ -147,10 +147,10 @@ INTERRUPT_INTERVAL = 200_000  # exclusions between two checks for an interrupt, 
 PATIENCE = 100_000  # successive flights of zero duration before a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """Terms of the limit on the number of exclusions in a run; the unit of time is `Flow.unit`."""
-PIECE = 65536  # rows per array for the events of a long run: 8 MB, for which the operating system uses large pages
-EARLIER, SPAN, CLOCK, PLACES = 19, 20, 23, 24
-"""Indices in the array of a run, (PLACES,). It holds the state in public order, the other fields of `Progress`, the
-number of events in earlier rows (EARLIER), the `Span` and the time on the sample clock at the start (CLOCK)."""
+ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages
+EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
+"""Indices in the array of a run, (RUN_LENGTH,). It holds the state in public order, the other fields of `Progress`, the
+number of events in earlier rows (EARLIER_EVENTS), the `Span` and the time on the sample clock at the start (CLOCK)."""
 
 
 class Progress(NamedTuple):
@@ -201,7 +201,7 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """
     flow, log, interval = unpacked(numbers, series, rotations), Log(rows, counters), np.int64(INTERRUPT_INTERVAL)
     span, sampling = Span(run[SPAN], run[SPAN + 1], int(run[SPAN + 2])), Sampling(run[CLOCK], times, samples)
-    progress, status = run_until(flow, progress_of(run), span, sampling, log, run[EARLIER], interval)
+    progress, status = run_until(flow, progress_of(run), span, sampling, log, run[EARLIER_EVENTS], interval)
     write_progress(progress, run)
     return status
 
@@ -212,7 +212,7 @@ def memory(state, phase, tail, cycles, clock):
     state (8,): initial state in public order. phase, tail: forcing phase in [0, 2 pi) and its remainder. clock: time on
     the clock of the samples at the start.
     """
-    run, room = np.zeros(PLACES), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
+    run, room = np.zeros(RUN_LENGTH), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     run[:8], run[12:15], run[SPAN:] = state, (-1.0, phase, tail), (phase, tail, cycles, clock)
     return run, np.empty((room, contact.ROW)), np.zeros(contact.ENTRIES)
 
@@ -224,7 +224,7 @@ def is_full(rows, counters):
 
 def empty_rows(run, counters):
     """Count the events in the rows as earlier events, so that the run continues in new rows."""
-    run[EARLIER] += counters[EVENTS]
+    run[EARLIER_EVENTS] += counters[EVENTS]
     counters[EVENTS] = 0.0
 
 
@@ -257,11 +257,11 @@ def run_until(flow, progress, span, sampling, log, earlier, interval):
     motion, due, phase, tail, revolutions, elapsed, sampled, stalled = progress
     most_events = MOST_EVENTS + MOST_EVENTS_PER_CYCLE * float(cycles)
     most_proofs = MOST_PROOFS + MOST_PROOFS_PER_UNIT * (cycles * TWO_PI / q.omega / flow.unit)
-    status, pause = FINISHED, log.counters[EVALUATIONS] + interval
+    status, pause = FINISHED, log.counters[EXCLUSIONS] + interval
     while True:
         sine, cosine = sine_and_cosine(phase, tail)
         noted = int(log.counters[EVENTS])
-        if noted + MOST_AT_ONCE > len(log.rows) or log.counters[EVALUATIONS] > pause:
+        if noted + MOST_AT_ONCE > len(log.rows) or log.counters[EXCLUSIONS] > pause:
             return Progress(motion, due, phase, tail, revolutions, elapsed, sampled, stalled), PAUSED
         ahead_of_start = (phase - first) + (tail - first_tail)
         whole = cycles - revolutions

@@ -17,7 +17,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import inlined, inlined_source
 from vibroimpact.exact.engine.flow import half_curvature, jet, mode_of, slope, value
 
-MOMENT = 1e-300  # shortest time that is tried
+SHORTEST_TIME = 1e-300  # shortest time that is tried
 
 
 @inlined
@@ -73,7 +73,7 @@ def safe_time(c, horizon):
         t = min(max(t - value(c, t) / rate, 0.1 * t), horizon) if rate < 0.0 else 0.5 * t
     t *= 1.0 - 1e-9
     while not least(c, t) > 0.0:
-        if not t > MOMENT:
+        if not t > SHORTEST_TIME:
             return 0.0
         t *= 0.7
     while 2.0 * t < horizon and least(c, 2.0 * t) > 0.0:
@@ -152,12 +152,12 @@ def spread(c, remainder, t):
 
 
 RESOLUTION = 4.0 * np.finfo(float).eps
-MET = 2.0  # in units of the margin; a smaller constraint counts as zero, since proofs would need ever smaller steps
-DOUBTED = 2.0 * MET
+ZERO_FACTOR = 2.0  # in units of the margin; a smaller constraint counts as 0, or proofs would need ever smaller steps
+DOUBT_FACTOR = 2.0 * ZERO_FACTOR
 """In units of the margin: below this distance, rounding decides whether a ball hits or misses a wall. If the same
 motion is computed with other steps, as in a lane of an ensemble, the decision may differ."""
 LOOKAHEAD = 2.5
-NOTHING = 1e-300  # margin for a force that stays zero
+ZERO_FORCE_MARGIN = 1e-300  # margin for a force that stays zero
 SHORT = 0.02  # in units of `Flow.unit`; over shorter times a jet is exact to rounding
 
 
@@ -246,18 +246,18 @@ def _safe_time(c, bound, margin, horizon):
     """Return (time over which a constraint certainly holds, True if an event is due at once).
 
     An event is due at once if the constraint is zero within rounding and decreases. If it is zero within rounding but
-    does not decrease, it holds for the `_leaving_time`.
+    does not decrease, it holds for the `_time_from_zero`.
     """
-    if c[0] > MET * margin:
+    if c[0] > ZERO_FACTOR * margin:
         return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
     if c[1] < 0.0:
         return 0.0, True
     rises = c[1] > 0.0 and (c[2] > 0.0 or c[1] * c[1] > -4.0 * c[2] * margin)
-    return _leaving_time(c, bound, margin, horizon, rises), False
+    return _time_from_zero(c, bound, margin, horizon, rises), False
 
 
 @inlined
-def _leaving_time(c, bound, margin, horizon, rises):
+def _time_from_zero(c, bound, margin, horizon, rises):
     """Return a time over which a constraint that is initially zero within rounding certainly holds.
 
     If the constraint rises, its polynomial is divided by t to remove the zero at the start. If it does not rise, or if
@@ -280,11 +280,11 @@ def _hop_time(c, bound, margin, horizon, short):
     """
     if c[1] == 0.0:
         rise = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
-        return max(rise, _leaving_time(c, bound, margin, horizon, False)), False
+        return max(rise, _time_from_zero(c, bound, margin, horizon, False)), False
     t = return_time(c, bound, horizon)
     if t <= short:
         return t, True
-    return _leaving_time(c, bound, margin, horizon, True), False
+    return _time_from_zero(c, bound, margin, horizon, True), False
 
 
 @inlined
@@ -313,7 +313,7 @@ def _sticking_time(q, motion, i, jets, horizon, short):
     """Return `module_time` for a sticking ball; the constraint is that the wall pushes the ball."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
     # the second term matters if the box is still at rest: rounding of the force that may develop up to the horizon
-    margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + NOTHING
+    margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + ZERO_FORCE_MARGIN
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)
         if certain:

@@ -15,7 +15,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.contact import PHASE, Motion, box_accelerations, drift_balls, pair
 from vibroimpact.exact.engine.exclusion import (
-    DOUBTED,
+    DOUBT_FACTOR,
     LOOKAHEAD,
     acceleration_rounding,
     gap_rounding,
@@ -28,8 +28,8 @@ from vibroimpact.exact.engine.variation import FORCING, LENGTH, completes_chatte
 from vibroimpact.system.state import IMPACT, RELEASE
 
 SHORTEST = 1e-9  # in units of `Flow.unit`; in a shorter piece the motion is below rounding
-SHARP = 1e-10  # in units of `Flow.unit`; half the digits of the time suffice, since a gap is stationary at its turn
-UNSEEN = 1e-17  # a smaller uncertainty of a constraint is below rounding
+TURN_TOLERANCE = 1e-10  # in units of `Flow.unit`; half the digits suffice, since a gap is stationary at its turn
+NEGLIGIBLE_DOUBT = 1e-17  # a smaller uncertainty of a constraint is below rounding
 MOST_STEPS = 60
 GAP, FORCE, DOUBTS = 0, 1, 2
 
@@ -39,7 +39,7 @@ def turning_points(flow, flights):
     """For each flight, return the least gap, the least force and the number of doubtful turns, rows (m + 1, 3).
 
     The gap and the contact force (per unit of ball mass) are the least values at the turns in the flight, inf without
-    turns. A turn is doubtful if rounding decides whether the ball misses the wall (DOUBTED).
+    turns. A turn is doubtful if rounding decides whether the ball misses the wall (DOUBT_FACTOR).
     """
     turns = np.empty((len(flights), 3))
     for n in range(len(flights)):
@@ -109,7 +109,7 @@ def _rate(q, jets, boxes, balls, walls, i, bound):
 @inlined
 def _turns_once(rate, doubt, t):
     """Return True if the rate certainly changes sign at most once on [0, t]; doubt: bounds on its error."""
-    if value(doubt, t) * t < UNSEEN:
+    if value(doubt, t) * t < NEGLIGIBLE_DOUBT:
         doubt = (0.0,) * 8
     if _one_sign(rate, doubt, t):
         return True
@@ -158,7 +158,7 @@ def _note(flow, motion, i, times, rates, least_of):
             high = t
         newton = t - rate / bend if bend != 0.0 else low
         before, t = t, (newton if low < newton < high else 0.5 * (low + high))
-        if abs(t - before) <= SHARP * flow.unit:
+        if abs(t - before) <= TURN_TOLERANCE * flow.unit:
             break
     x, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, t)
     if walls[i] != 0:
@@ -171,7 +171,7 @@ def _note(flow, motion, i, times, rates, least_of):
     if relative * early > 0.0:
         gap = 1.0 - abs(relative)
         least_of[GAP] = min(least_of[GAP], gap)
-        least_of[DOUBTS] += gap <= DOUBTED * gap_rounding(q, x, y, i)
+        least_of[DOUBTS] += gap <= DOUBT_FACTOR * gap_rounding(q, x, y, i)
 
 
 DEPTH, DOUBT = 0, 1
@@ -182,8 +182,8 @@ def hits_of(q, flights, events):
     """For each event, return (prevented depth, doubt), rows (m, 2).
 
     Without the impact, a ball at relative speed u and deceleration b would reach the depth u^2 / (2 b) beyond the wall,
-    or inf without deceleration. The doubt is 1 if rounding decides whether the ball hits the wall (DOUBTED), else 0.
-    Events other than impacts have depth inf and doubt 0.
+    or inf without deceleration. The doubt is 1 if rounding decides whether the ball hits the wall, else 0. Events
+    other than impacts have depth inf and doubt 0.
     """
     hits = np.empty((len(events), 2))
     for n in range(len(events)):
@@ -196,7 +196,7 @@ def hits_of(q, flights, events):
         brake = -wall * box_accelerations(q, walls, boxes, math.sin(events[n, PHASE]))[i]
         if brake > 0.0:
             hits[n, DEPTH] = (boxes[2 + i] - balls[2 + i]) ** 2 / (2.0 * brake)
-            hits[n, DOUBT] = hits[n, DEPTH] <= DOUBTED * gap_rounding(q, boxes, balls, i)
+            hits[n, DOUBT] = hits[n, DEPTH] <= DOUBT_FACTOR * gap_rounding(q, boxes, balls, i)
     return hits
 
 

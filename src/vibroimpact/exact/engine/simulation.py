@@ -23,11 +23,11 @@ from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.state import EVENT, KINDS, states_array
 
 NO_TIMES = np.empty(0)
-LATEST = 2.0**43
+LARGEST_TIME = 2.0**43
 """Limit on |tau|: beyond it, floats are more than 1e-3 apart, too coarse for the times of events."""
 MOST_CYCLES = 10_000_000
 """Largest number of cycles in one run. A run stores all its events, which take about a kilobyte per cycle."""
-ROUNDED = 1e-12
+WALL_TOLERANCE = 1e-12
 """Largest accepted distance of a ball beyond a wall in an initial state (plus rounding); the run starts on the wall."""
 
 
@@ -56,7 +56,7 @@ def checked_state(state) -> np.ndarray:
 def _check_walls(*modules):
     for module, box, ball in modules:
         relative = abs(box - ball)
-        if relative > 1.0 + ROUNDED + 2.0 * math.ulp(max(abs(box), abs(ball))):
+        if relative > 1.0 + WALL_TOLERANCE + 2.0 * math.ulp(max(abs(box), abs(ball))):
             raise ValueError(f"state: |X{module} - Y{module}| = {relative} is above 1, the ball is beyond a wall")
 
 
@@ -64,7 +64,7 @@ def within_walls(states) -> np.ndarray:
     """Return a mask (n,) of the initial states (n, 8) that `checked_state` would accept."""
     boxes, balls = states[:, 0:4:2], states[:, 1:4:2]
     with np.errstate(invalid="ignore", over="ignore"):
-        slack = ROUNDED + 2.0 * np.spacing(np.maximum(abs(boxes), abs(balls)))
+        slack = WALL_TOLERANCE + 2.0 * np.spacing(np.maximum(abs(boxes), abs(balls)))
         inside = abs(boxes - balls) <= 1.0 + slack
     return inside.all(axis=1) & np.isfinite(states).all(axis=1)
 
@@ -75,14 +75,14 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
     Raises
     ------
     ValueError
-        If an argument is malformed, or if |tau| reaches LATEST during the run.
+        If an argument is malformed, or if |tau| reaches LARGEST_TIME during the run.
     """
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     begin = _instant(tau0)
     start = float(begin)
     end = start + cycles * system.period
-    if not (abs(start) < LATEST and abs(end) < LATEST):
-        name, tau = ("cycles", end) if abs(start) < LATEST else ("tau0", start)
+    if not (abs(start) < LARGEST_TIME and abs(end) < LARGEST_TIME):
+        name, tau = ("cycles", end) if abs(start) < LARGEST_TIME else ("tau0", start)
         raise ValueError(
             f"{name}: the run reaches tau = {tau}; times must stay below 2**43, where floats are 1e-3 apart "
             "(start whole forcing periods earlier instead)"
@@ -455,7 +455,7 @@ def attempt(system, state, cycles, begin, times, clock):
         if event_loop.is_full(rows, counters):
             pieces.append(rows[: int(counters[contact.EVENTS])])
             event_loop.empty_rows(run, counters)
-            rows = np.empty((event_loop.PIECE, contact.ROW))
+            rows = np.empty((event_loop.ROWS_PER_PIECE, contact.ROW))
         stop_if_given_up()
     pieces.append(rows[: int(counters[contact.EVENTS])])
     return status, Run(system, state, begin, cycles, samples, run[:8].copy(), pieces, counters)

@@ -23,7 +23,7 @@ from vibroimpact.exact.engine.flow import (
     mode_of,
 )  # fmt: skip
 from vibroimpact.exact.engine.flow_tables import ORDERS
-from vibroimpact.system.state import IMPACT, RELEASE, STICK, takes_part
+from vibroimpact.system.state import IMPACT, RELEASE, STICK, active_mask
 
 LENGTH, WALLS, FORCING, BEFORE, AFTER, COLUMNS = 0, 1, 3, 4, 12, 20
 """Indices in the row of a flight: its length; the wall (or 0) to which each ball sticks; the forcing phase and the
@@ -42,7 +42,7 @@ def replayed(flow, start, events, start_phase, duration):
     """
     flights = departures(flow.coefficients, start, events, start_phase, duration)
     for n in range(len(flights)):
-        land(flow, flights[n])
+        fill_end(flow, flights[n])
     return flights
 
 
@@ -106,7 +106,7 @@ def _length(q, lapse, turned):
 
 
 @inlined_source
-def land(flow, flight):
+def fill_end(flow, flight):
     """Compute the state at the end of a flight and write it to the row of the flight."""
     boxes, balls, walls = start_of(flight)
     left, phase, tail = flight[LENGTH], flight[FORCING], 0.0
@@ -353,17 +353,17 @@ def growth(run, frame: np.ndarray) -> Growth:
     run : Run
         A simulated motion.
     frame : ndarray
-        Perturbations as columns (8, k), in public order; 0 in a module that is not driven (`System.modules`).
+        Perturbations as columns (8, k), in public order; 0 in an inactive module (`System.modules`).
     """
     flow, flights, events = run.trajectory
     factors, counts = np.empty((run.cycles, frame.shape[1])), np.zeros((run.cycles, 2), dtype=int)
-    places = np.flatnonzero(takes_part(run.system)[INNER_ORDER])
-    later = _carried_by_cycles(flow, flights, events, run.system.period, frame[INNER_ORDER], places, factors, counts)
+    places = np.flatnonzero(active_mask(run.system)[INNER_ORDER])
+    later = _propagate_by_cycles(flow, flights, events, run.system.period, frame[INNER_ORDER], places, factors, counts)
     return Growth(factors, counts[:, 0], counts[:, 1], later[PUBLIC_ORDER])
 
 
 @compiled
-def _carried_by_cycles(flow, flights, events, period, frame, places, factors, counts):
+def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, counts):
     """Return the frame after the last cycle; fill factors (n, k) and counts (n, 2), which are initially 0.
 
     places: indices of the components in which the frame is not 0. Flights are cut at the ends of cycles, which is easy

@@ -20,7 +20,7 @@ from numba.np.unsafe.ndarray import to_fixed_tuple as to_fixed_tuple
 
 WIDTH = 8
 NUMBERS, INDICES = ir.VectorType(ir.DoubleType(), WIDTH), ir.VectorType(ir.IntType(32), WIDTH)
-NOTHING = ir.Constant(NUMBERS, ir.Undefined)
+UNDEFINED = ir.Constant(NUMBERS, ir.Undefined)
 
 
 @intrinsic
@@ -61,8 +61,8 @@ def weighted(builder, rows, weights):
 
 def _in_all(builder, number):
     """Return a vector of eight copies of a number."""
-    first = builder.insert_element(NOTHING, number, ir.IntType(32)(0))
-    return builder.shuffle_vector(first, NOTHING, INDICES([0] * WIDTH))
+    first = builder.insert_element(UNDEFINED, number, ir.IntType(32)(0))
+    return builder.shuffle_vector(first, UNDEFINED, INDICES([0] * WIDTH))
 
 
 def _entries(builder, vector):

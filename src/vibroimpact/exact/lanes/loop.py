@@ -8,7 +8,7 @@ import numpy as np
 from vibroimpact.exact.engine import event_loop
 from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
 from vibroimpact.exact.engine.contact import ENTRIES, EVENTS, ROW, Log, Motion
-from vibroimpact.exact.engine.energy import Squares
+from vibroimpact.exact.engine.energy import Potentials
 from vibroimpact.exact.engine.event_loop import FINISHED, PAUSED, Progress, Sampling, Span, run_until
 from vibroimpact.exact.engine.flow import TWO_PI, mode_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
@@ -19,7 +19,7 @@ from vibroimpact.exact.lanes.rows import STATISTICS, STATISTICS_AT
 from vibroimpact.exact.lanes.statistics import accumulate_statistics, discount_rests, find_turns, open_or_close
 
 TABLE = 64  # number of times in a flow table; it is small, since the event loop handles only few events
-NEAR = 1e-6  # a ball farther from a wall does not come to rest on it within the next events
+NO_REST_DISTANCE = 1e-6  # a ball farther from a wall does not come to rest on it within the next events
 INTERRUPT_INTERVAL = 500_000  # number of steps between two checks for an interrupt, about 20 ms
 
 
@@ -112,7 +112,7 @@ def run_lanes(piece, memory):
         if steps.step_to_event(m.runs, m.constants, m.work, piece.drifts.shape[2]) == 0:
             continue
         for lane in range(WIDTH):
-            if m.members[lane] >= 0 and m.runs[rows.OUTCOME, lane] != steps.NOTHING:
+            if m.members[lane] >= 0 and m.runs[rows.OUTCOME, lane] != steps.RUNNING:
                 done += 64
                 ended = _handle_outcome(piece, lane, m)
                 if ended != PAUSED:
@@ -204,7 +204,7 @@ def _system_of(piece, lane, m):
     """Return the flow tables and the potentials for the system of the run in a lane."""
     owner, slot = piece.owners[m.members[lane]], m.slots[lane]
     flow = unpacked(piece.numbers[owner], m.series[slot], m.rotations[slot])
-    return flow, Squares(piece.potentials[owner], piece.drifts[owner])
+    return flow, Potentials(piece.potentials[owner], piece.drifts[owner])
 
 
 @inlined
@@ -223,7 +223,7 @@ def _handle_outcome(piece, lane, m):
     runs, stop = m.runs[:, lane], m.runs[rows.STOP, lane]
     finished = _end_window(piece, flow, squares, _motion_of(m.runs, lane), lane, m)
     runs[rows.PHASE], runs[rows.TAIL] = piece.phases[piece.owners[m.members[lane]]]
-    runs[rows.TURNS], runs[rows.TRIAL], runs[rows.REACH] = stop, 0.0, 0.0
+    runs[rows.REVOLUTIONS], runs[rows.TRIAL], runs[rows.REACH] = stop, 0.0, 0.0
     return FINISHED if finished else PAUSED
 
 
@@ -289,7 +289,7 @@ def _run_by_events(piece, flow, squares, lane, m):
         progress, ended = run_until(flow, progress, span, unsampled, log, earlier, np.int64(0))
         runs[rows.EVENTS] += int(counters[EVENTS])
         if runs[rows.WATCHED] > 0.0:
-            _watch_events(piece, flow, squares, leaving, progress, lane, m)
+            _add_events(piece, flow, squares, leaving, progress, lane, m)
         boxes, balls, walls, _, _, _ = progress.motion
         motion = Motion(boxes, balls, walls, (0, 0), math.sin(progress.phase), math.cos(progress.phase))
         if ended == FINISHED and not _end_window(piece, flow, squares, motion, lane, m):
@@ -303,7 +303,7 @@ def _run_by_events(piece, flow, squares, lane, m):
 @inlined_source
 def _progress_of(runs, lane, first, omega):
     """Return the run in a lane as `Progress` for the event loop; first: initial phase with its tail."""
-    phase, tail, turns = runs[rows.PHASE, lane], runs[rows.TAIL, lane], int(runs[rows.TURNS, lane])
+    phase, tail, turns = runs[rows.PHASE, lane], runs[rows.TAIL, lane], int(runs[rows.REVOLUTIONS, lane])
     elapsed = (turns * TWO_PI + ((phase - first[0]) + (tail - first[1]))) / omega
     stalled, due = int(runs[rows.STALLED, lane]), int(runs[rows.DUE, lane])
     return Progress(_motion_of(runs, lane), due, phase, tail, turns, elapsed, 0, stalled)
@@ -315,14 +315,14 @@ def _write_progress(runs, motion, progress):
     for i in range(4):
         runs[rows.X1 + i], runs[rows.Y1 + i] = motion.boxes[i], motion.balls[i]
     runs[rows.SINE], runs[rows.COSINE] = motion.sine, motion.cosine
-    runs[rows.PHASE], runs[rows.TAIL], runs[rows.TURNS] = progress.phase, progress.tail, progress.revolutions
+    runs[rows.PHASE], runs[rows.TAIL], runs[rows.REVOLUTIONS] = progress.phase, progress.tail, progress.revolutions
     runs[rows.DUE], runs[rows.STALLED] = progress.due, progress.stalled
     runs[rows.TRIAL] = runs[rows.REACH] = runs[rows.PASSED] = 0.0
     runs[rows.TOUCH1] = runs[rows.TOUCH2] = runs[rows.Y1_LOW] = runs[rows.Y2_LOW] = 0.0
 
 
 @inlined_source
-def _watch_events(piece, flow, squares, leaving, progress, lane, m):
+def _add_events(piece, flow, squares, leaving, progress, lane, m):
     """Add the statistics of the last events of a run in the event loop to the statistics in its lane.
 
     leaving, progress: `Progress` before and after these events.
@@ -343,7 +343,7 @@ def _make_tables(flow, rates, progress, made, change):
     motion = progress.motion
     modes = mode_of(motion.walls)
     for i in range(2):
-        near = abs(motion.boxes[i] - motion.balls[i]) > 1.0 - NEAR
+        near = abs(motion.boxes[i] - motion.balls[i]) > 1.0 - NO_REST_DISTANCE
         modes |= (1 << i) if near or progress.due == i else 0
     for mode in range(4):
         if mode | modes == modes and not made[mode]:

@@ -8,13 +8,13 @@ from vibroimpact.exact.engine.flow import NUMBERS
 from vibroimpact.exact.engine.vectors import fused, load, store, where
 
 IMPACTS, STICKS, LARGEST, PATH, INTEGRALS = 0, 2, 4, 6, 8
-LOST, STORED, STATISTICS = INTEGRALS + energy.LOST, INTEGRALS + energy.STORED, INTEGRALS + energy.ENTRIES
+LOST, STORED, STATISTICS = INTEGRALS + energy.LOSSES, INTEGRALS + energy.STORED, INTEGRALS + energy.ENTRIES
 """Indices of the statistics of a run, and their number STATISTICS. Two entries each, one per module: impacts, sticks,
 largest |X_i|, length of the ball's path. From INTEGRALS on: the entries of a row of `energy.accumulate_energy`."""
 
 X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)
 Y1_LOW, Y2_LOW, PASSED, REACH, TRIAL, SIZE, LIMIT, TOUCH1, TOUCH2, DUE = range(10, 20)
-PHASE, TAIL, TURNS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_AT = range(20, 30)
+PHASE, TAIL, REVOLUTIONS, STOP, ALIVE, WATCHED, EVENTS, STALLED, OUTCOME, STATISTICS_AT = range(20, 30)
 TURNS_AT = STATISTICS_AT + STATISTICS
 SINCE, HIGHEST, KEPT, TURN = 6, 7, 8, 9
 STATES = TURNS_AT + 2 * TURN
@@ -27,7 +27,7 @@ TRIAL: length of the next step (0: begin a flight; -1: leave it to the event loo
 SIZE: root of twice the energy of the boxes at the start of the flight
 LIMIT: limit for the Bernstein coefficients
 TOUCH1, TOUCH2: wall that each ball leaves, or 0; DUE: index of the module whose ball is at a wall, or -1
-PHASE, TAIL, TURNS: forcing phase at the start of the flight, its remainder, and the number of full turns
+PHASE, TAIL, REVOLUTIONS: forcing phase at the start of the flight, its remainder, and the number of full turns
 STOP: number of full turns at which the run stops; ALIVE: 1 if the lane has a run; WATCHED: 1 if it is observed
 EVENTS, STALLED: numbers of events, and of flights without progress in time
 OUTCOME: result of a pass; STATISTICS_AT: first row of the statistics

@@ -70,7 +70,7 @@ def accumulate_statistics(flow, squares, departure, events, count, arrival, stat
             late = events[n, contact.SINE], events[n, contact.COSINE]
         if left > 0.0:
             motion = Motion(leaving.boxes, leaving.balls, leaving.walls, (0, 0), early[0], early[1])
-            _watch(flow, squares, motion, end, left, statistics)
+            _add_flight(flow, squares, motion, end, left, statistics)
         if n < count:
             before, after = (mode_of(leaving.walls), end), (mode_of(following.walls), following.boxes)
             _add_potential_drops(squares, before, after, late, statistics[INTEGRALS:])
@@ -138,7 +138,7 @@ def _before(q, boxes, event):
 
 
 @inlined_source
-def _watch(flow, squares, motion, end, length, statistics):
+def _add_flight(flow, squares, motion, end, length, statistics):
     """Add the statistics of a flight with the duration `length`, except for the potentials at its two ends."""
     mode = mode_of(motion.walls)
     for i in range(2):

@@ -20,7 +20,7 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.exact.engine.compiled import in_place, inlined
-from vibroimpact.exact.engine.contact import LOW
+from vibroimpact.exact.engine.contact import HIGHEST_HOP
 from vibroimpact.exact.engine.exclusion import CONVERGING, LOOKAHEAD
 from vibroimpact.exact.engine.flow import (
     QUARTER,
@@ -36,10 +36,10 @@ from vibroimpact.exact.lanes import rows
 from vibroimpact.exact.lanes.rows import LARGEST, ORDER, SECOND, STATISTICS_AT, evaluate, expand, least, most
 from vibroimpact.exact.lanes.statistics import keep_turns, may_turn_beyond, observe
 
-NOTHING, DONE, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
+RUNNING, WAITING, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 """State of a lane before and after a pass.
 
-NOTHING: the run goes on. DONE: the next step is not proved, so that the lane waits for a pass. STOPPED: the run has
+RUNNING: the run goes on. WAITING: the next step is not proved, so that the lane waits for a pass. STOPPED: the run has
 reached the end of a window. DOUBTFUL: the lane needs the event loop."""
 
 SHORTEST = 1 / 32  # if a proof over a smaller fraction of a step fails, the event loop takes over
@@ -94,7 +94,7 @@ def advance_lanes(runs, c, work, enough):
     replace_rows(runs, rows.SINE, alive, (s, k))
     replace_rows(runs, rows.PASSED, alive, (passed,))
     replace_rows(runs, rows.LIMIT, alive, (limit,))
-    store(runs, rows.OUTCOME, where(alive & ~ok, DONE, NOTHING))
+    store(runs, rows.OUTCOME, where(alive & ~ok, WAITING, RUNNING))
     return steps
 
 
@@ -164,7 +164,7 @@ def step_to_event(runs, c, work, integrals):
     Returns the number of runs that need the event loop or stop. work (2 ORDER + 2, 8): workspace for polynomials.
     integrals: number of observed integrals.
     """
-    pending, leaves = load(runs, rows.OUTCOME) == DONE, load(runs, rows.TRIAL) < 0.0
+    pending, leaves = load(runs, rows.OUTCOME) == WAITING, load(runs, rows.TRIAL) < 0.0
     x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
     passed = load(runs, rows.PASSED)
     now = Bodies(x1, x2, v1, v2, fused(passed, u1, y1), fused(passed, u2, y2), u1, u2)
@@ -206,7 +206,7 @@ def step_to_event(runs, c, work, integrals):
     replace_rows(runs, rows.EVENTS, hits, (load(runs, rows.EVENTS) + 1.0,))
     replace_rows(runs, rows.STALLED, done & (elapsed > 0.0), (0.0,))
     out = doubt | (done & leaves)
-    store(runs, rows.OUTCOME, where(out, DOUBTFUL, where(stops, STOPPED, NOTHING)))
+    store(runs, rows.OUTCOME, where(out, DOUBTFUL, where(stops, STOPPED, RUNNING)))
     return count(out | stops)
 
 
@@ -221,13 +221,13 @@ def _locate(runs, c, work, now, leaves):
     a1 = x1 - fused(step, u1, y1) + _rough_change(c, 0, x1, x2, v1, v2, s, k)
     a2 = x2 - fused(step, u2, y2) + _rough_change(c, 1, x1, x2, v1, v2, s, k)
     wall1, wall2 = where(a1 > 0.0, 1.0, -1.0), where(a2 > 0.0, 1.0, -1.0)
-    t1 = where(abs(a1) >= 1.0, _about(work, 0, touch1 == wall1, wall1, y1, u1, step), math.inf)
-    t2 = where(abs(a2) >= 1.0, _about(work, SECOND, touch2 == wall2, wall2, y2, u2, step), math.inf)
+    t1 = where(abs(a1) >= 1.0, _approximate_time(work, 0, touch1 == wall1, wall1, y1, u1, step), math.inf)
+    t2 = where(abs(a2) >= 1.0, _approximate_time(work, SECOND, touch2 == wall2, wall2, y2, u2, step), math.inf)
     first = where(at_once, due, where(t1 <= t2, 0.0, 1.0)) == 0.0
     wall, soonest = where(first, wall1, wall2), least(t1, t2)
     ball, rate = where(first, y1, y2), where(first, u1, u2)
     near = where(where(first, touch1, touch2) == wall, 0.0, where(first, x1, x2) - ball - wall)
-    t, found = _sharp(work, first, near, where(first, v1, v2) - rate, soonest)
+    t, found = _refined_time(work, first, near, where(first, v1, v2) - rate, soonest)
     found = found & (soonest <= step) & (t > 0.0) & (t <= until)
     time = where(at_once, 0.0, where(found, t, until))
     return Contact(time, found | at_once, (soonest <= until) & ~found, first, (wall1, wall2), at_once)
@@ -300,7 +300,7 @@ def _collide(c, then, end, clock, rounding):
     force2 = load(c, rows.F2) * clock.sine - k12 * x1 - k22 * x2 - c12 * e1 - c22 * e2
     push, inward = wall * where(end.first, force1, force2), -wall * (box - ball)
     soon = 4.0 * inward <= push * (1.0 - kappa) * least(clock.left, LOOKAHEAD * load(c, rows.UNIT))
-    plain = plain & ~(soon & (inward * inward <= 2.0 * push * (LOW + 4.0 * rounding)))
+    plain = plain & ~(soon & (inward * inward <= 2.0 * push * (HIGHEST_HOP + 4.0 * rounding)))
     return Impact(wall, box, ball, plain)
 
 
@@ -380,7 +380,7 @@ def _rounding(c, size, u1, u2):
 
 
 @inlined
-def _about(work, first, leaves, wall, y, u, step):
+def _approximate_time(work, first, leaves, wall, y, u, step):
     """Return the approximate time at which a ball meets a wall, from a quadratic equation and two Newton steps.
 
     first: first row of the polynomial of the box. leaves: True if the ball has just left this wall.
@@ -399,7 +399,7 @@ def _about(work, first, leaves, wall, y, u, step):
 
 
 @inlined
-def _sharp(work, one, near, speed, t):
+def _refined_time(work, one, near, speed, t):
     """Return the time at which a ball meets its wall, by two Newton steps from t, and True if they converge.
 
     one: True for module 1, else module 2. near, speed: position relative to the wall, and its rate, at time 0. The
@@ -413,7 +413,7 @@ def _sharp(work, one, near, speed, t):
 
 @inlined
 def _newton_step(work, one, near, speed, t, order):
-    """Return the Newton step of `_sharp` at t, from the terms of the polynomial up to an order."""
+    """Return the Newton step of `_refined_time` at t, from the terms of the polynomial up to an order."""
     value, slope = where(one, load(work, order), load(work, SECOND + order)), 0.0 * t
     for m in range(order - 1, 1, -1):
         slope = fused(slope, t, value)

@@ -135,7 +135,7 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
     return Passage(state, edges[1:-1], before, after, flights[-1] @ now + pushes[-1], end, jacobian)
 
 
-def of_modules(system, jacobian: np.ndarray) -> np.ndarray:
+def active_part(system, jacobian: np.ndarray) -> np.ndarray:
     """Return the monodromy matrix of the active modules: (8, 8), or its part (4, 4) for a single machine."""
     part = np.isin(MODULES, system.modules)
     return jacobian[part][:, part]
@@ -152,7 +152,7 @@ def multipliers(jacobian: np.ndarray) -> np.ndarray:
 
 def floquet(orbit) -> str:
     """Return the stability of an Orbit by its multipliers (see `by_multipliers`)."""
-    jacobian = of_modules(orbit.system, orbit.passage.jacobian)
+    jacobian = active_part(orbit.system, orbit.passage.jacobian)
     return by_multipliers(jacobian, orbit.residual, np.nanmin(np.abs(orbit.ball_speeds)))
 
 

@@ -23,7 +23,7 @@ def forced_amplitude(system) -> np.ndarray:
         If the undamped boxes are at a resonance, where the amplitude is not unique.
     """
     try:
-        return np.linalg.solve(dynamic_stiffness(system.with_idle_damped()), system.forcing.astype(complex))
+        return np.linalg.solve(dynamic_stiffness(system.with_inactive_damped()), system.forcing.astype(complex))
     except np.linalg.LinAlgError:
         raise ValueError(_resonance(system, "")) from None
 
@@ -124,7 +124,7 @@ def powers(matrix: np.ndarray, count: int) -> np.ndarray:
 
 def impulse_response(system, sign: int) -> ImpulseResponse:
     """Return the ImpulseResponse of a system, from a cache that systems with other forces share."""
-    return _kept(system.with_idle_damped().with_(f10_hat=0.0, f20_hat=0.0), sign)
+    return _kept(system.with_inactive_damped().with_(f10_hat=0.0, f20_hat=0.0), sign)
 
 
 _kept = lru_cache(maxsize=16)(ImpulseResponse)

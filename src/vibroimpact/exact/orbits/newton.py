@@ -5,7 +5,8 @@ from collections.abc import Callable, Iterable, Iterator
 import numpy as np
 
 _STEPS = 30
-_SETTLED, _STALLED = 1e-12, 1e-8  # relative steps that count as converged: in general; in the last step (double roots)
+_CONVERGED, _CONVERGED_LATE = 1e-12, 1e-8
+"""Relative steps that count as converged: in any step, and in the last one (double roots)."""
 
 
 def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
@@ -19,7 +20,7 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
     """
     x = np.array(starts, dtype=float)
     found = [np.empty((0, x.shape[1]))]
-    for limit in [_SETTLED] * (_STEPS - 1) + [_STALLED]:
+    for limit in [_CONVERGED] * (_STEPS - 1) + [_CONVERGED_LATE]:
         if not len(x):
             break
         residual, jacobian = equations(x)

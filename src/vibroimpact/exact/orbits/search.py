@@ -7,7 +7,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from vibroimpact.exact.orbits.asymmetric import STARTS, asymmetric_solutions
-from vibroimpact.exact.orbits.floquet import Passage, floquet, follow, impact_sequence, multipliers, of_modules
+from vibroimpact.exact.orbits.floquet import Passage, active_part, floquet, follow, impact_sequence, multipliers
 from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_response
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
@@ -270,7 +270,7 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
     times, modules, _ = impact_sequence(orbit.impact_phases * system.period, system.period)
     first = slice(len(times) // 2)
     passage = follow(system, orbit.state, times[first], modules[first], system.period / 2)
-    return multipliers(-of_modules(system, passage.jacobian))
+    return multipliers(-active_part(system, passage.jacobian))
 
 
 def _order(orbit):
@@ -331,7 +331,7 @@ def _orbit(system, times, changes, fractions, sign):
         symmetric=sign == -1,
         impact_phases=wrapped(times / system.period, 1.0),
         ball_speeds=speeds,
-        multipliers=multipliers(of_modules(system, passage.jacobian)),
+        multipliers=multipliers(active_part(system, passage.jacobian)),
         state=state,
         passage=passage,
         excursion=excursion,

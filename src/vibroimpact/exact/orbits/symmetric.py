@@ -160,7 +160,7 @@ def _uncoupled_starts(conditions, modules):
 def _coupled_starts(system, conditions):
     """Return the Newton starts of coupled modules, from the real roots delta of the condition c^2 + s^2 = 1."""
     delta, force = _roots_of_condition(system, conditions)
-    C1, C2, c, s = np.moveaxis(_circle_points(*conditions.linear_system(delta, force)), -1, 0)
+    C1, C2, c, s = np.moveaxis(_line_starts(*conditions.linear_system(delta, force)), -1, 0)
     time = np.arctan2(s, c) / conditions.omega
     return np.stack(np.broadcast_arrays(time, time + delta[:, None], C1, C2, force[:, None]), axis=-1).reshape(-1, 5)
 
@@ -207,7 +207,7 @@ def _condition(conditions, delta, force):
     return cramer(2) ** 2 + cramer(3) ** 2 - (np.linalg.det(matrices) * np.minimum(strength, 1.0)) ** 2
 
 
-def _circle_points(matrices, constant):
+def _line_starts(matrices, constant):
     """Return three starts (C_1, C_2, c, s) for each linear system, shape (n, 3, 4).
 
     The first start is the solution of the linear system.

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from vibroimpact.exact.engine.event_loop import FINISHED
 from vibroimpact.exact.lanes.ensemble import STATUSES, ensemble
 from vibroimpact.system import System
-from vibroimpact.system.state import idle_at_rest
+from vibroimpact.system.state import inactive_at_rest
 
 QUANTILE = 0.99
 """Fraction of the cycles in which the largest displacement is at most the peak."""
@@ -83,7 +83,7 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
     """
     if not cycles > settle:
         raise ValueError(f"cycles: {cycles} with {settle} to settle leave none to observe")
-    systems, states = np.array(systems, dtype=object), np.array([idle_at_rest(one, states) for one in systems])
+    systems, states = np.array(systems, dtype=object), np.array([inactive_at_rest(one, states) for one in systems])
     runs = ensemble(systems[:, None], states, cycles, settle=settle, by_cycle=True)
     largest, final, squares = runs["largest"].max(axis=-1), runs["final"][..., -1, :], runs["mean_square"].sum(axis=-2)
     lost = np.isnan(final).any(axis=-1)

@@ -74,7 +74,7 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
     for (start, name), members in groups.items():
         states = [regime.run.final for regime in members]
         lasts = start == "spread" and name in CHAOS
-        watched = spectra.watch(system, states, blocks * block if lasts else cycles, block)
+        watched = spectra.spectra_of(system, states, blocks * block if lasts else cycles, block)
         found = [
             measures(system, state, cycles) | {(EXPONENT, 0): one.spectrum.exponents[0]}
             for state, one in zip(states, watched, strict=True)

@@ -76,7 +76,7 @@ def certify(system) -> Proof:
         if not any(_same(zero, known) for known in isolated):  # a zero on the edge between two charts is found twice
             isolated.append(zero)
     open_boxes = [_in_amplitudes(pair, box) for pair, box in undecided]
-    points = [_taking_part(system, point.C) for point in listed.points + listed.outside]
+    points = [_active(system, point.C) for point in listed.points + listed.outside]
     return _proof(isolated, open_boxes, isolated, _matched(isolated, points))
 
 
@@ -90,7 +90,7 @@ def certify_asymmetric(system) -> Proof:
     """
     listed = asymmetric.search(system)
     isolated, undecided = _all_zeros(system, asymmetric.PAIRS)
-    places = [(_taking_part(system, point.charts), _taking_part(system, point.x)) for point in listed]
+    places = [(_active(system, point.charts), _active(system, point.x)) for point in listed]
     matched = all(
         _matched([box for own, box in isolated if own == names], [x for own, x in places if own == names])
         for names in {own for own, _ in [*isolated, *places]}
@@ -138,11 +138,11 @@ def _all_zeros(system, pairs):
             zeros, unclear = _subdivide(_Conditions(system, pair))
             inside = [box for box in zeros if all(low <= 1 and high >= -1 for low, high in box)]
             for boxes, kept in ((inside, found), (unclear, undecided)):
-                kept += [(_taking_part(system, pair), _taking_part(system, box)) for box in boxes]
+                kept += [(_active(system, pair), _active(system, box)) for box in boxes]
     return found, undecided
 
 
-def _taking_part(system, both) -> tuple:
+def _active(system, both) -> tuple:
     """Return the entries of a pair (one per module) that belong to active modules."""
     return tuple(both[module - 1] for module in system.modules)
 

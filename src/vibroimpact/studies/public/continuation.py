@@ -87,7 +87,7 @@ def branches(
     (3, 'fixed point')
     """
     names = (along,) if isinstance(along, str) else tuple(along)
-    path = Path(_with(system, names), names)
+    path = Path(_checked_system(system, names), names)
     low, high = _range("between", between)
     values = np.linspace(low, high, whole("seeds", seeds, 1, _MOST_SEEDS))
     for end in (low, high):
@@ -157,7 +157,7 @@ def bifurcation_curves(
     names = (along,) if isinstance(along, str) else tuple(along)
     if len(names) != 2 or len(set(names)) != 2:
         raise ValueError(f"along: {along!r}; needs two parameters")
-    _with(system, names)
+    _checked_system(system, names)
     try:
         first, second = between
     except (TypeError, ValueError):
@@ -206,7 +206,7 @@ def with_parameters(known, names) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _with(system, names) -> System:
+def _checked_system(system, names) -> System:
     """Return the system if all names are parameters of System, else raise ValueError."""
     with_parameters(asdict(instance("system", system, System)), names)
     return system

@@ -6,7 +6,7 @@ from vibroimpact.exact.engine.simulation import MOST_CYCLES
 from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.system.arguments import whole
 from vibroimpact.system.progress import track
-from vibroimpact.system.state import takes_part
+from vibroimpact.system.state import active_mask
 
 _STEP = 100  # cycles of the transient per line of progress
 
@@ -51,7 +51,7 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     settle = whole("settle", settle, 0, cycles - 1)
     begin, systems = settle % _STEP, np.array(systems, dtype=object)
     states, found = ensemble(systems, states, begin, settle=begin)["final"], []
-    moves = np.reshape([takes_part(system) for system in systems.flat], (*systems.shape, 8))
+    moves = np.reshape([active_mask(system) for system in systems.flat], (*systems.shape, 8))
     states = np.where(moves, states, 0.0)
     steps = [_STEP] * (settle // _STEP) + [1] * (cycles - settle)
     for step in track(steps, "sections: step", progress):

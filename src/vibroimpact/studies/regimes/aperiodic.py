@@ -7,7 +7,7 @@ from vibroimpact.exact.measures.modulation import bursts_in
 from vibroimpact.studies.regimes.classification import CHAOTIC, HOPPING, QUASI_PERIODIC, STRONGLY_MODULATED, UNSETTLED
 from vibroimpact.studies.regimes.lyapunov import Measured, largest_lyapunov
 
-CERTAIN = 3.0
+ERROR_FACTOR = 3.0
 """Number of standard errors used as the uncertainty of an exponent."""
 RESOLVED = 0.02
 """Largest uncertainty, per forcing period, at which an exponent consistent with 0 counts as 0."""
@@ -17,7 +17,7 @@ RESONANT = (0.1, 0.9)
 """Shares of time in bursts: below the first a module is never in resonance, above the second it is always."""
 DISCARDED = 1
 """Number of initial blocks to discard, in which the perturbation turns to the direction of largest growth."""
-LONGER = 10
+SECOND_LENGTH_FACTOR = 10
 """Length of the second estimate of an exponent, relative to the first; it is made unless the first is positive."""
 
 POSITIVE, ZERO, OPEN = "positive", "zero", "open"
@@ -48,8 +48,8 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
 
     found = of_length(blocks * block)
     if found != POSITIVE:
-        found = of_length(LONGER * blocks * block)
-    if found == ZERO and not recurs(run.system, run.final, LONGER * blocks * block):
+        found = of_length(SECOND_LENGTH_FACTOR * blocks * block)
+    if found == ZERO and not recurs(run.system, run.final, SECOND_LENGTH_FACTOR * blocks * block):
         return UNSETTLED
     return NAMES.get((found, resonance(resonant_shares(run))), UNSETTLED)
 
@@ -59,9 +59,9 @@ def sign(exponent: Measured) -> str:
 
     A negative exponent is OPEN too: the motion still approaches a periodic one.
     """
-    if exponent.mean > CERTAIN * exponent.error:
+    if exponent.mean > ERROR_FACTOR * exponent.error:
         return POSITIVE
-    return ZERO if abs(exponent.mean) <= CERTAIN * exponent.scatter <= RESOLVED else OPEN
+    return ZERO if abs(exponent.mean) <= ERROR_FACTOR * exponent.scatter <= RESOLVED else OPEN
 
 
 def resonance(shares) -> str:

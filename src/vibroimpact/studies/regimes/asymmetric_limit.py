@@ -16,9 +16,9 @@ from vibroimpact.studies.regimes.epsilon_limit import Comparison, paired
 from vibroimpact.studies.regimes.families import AsymmetricOrbits, flight_fractions
 from vibroimpact.system.matrices import dynamic_stiffness
 
-_BORN = 1e-6  # v^2 below which an orbit is symmetric within the accuracy of Newton's method
-_NEAR = 0.01
-_THROUGH = 6
+_SYMMETRIC = 1e-6  # v^2 below which an orbit is symmetric within the accuracy of Newton's method
+_LIMIT_DISTANCE = 0.01
+_MOST_NODES = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ def follow(system, root, values) -> list[Station]:
     for epsilon, x in from_root(lambda epsilon: AsymmetricConditions(system.with_(epsilon=epsilon)), root, values, 1.0):
         slower = system.with_(epsilon=epsilon)
         stations.append(Station(slower, np.concatenate([wrapped(x[:4], slower.period), x[4:]])))
-        if max(stations[-1].place[2:4]) < _BORN:
+        if max(stations[-1].place[2:4]) < _SYMMETRIC:
             return stations[:-1]
     return stations
 
@@ -78,16 +78,16 @@ def leads_to(stations, points):
     last, before = stations[-1], stations[-2]
     reach = last.system.epsilon / (before.system.epsilon - last.system.epsilon)
     errors = [np.linalg.norm((1 + reach) * offset(last, p) - reach * offset(before, p)) for p in points]
-    return points[int(np.argmin(errors))] if errors and min(errors) < _NEAR else None
+    return points[int(np.argmin(errors))] if errors and min(errors) < _LIMIT_DISTANCE else None
 
 
 def onset(stations) -> float:
     """Return the epsilon at which the orbit emanates from a symmetric one (v^2 = 0), or 0 if it does not.
 
-    The polynomial for epsilon in v^2 through the last stations (at most `_THROUGH`) is evaluated at v^2 = 0. A line
+    The polynomial for epsilon in v^2 through the last stations (at most `_MOST_NODES`) is evaluated at v^2 = 0. A line
     through two stations would give only three correct digits if their epsilons differ by a fifth.
     """
-    last = stations[-_THROUGH:]
+    last = stations[-_MOST_NODES:]
     epsilon, skew = (
         np.array(part) for part in zip(*((s.system.epsilon, s.place[2:4].max()) for s in last), strict=True)
     )

@@ -11,7 +11,7 @@ from vibroimpact.studies.regimes.classification import PERIODIC, UNSETTLED
 from vibroimpact.studies.regimes.settling import Observation, settle
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, reals
-from vibroimpact.system.state import NAMES, states_array, takes_part
+from vibroimpact.system.state import NAMES, active_mask, states_array
 
 OPEN = -1
 """Label of an initial state that has not settled, as in Attractors.jl."""
@@ -19,7 +19,7 @@ _SAME, _SAME_IDLE = 1e-6, 1e-4
 """Largest difference of displacements between equal motions; the second value applies if a ball is at rest, where
 remaining decay limits accuracy."""
 
-_PLACES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
+_COORDINATES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
 """Indices in the state by name of a coordinate; for W_i = X_i - Y_i those of X_i and Y_i (ball i is moved)."""
 
 
@@ -179,9 +179,9 @@ def basins(
     if not isinstance(axes, Mapping) or not 1 <= len(axes) <= 2:
         raise ValueError("axes: needs values of one or two coordinates, such as {'W1': [-0.5, 0.5], 'W2': [-0.5, 0.5]}")
     for name in axes:
-        if name not in _PLACES:
-            raise ValueError(f"axes: {name!r} is none of {', '.join(_PLACES)}")
-    if len({_PLACES[name][-1] for name in axes}) < len(axes):
+        if name not in _COORDINATES:
+            raise ValueError(f"axes: {name!r} is none of {', '.join(_COORDINATES)}")
+    if len({_COORDINATES[name][-1] for name in axes}) < len(axes):
         raise ValueError(f"axes: {' and '.join(axes)} set the same ball; give one of them")
     axes = {name: reals(f"axes[{name!r}]", list(values)).ravel() for name, values in axes.items()}
     for name, values in axes.items():
@@ -189,8 +189,8 @@ def basins(
             raise ValueError(f"axes[{name!r}]: has no value")
     grid = np.meshgrid(*axes.values(), indexing="ij")
     states = np.tile(checked_state(state), (grid[0].size, 1))
-    for name, values in sorted(zip(axes, grid, strict=True), key=lambda pair: len(_PLACES[pair[0]])):
-        first, *ball = _PLACES[name]
+    for name, values in sorted(zip(axes, grid, strict=True), key=lambda pair: len(_COORDINATES[pair[0]])):
+        first, *ball = _COORDINATES[name]
         states[:, ball or first] = (states[:, [first]] - values.reshape(-1, 1)) if ball else values.ravel()
     return _basins(system, states, grid[0].shape, axes, observation, progress)
 
@@ -231,11 +231,11 @@ def _same(one, other):
         return True
     ours, theirs = (regime.run.samples[: 2 * one.repeats, moving] for regime in (one, other))
     gaps = [np.abs(np.roll(ours, 2 * shift, axis=0) - theirs).max() for shift in range(one.repeats)]
-    idle = len(moving) < np.count_nonzero(takes_part(one.run.system)[:4])
+    idle = len(moving) < np.count_nonzero(active_mask(one.run.system)[:4])
     return min(gaps) < (_SAME_IDLE if idle else _SAME)
 
 
 def _moving(regime):
     """Return the indices of the displacements of active modules, without those of balls at rest."""
-    samples, moves = regime.run.samples, takes_part(regime.run.system)
+    samples, moves = regime.run.samples, active_mask(regime.run.system)
     return np.array([k for k in range(4) if moves[k] and (k in (0, 2) or samples[:, 4 + k].any())])

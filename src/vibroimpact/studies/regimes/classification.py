@@ -11,7 +11,7 @@ from vibroimpact.exact.measures.periodicity import mirror_distance, repeats_afte
 from vibroimpact.exact.periodic import refined
 from vibroimpact.system.amplitude import sawtooth_amplitude
 from vibroimpact.system.arguments import MOST_SEED, real, whole
-from vibroimpact.system.state import IMPACT, idle_at_rest, takes_part
+from vibroimpact.system.state import IMPACT, active_mask, inactive_at_rest
 
 SYMMETRIC, ASYMMETRIC, OTHER = "symmetric", "asymmetric", "other periodic"
 STRONGLY_MODULATED, CHAOTIC, HOPPING = "strongly modulated", "chaotic", "hopping"
@@ -100,7 +100,7 @@ def _attracting(system, state, cycles, reach):
         orbit = refined(system, state, cycles)
     except ValueError:
         return None
-    near = np.abs(orbit.state - idle_at_rest(system, state)).max() < reach
+    near = np.abs(orbit.state - inactive_at_rest(system, state)).max() < reach
     return orbit if near and abs(orbit.multipliers[0]) < 1 else None
 
 
@@ -165,7 +165,7 @@ def _at_rest(run):
 
 def _of_modules(system, places):
     """Return the given indices of the state without those of inactive modules (not in `System.modules`)."""
-    moves = takes_part(system)
+    moves = active_mask(system)
     return [place for place in places if moves[place]]
 
 

@@ -119,13 +119,13 @@ class Curve:
         for _ in range(points):
             while not (ahead := self._ahead(place, length)) and length > _SHORTEST:
                 length /= 2
-            ahead = ahead or ([] if self.singular(place.z) else self._round(place))
+            ahead = ahead or ([] if self.singular(place.z) else self._past_corner(place))
             if not ahead:
                 return
             *crossing, after = ahead
             yield from crossing
             left = np.linalg.norm(place.z - start.z) > 2 * _RESOLVED
-            if left and (image := self.held(place, after, start.z)) is not None:
+            if left and (image := self.image_on_segment(place, after, start.z)) is not None:
                 yield self.place(image, place.tangent)._replace(closing=True)
                 return
             if place.tangent @ after.tangent > np.cos(_TURN / 3):
@@ -165,9 +165,9 @@ class Curve:
 
     def passes(self, places: list[Place], z: np.ndarray) -> bool:
         """Return True if a root z lies on the curve through the given places."""
-        return any(self.held(*pair, z) is not None for pair in pairwise(places))
+        return any(self.image_on_segment(*pair, z) is not None for pair in pairwise(places))
 
-    def held(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
+    def image_on_segment(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
         """Return the image of a root z that lies on the curve between two neighbouring places, or None."""
         chord = after.z - place.z
         length = np.linalg.norm(chord)
@@ -176,7 +176,7 @@ class Curve:
             aside = np.linalg.norm(image - place.z - along / length * chord)
             if -_RESOLVED < along < length + _RESOLVED and aside < _TURN * length + _RESOLVED:
                 # Near a branch point a long step may end on the other branch.
-                found = self._foot(place, image) or self._bisected(
+                found = self._place_at(place, image) or self._bisected(
                     place, after, lambda at, z=image: at.tangent @ (z - at.z) > 0
                 )
                 if found and np.linalg.norm(found[0].z - image) < 2 * _RESOLVED:
@@ -250,7 +250,7 @@ class Curve:
             return None
         return after if place.tangent @ after.tangent > np.cos(_TURN) else None
 
-    def _foot(self, place, z):
+    def _place_at(self, place, z):
         """Return a list of the place on the curve that coincides with z, or [] if z is not on the curve.
 
         Every step along the tangent goes to the foot of the perpendicular from z.
@@ -263,7 +263,7 @@ class Curve:
                 return [place]
         return []
 
-    def _round(self, place):
+    def _past_corner(self, place):
         """Return a list of one place beyond a corner of the curve just ahead, or [] if there is no corner.
 
         At a corner dF/dz jumps, as for orbits where the impacts of both modules change their order.

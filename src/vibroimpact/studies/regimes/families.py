@@ -75,7 +75,7 @@ class SymmetricOrbits:
         Lost
             If both modules are active, and x is a response of one module.
         """
-        _refuse_one_of_two(cls, system, x)
+        _require_both_modules(cls, system, x)
         residual, jacobian = cls._conditions(system)(x[None])
         return np.where(_idle(cls, system), x - cls.rest, residual[0]), jacobian[0]
 
@@ -264,7 +264,7 @@ class FixedPoints:
         Lost
             If both modules are active, and x is a response of one module.
         """
-        _refuse_one_of_two(cls, system, x)
+        _require_both_modules(cls, system, x)
         residual, jacobian, part = x - cls.rest, np.eye(4), ~_idle(cls, system)
         residual[part], jacobian[np.ix_(part, part)] = slow_flow.equations(system, x[1::2], x[0::2])
         return residual, jacobian
@@ -343,7 +343,7 @@ def _of_modules(system, values):
     return np.where(np.isin([1, 2], system.modules), values, np.nan)
 
 
-def _refuse_one_of_two(family, system, x):
+def _require_both_modules(family, system, x):
     """Raise Lost if x is a response of one module, although both modules are active.
 
     Raises
@@ -353,7 +353,7 @@ def _refuse_one_of_two(family, system, x):
     """
     held = np.abs(x - family.rest) < _HELD
     if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
-        raise Lost("both modules take part, and the response is that of one")
+        raise Lost("both modules are active, and the response is that of one")
 
 
 def asymmetric_root(system, x) -> np.ndarray:

@@ -12,7 +12,7 @@ from vibroimpact.studies.regimes.families import AsymmetricOrbits
 
 SEARCHED = (0.25, 0.5, 0.75)
 """Positions in the list of values at which orbits are searched, as fractions of its length."""
-NEAR = 0.1
+LARGEST_CHANGE = 0.1
 """Largest change of a root from one value to the next on the same branch, for steps as short as those of a slider."""
 SAME = 1e-6
 
@@ -66,7 +66,7 @@ def _known(x, roots, system):
 
 def _along(values, systems, x):
     """Follow a root through the values; yield value, root and Orbit as long as the orbit is admissible."""
-    for value, root in follow(lambda value: AsymmetricConditions(systems[value]), x, values, NEAR):
+    for value, root in follow(lambda value: AsymmetricConditions(systems[value]), x, values, LARGEST_CHANGE):
         orbit = AsymmetricOrbits.member(systems[value], root)
         if not orbit.admissible:
             return

@@ -21,10 +21,10 @@ from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.system import System
 from vibroimpact.system.arguments import MOST_SEED, instance, whole
 from vibroimpact.system.matrices import damping_matrix
-from vibroimpact.system.state import idle_at_rest, takes_part
+from vibroimpact.system.state import active_mask, inactive_at_rest
 
 BOTH = 2
-AT_ONCE = 1000
+CYCLES_PER_RUN = 1000
 """Number of forcing cycles that are simulated in one run."""
 _OTHERS = np.random.default_rng(1).normal(size=(8, 7))  # random, since a regular frame may miss a direction
 _VECTORS = np.column_stack([np.ones(8), _OTHERS])
@@ -228,9 +228,9 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     True
     """
     cycles, state = whole("cycles", cycles, 1, _MOST), _settled(system, state, settle)
-    full, rest = divmod(discarded + cycles, AT_ONCE)
-    size = np.count_nonzero(takes_part(system))
-    parts = zip(*_frame_growth(system, state, [AT_ONCE] * full + [rest] * (rest > 0), size), strict=True)
+    full, rest = divmod(discarded + cycles, CYCLES_PER_RUN)
+    size = np.count_nonzero(active_mask(system))
+    parts = zip(*_frame_growth(system, state, [CYCLES_PER_RUN] * full + [rest] * (rest > 0), size), strict=True)
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
         rates = np.log(factors)
@@ -249,7 +249,7 @@ def contraction(system, impacts, stuck) -> np.ndarray:
     contracts it by kappa^2: in the coordinates gap, rate of the gap and motion of the centre of mass, the saltation
     matrix is triangular, with -kappa for the gap and -kappa for the rate. A ball that sticks leaves no volume: -inf.
     """
-    damping = np.diag(damping_matrix(system))[takes_part(system)[[0, 2]]].sum()
+    damping = np.diag(damping_matrix(system))[active_mask(system)[[0, 2]]].sum()
     volume = 2 * np.asarray(impacts) * np.log(system.kappa) - damping * system.period
     return np.where(np.asarray(stuck) > 0, -np.inf, volume)
 
@@ -270,8 +270,8 @@ def kaplan_yorke(exponents) -> float:
 
 def _frame_growth(system, state, runs, directions):
     """Simulate consecutive runs of given numbers of cycles; yield for each the growth of a tangent frame."""
-    places = np.flatnonzero(takes_part(system))
-    frame, state = np.zeros((8, directions)), idle_at_rest(system, state)
+    places = np.flatnonzero(active_mask(system))
+    frame, state = np.zeros((8, directions)), inactive_at_rest(system, state)
     frame[places] = np.linalg.qr(_VECTORS[: len(places), : len(places)])[0][:, :directions]
     for cycles in runs:
         run = simulate(system, state, cycles)

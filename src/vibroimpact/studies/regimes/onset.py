@@ -8,7 +8,7 @@ from vibroimpact.studies.theory.relaxation import relax
 FORCES = {"f10_hat", "f20_hat"}
 COLUMNS = ["path", "source", "first", "last", "uncertainty", "agreement"]
 SLOW_FLOW, SIMULATION = "slow flow", "simulation"
-_FOLLOWED = 300, 300
+_WINDOW_AND_TRANSIENT = 300, 300
 """Forcing cycles of the window and of the transient before it, in which a ball may leave resonance for good."""
 
 
@@ -25,7 +25,7 @@ def predicted(path, values) -> np.ndarray:
         Values of the parameter of the path, shape (n,).
     """
     forces = [(system.f10_hat, system.f20_hat) for system in map(path, values)]
-    share = relax(path.system, *_FOLLOWED, forces=forces).share
+    share = relax(path.system, *_WINDOW_AND_TRANSIENT, forces=forces).share
     return ((share > 0) & (share < 1)).any(axis=1)
 
 

@@ -22,7 +22,7 @@ from vibroimpact.studies.regimes.classification import (
 )
 from vibroimpact.system.arguments import real, whole
 from vibroimpact.system.progress import track
-from vibroimpact.system.state import idle_at_rest
+from vibroimpact.system.state import inactive_at_rest
 
 MOST_WITNESSES = 5
 
@@ -87,13 +87,13 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     progress : bool, default False
         Count the initial states on standard error, if it is a terminal.
     """
-    first = _rounds(system, idle_at_rest(system, states), observation, progress)
+    first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
         now = first if name in CHAOS else regimes  # the latter include motions that chaos has turned into
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
-            _try(system, regimes, members, observation, progress)
+            _test_classification(system, regimes, members, observation, progress)
     return regimes
 
 
@@ -114,7 +114,7 @@ def _rounds(system, states, observation, progress):
     for place, state in track([*zip(waiting, now, strict=True)], "starts: last round,", progress):
         found[place] = named(simulate(system, state, observation.cycles), observation)
         if found[place].name == UNSETTLED:
-            found[place] = _later(system, found[place], observation)
+            found[place] = _continued(system, found[place], observation)
     return found
 
 
@@ -131,29 +131,29 @@ def _passing(regime):
     return regime.name == UNSETTLED or (regime.name == IDLE and regime.repeats is None)
 
 
-def _later(system, regime, observation):
+def _continued(system, regime, observation):
     return named(simulate(system, regime.run.final, observation.retest), observation)
 
 
-def _try(system, regimes, members, observation, progress):
+def _test_classification(system, regimes, members, observation, progress):
     """Test the regime that `members` share by longer runs, and update `regimes` in place (see `settle`)."""
     before = regimes[members[-1]].name
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
-    _run_on(system, regimes, witnesses, observation, progress)
+    _continue(system, regimes, witnesses, observation, progress)
     if all(_same_kind(before, regimes[k].name) for k in witnesses):
         for k in set(members) - set(witnesses):
             regimes[k] = replace(regimes[k], name=regimes[members[-1]].name)
         return
-    _run_on(system, regimes, set(members) - set(witnesses), observation, progress)
+    _continue(system, regimes, set(members) - set(witnesses), observation, progress)
     for k in members:
         if _same_kind(before, regimes[k].name):
             regimes[k] = replace(regimes[k], name=UNSETTLED)
 
 
-def _run_on(system, regimes, places, observation, progress):
+def _continue(system, regimes, places, observation, progress):
     for k in track([*places], f"starts: longer run, {observation.retest} cycles,", progress):
-        regimes[k] = _later(system, regimes[k], observation)
+        regimes[k] = _continued(system, regimes[k], observation)
 
 
 def _same_kind(before, after):

@@ -11,7 +11,7 @@ DIMENSION, SUM, CONTRACTION = "Kaplan-Yorke dimension", "sum of exponents", "con
 DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 
 
-class Watched(NamedTuple):
+class MotionSpectrum(NamedTuple):
     """Spectrum of a motion without the cycles in which both balls stick at the same time.
 
     errors, dimension_error: bootstrap errors of the exponents and of the dimension. double_sticks: number of cycles
@@ -24,7 +24,7 @@ class Watched(NamedTuple):
     double_sticks: int
 
 
-def watch(system, states, cycles: int, block: int) -> list[Watched]:
+def spectra_of(system, states, cycles: int, block: int) -> list[MotionSpectrum]:
     """Return the spectrum of each motion over `cycles` cycles after a transient of ten blocks.
 
     `block` is the number of cycles per block of the bootstrap; it is reduced to half of `cycles` if it is larger.
@@ -34,7 +34,7 @@ def watch(system, states, cycles: int, block: int) -> list[Watched]:
         one = lyapunov_spectrum(system, state, cycles, 0, 10 * block)
         single = one.without_double_sticks()
         errors = single.errors(min(block, len(single.growth) // 2))
-        found.append(Watched(single, *errors, one.double_sticks))
+        found.append(MotionSpectrum(single, *errors, one.double_sticks))
     return found
 
 
@@ -48,8 +48,8 @@ def rows(key: dict, found) -> list[dict]:
     size = found[0].spectrum.growth.shape[1]
     columns = {f"exponent {k + 1}": [(one.spectrum.exponents[k], one.errors[k]) for one in found] for k in range(size)}
     columns[DIMENSION] = [(one.spectrum.dimension, one.dimension_error) for one in found]
-    columns[SUM] = [(_free(one, one.growth.sum(axis=1)), np.nan) for one, *_ in found]
-    columns[CONTRACTION] = [(_free(one, one.contraction), np.nan) for one, *_ in found]
+    columns[SUM] = [(_mean_without_sticks(one, one.growth.sum(axis=1)), np.nan) for one, *_ in found]
+    columns[CONTRACTION] = [(_mean_without_sticks(one, one.contraction), np.nan) for one, *_ in found]
     values = {name: _summary(*zip(*column, strict=True)) for name, column in columns.items()}
     values[DOUBLE] = _rate(sum(one.double_sticks for one in found), sum(len(one.spectrum.growth) for one in found))
     return [{**key, "starts": len(found), "quantity": name, **summary} for name, summary in values.items()]
@@ -64,7 +64,7 @@ def _rate(count, others):
     return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}
 
 
-def _free(one, values):
+def _mean_without_sticks(one, values):
     """Return the mean of the values over the cycles in which no ball sticks."""
     return values[one.stuck == 0].mean()
 

@@ -12,7 +12,7 @@ from vibroimpact.system import System
 LINEAR, LOGARITHMIC = "linear", "logarithmic"
 SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
 """Spacing of the values of an axis, by name."""
-LEAPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
+LOW_DISCREPANCY_STEPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
 """Steps by dimension; their multiples modulo 1 spread evenly over a line or a square (Roberts 2018)."""
 
 
@@ -102,5 +102,5 @@ class Grid:
 
     def spread(self, most: int) -> list[int]:
         """Return at most `most` different points, evenly spread over the grid."""
-        steps = np.outer(np.arange(most) + 0.5, LEAPS[len(self.shape)]) % 1.0
+        steps = np.outer(np.arange(most) + 0.5, LOW_DISCREPANCY_STEPS[len(self.shape)]) % 1.0
         return sorted({int(np.ravel_multi_index((step * self.shape).astype(int), self.shape)) for step in steps})

@@ -13,7 +13,7 @@ from vibroimpact.studies.regimes.families import FixedPoints
 from vibroimpact.studies.regimes.settling import Observation, settle
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.studies.sweeps.spec import Spec
-from vibroimpact.system.state import idle_at_rest
+from vibroimpact.system.state import inactive_at_rest
 
 FROM_REST = "from_rest"
 LOW, HIGH = 0.05, 0.95
@@ -25,7 +25,7 @@ def observed(system, spec: Spec) -> dict:
 
     An inactive module is put at rest.
     """
-    states = idle_at_rest(system, spread_starts(spec.starts, spec.seed)) if spec.runs else None
+    states = inactive_at_rest(system, spread_starts(spec.starts, spec.seed)) if spec.runs else None
     row = {}
     for columns, values in map(OBSERVATIONS.get, spec.observe):
         row |= zip(columns, values(system, states, spec), strict=True)

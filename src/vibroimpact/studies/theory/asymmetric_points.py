@@ -81,11 +81,11 @@ class AsymmetricPoint(Representation):
         return all_stable(one[0] for one in self._modules(kappa))
 
     def _modules(self, kappa):
-        for skewed, C, squared in self._taking_part():
+        for skewed, C, squared in self._active():
             theory, x = (branch, squared) if skewed else (masri, C)
             yield theory.stable(x, kappa), theory.multipliers(x, kappa)
 
-    def _taking_part(self):
+    def _active(self):
         """Return an iterator over (asymmetric, C, v^2) of each active module."""
         part = np.isfinite(self.C)
         return zip(self.asymmetric[part], self.C[part], self.squared[part], strict=True)
@@ -99,7 +99,7 @@ class AsymmetricPoint(Representation):
         """Return True if the point is a motion at leading order and both balls stay between their walls."""
         return self.real and all(
             branch.overshoot(np.sqrt(squared), kappa) == 0 if skewed else stays_within_walls(C, kappa)
-            for skewed, C, squared in self._taking_part()
+            for skewed, C, squared in self._active()
         )
 
     @property

@@ -21,7 +21,7 @@ RETURN = 1.0
 """Amplitude of a box at which its walls reach a ball at rest in the middle."""
 _PER_CYCLE = 24
 _NODES = 2000
-_BEYOND = 0.9  # largest v^2 in the tables
+_LARGEST_SQUARED = 0.9  # largest v^2 in the tables
 _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 
 
@@ -42,7 +42,7 @@ class Relaxation:
 def describing_function(kappa: float):
     """Return the function B -> N on the stable symmetric manifold and, beyond its end, on the asymmetric branch."""
     r, chart = rho(kappa), charts(kappa)[ASYMMETRIC]
-    squared = np.linspace(0.0, _BEYOND, _NODES)
+    squared = np.linspace(0.0, _LARGEST_SQUARED, _NODES)
     skewed = np.abs(chart.z(squared) / chart.beta(squared))
     even = np.linspace(B_min(r), skewed[0], _NODES)[:-1]
     C = C_of_B(even, r)[1]

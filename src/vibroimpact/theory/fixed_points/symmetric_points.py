@@ -26,7 +26,7 @@ _STEPS = 30
 _SETTLED = 1e-12  # after so small a Newton step the fixed point is exact to rounding
 _SAME = 1e-9
 _NEAR = 1e-3  # if Newton's method moves a zero of the polynomials farther, it has reached another fixed point
-_OPEN = 1e-3  # sides form no triangle if the gap that they leave is a larger fraction of their sum
+_TRIANGLE_GAP = 1e-3  # sides form no triangle if the gap that they leave is a larger fraction of their sum
 _REGULAR = 1e5  # largest condition number of the Jacobian at a fixed point that counts as simple
 _AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
 COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
@@ -247,7 +247,7 @@ def _may_close(balance, C):
     """
     z, q = balance.at(C)
     sides = np.abs([balance.forcing, q + balance.K * z, balance.K * z[::-1]])
-    return bool((2 * sides.max(axis=0) <= (1 + _OPEN) * sides.sum(axis=0)).all())
+    return bool((2 * sides.max(axis=0) <= (1 + _TRIANGLE_GAP) * sides.sum(axis=0)).all())
 
 
 def _refined(system, C, psi):

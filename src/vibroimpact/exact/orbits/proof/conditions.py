@@ -33,7 +33,7 @@ class SteadyBoxes:
     """
 
     def __init__(self, system, sign: int):
-        rate = rate_matrix(system.with_idle_damped())
+        rate = rate_matrix(system.with_inactive_damped())
         self.omega = arb(system.Omega)
         self.period = 2 * arb.pi() / self.omega
         self.rate = arb_mat(rate[:4, :4].tolist())
