@@ -78,7 +78,7 @@ def _refined(x, y, v, u, guess, wall):
     raise ArithmeticError("Newton's method has not converged")
 
 
-def judged(system, start, cycles, second=(0, 0, 0, 0), many=False):
+def run_error_ratio(system, start, cycles, second=(0, 0, 0, 0), many=False):
     """Return the ratio of true to estimated error of the final state; None if the run is undecided.
 
     The number of impacts must be exact. second: start of box 2 and its ball, which obey the same equations as box 1 in
@@ -101,8 +101,8 @@ def judged(system, start, cycles, second=(0, 0, 0, 0), many=False):
     return worst / run.certificate.error
 
 
-def true_over_told(genes, most_impacts=30_000, many=False):
-    """Return the ratio of `judged` for genes (GENES,) between 0 and 1; None if the run is undecided or long."""
+def error_ratio(genes, most_impacts=30_000, many=False):
+    """Return the ratio of `run_error_ratio` for genes (GENES,) between 0 and 1; None if the run is undecided or long."""
     epsilon, omega, size = 10 ** (-2 + 3 * genes[1]), 10 ** (-0.5 + 0.8 * genes[2]), 10 ** (-1 + 2.2 * genes[3])
     starts, both, cycles = [], genes[9] > 0.5, int(10 ** (1.5 + 1.5 * genes[8]))
     for four in (genes[4:8], genes[[6, 4, 5, 7]] if both else 0.5 * np.ones(4)):
@@ -114,6 +114,6 @@ def true_over_told(genes, most_impacts=30_000, many=False):
     try:
         defect = DEFECTS[int(9.999 * genes[0])]
         system = one_box(epsilon, 1 - defect, (omega - 1) / epsilon, 0.0 if both else 0.25)
-        return judged(system, starts[0], cycles, starts[1], many)
+        return run_error_ratio(system, starts[0], cycles, starts[1], many)
     except (ValueError, ArithmeticError):  # a resonant system, or a run with too many events
         return None
