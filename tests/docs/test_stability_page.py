@@ -79,12 +79,6 @@ def test_how_far_the_limit_has_moved():
     assert BREAKING - float(cells("$\\varepsilon$")[1][1]) == said(r"the limit has moved by ([\d.]+):")
 
 
-def test_the_reading_with_squares():
-    assert said(r"\}\$ was meant: ([\d.]+) in place") == 1.65**2 / (2 * (1 + 0.65**2))
-    assert said(r"in place of ([\d.]+) at") == 3.3 / 3.65
-    assert impact_multipliers(1.65**2 / (2 * (1 + 0.65**2)), 0.65).max() == said(r"multiplier of ([\d.]+) at the limit")
-
-
 def test_limits_like_the_printed_one_against_the_captions():
     rho, fold = 2 * 0.35 / (np.pi * 1.65), 1 / (1 + (2 * 0.35 / (np.pi * 1.65)) ** 2)
     exponents = {"printed": (1, 1), "\\pi^2": (2, 2), "4+\\rho": (0, 1), "\\pi^3": (3, 3)}
