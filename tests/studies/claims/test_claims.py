@@ -362,8 +362,8 @@ def test_what_is_refuted_is_two_facts(judged):
 @pytest.mark.parametrize(
     ("swapped", "expected"),
     [
-        (["equal"], {"equal-b": IN_PART, "equal-c": REFUTED, "similar-results": REFUTED}),  # labelling I
-        (["unequal"], {}),  # labelling III
+        (["equal"], {"equal-b": IN_PART, "equal-c": REFUTED, "similar-results": REFUTED}),  # ascending C_1
+        (["unequal"], {}),  # the order of continuation
     ],
 )
 def test_the_verdicts_that_hang_on_which_point_is_b_and_which_is_c(evidence, swapped, expected):
