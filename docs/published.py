@@ -105,3 +105,10 @@ def masri():
     (motion,) = (orbit for orbit in vi.orbits(machine) if orbit.admissible)
     orbit = vi.periodic_orbit(machine, motion.state)
     return [10 * motion.ball_speeds[0, 0], 10 * orbit.amplitudes[0], abs(orbit.multipliers[0])]
+
+
+def chatter():
+    spring = vi.PhysicalSystem.single(M=1e-3, m=1e12, k=100, c=0, F=0, kappa=0.9).dimensionless()
+    run = vi.simulate(spring, [1 + 9.81e-5, 1 + 9.81e-5, 0, 0, 0, 0, 0, 0], 44)  # at rest 9.81e-5 below the floor
+    times = run.events["tau"] / 1e5**0.5
+    return [*times[[0, 1, 9, 49, 99, 149]], times[-1]]

@@ -88,3 +88,10 @@ def test_the_published_numbers_that_are_closed_forms():
     widest = width(backbone)
     assert said[9] == [pytest.approx(widest.max(), abs=5e-5)]
     assert backbone[widest.argmax()] == pytest.approx(0.98846, abs=5e-6)
+    # Flights of a spring that returns to a floor, at which it would be at rest a depth d below; sum of all of them.
+    omega, d = math.sqrt(1e5), 9.81e-5
+    steep = math.sqrt((1 + d) ** 2 - d**2) / d
+    flights = 2 * np.arctan(0.9 ** np.arange(1, 400) * steep) / omega
+    times = np.concatenate([[0], flights.cumsum()]) + math.acos(d / (1 + d)) / omega
+    assert said[11][:-1] == pytest.approx(times[[0, 1, 9, 49, 99, 149]], abs=5.1e-8)
+    assert said[11][-1] == pytest.approx(times[-1], abs=5.1e-7)
