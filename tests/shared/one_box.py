@@ -102,7 +102,7 @@ def run_error_ratio(system, start, cycles, second=(0, 0, 0, 0), many=False):
 
 
 def error_ratio(genes, most_impacts=30_000, many=False):
-    """Return the ratio of `run_error_ratio` for genes (GENES,) between 0 and 1; None if the run is undecided or long."""
+    """Return `run_error_ratio` for genes (GENES,) between 0 and 1; None if the run is undecided or long."""
     epsilon, omega, size = 10 ** (-2 + 3 * genes[1]), 10 ** (-0.5 + 0.8 * genes[2]), 10 ** (-1 + 2.2 * genes[3])
     starts, both, cycles = [], genes[9] > 0.5, int(10 ** (1.5 + 1.5 * genes[8]))
     for four in (genes[4:8], genes[[6, 4, 5, 7]] if both else 0.5 * np.ones(4)):
