@@ -137,11 +137,12 @@ def test_the_article_is_a_pdf_with_its_numbers_and_pictures(site):
     assert len(drawn) > 1000  # pictures are vectors
 
 
-def test_an_equation_of_the_chapter_is_explained_where_it_is_named(site):
+def test_an_equation_of_the_chapter_links_to_its_explanation(site):
     assert list(SETTINGS["equations"]) == [f"10.{n}" for n in range(1, 27)]
     for name in PAGES:
         html = (site / f"{name}.html").read_text(encoding="utf-8")
-        assert not re.search(r"<(h[1-6]|a)\b[^>]*>[^<]*<abbr", html)  # names in navigation and search
-    said = re.findall(r'<abbr title="([^"]+)">\(10\.26\)</abbr>', (site / "findings.html").read_text(encoding="utf-8"))
-    assert said
-    assert all("C_i &gt; 4 / (4 + π ρ)" in one for one in said)
+        assert not re.search(r"<(h[1-6]|a)\b[^>]*>[^<]*<a [^>]*#equation-", html)  # names in navigation and search
+    links = re.findall(r'href="([^"]+)"[^>]*>\(10\.26\)</a>', (site / "findings.html").read_text(encoding="utf-8"))
+    assert set(links) == {"numbers.html#equation-10-26"}
+    explained = (site / "numbers.html").read_text(encoding="utf-8").partition('id="equation-10-26"')[2]
+    assert "C_i &gt; 4 / (4 + π ρ)" in explained[:300]

@@ -77,6 +77,7 @@ class Pages:
             "figure": self.figure,
             "number": self.number,
             "places": self.places,
+            "equations": yaml.safe_load((self.root / "report/report.yaml").read_text(encoding="utf-8"))["equations"],
             "table": table,
             "data": data,
             "dictionary": lambda of_figures: data_dictionary.page(*data_dictionary.read(self.root), of_figures),

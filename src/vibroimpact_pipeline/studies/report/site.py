@@ -15,6 +15,7 @@ from vibroimpact.system.extras import need
 from vibroimpact_pipeline.code import is_source
 from vibroimpact_pipeline.html.mathematics import STYLE, mathml
 from vibroimpact_pipeline.html.policy import policy
+from vibroimpact_pipeline.studies.report.pages import anchor
 
 need("report", "pypandoc", "sphinx", "typst")
 
@@ -115,7 +116,7 @@ def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") ->
                 scratch, None, folder, scratch / "doctrees", "html", options, status=None, warning=warnings, parallel=2
             )
             app.connect("source-read", lambda app, name, source: fill(pages, name, source))
-            app.connect("doctree-read", lambda app, tree: explain(tree, settings["equations"]))
+            app.connect("doctree-read", lambda app, tree: explain(app, tree, settings["equations"]))
             app.build()
     if of_pages := [line for line in warnings.getvalue().splitlines() if OF_PAGE.search(line)]:
         raise RuntimeError(f"Sphinx: {of_pages[0]}")
@@ -145,20 +146,18 @@ def fill(pages, name: str, source: list[str]) -> None:
         source[0] = pages.with_numbers(ELSEWHERE.sub("", source[0]))
 
 
-def explain(tree, equations: dict) -> None:
-    """Add explanations to the chapter's equation numbers on a page, and add these numbers to the search index."""
-    named = set()
+def explain(app, tree, equations: dict) -> None:
+    """Link the chapter's equation numbers on a page to their explanations, and add them to the search index."""
+    named, page = set(), app.builder.get_relative_uri(app.env.docname, "numbers")
     for text in list(tree.findall(nodes.Text)):
         if not isinstance(text.parent, NAMES) and EQUATION.search(text):
             parts = EQUATION.split(text)
             named |= set(parts[1::2])
-            text.parent.replace(
-                text,
-                [
-                    nodes.abbreviation("", f"({part})", explanation=equations[part]) if n % 2 else nodes.Text(part)
-                    for n, part in enumerate(parts)
-                ],
-            )
+            links = [
+                nodes.reference("", f"({part})", refuri=f"{page}#equation-{anchor(part)}", reftitle=equations[part])
+                for part in parts[1::2]
+            ]
+            text.parent.replace(text, [links[n // 2] if n % 2 else nodes.Text(part) for n, part in enumerate(parts)])
     tree.append(addnodes.index(entries=[("single", f"({part})", "", "", None) for part in sorted(named)]))
 
 
