@@ -8,7 +8,7 @@ import pytest
 
 import vibroimpact as vi
 from attacks import Attack, Observer, fast_attack, truth
-from one_box import judged, one_box
+from one_box import one_box, run_error_ratio
 from vibroimpact.exact.engine.certificate import HORIZON_ERROR
 
 MISSES = [
@@ -94,13 +94,13 @@ def test_a_rounding_that_repeats_at_every_flight_or_impact(parameters, start, cy
     ids=["rounding of kappa times a speed", "one entry of the flow table"],
 )
 def test_a_rounding_that_repeats_where_nothing_is_lost(parameters, start, cycles):
-    assert judged(one_box(*parameters), start, cycles) < 1
+    assert run_error_ratio(one_box(*parameters), start, cycles) < 1
 
 
 def test_a_run_of_25_000_impacts_without_loss_is_not_decided_with_a_wrong_number_of_them():
     system, start = one_box(0.5, 1 - 2**-53, -0.5), [0, 0, 0, 5.97389950059458]
     certificate = vi.simulate(system, [0, 0, 0, 0, 0, start[3], 0, 0], 1000).certificate
-    assert not certificate.decided or judged(system, start, 1000) < 2.6
+    assert not certificate.decided or run_error_ratio(system, start, 1000) < 2.6
 
 
 def test_the_error_of_a_module_at_peace_beside_one_that_impacts(chapter):
