@@ -24,7 +24,7 @@ from vibroimpact_pipeline.studies.claims_evidence import evidence as evidence_of
 
 DOCUMENT = yaml.safe_load((ROOT / "docs/studies/claims.yaml").read_text(encoding="utf-8"))
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
-POINTWISE = [claim for claim in CLAIMS.values() if claim["check"] not in claims_equations.CHECKS]
+POINTWISE = [claim for claim in CLAIMS.values() if not hasattr(claims_equations, claim["check"])]
 """Without those on equations, which take a while and know no points, cases or grids."""
 EXPECTED = yaml.safe_load((Path(__file__).parent / "expected_verdicts.yaml").read_text(encoding="utf-8"))
 

@@ -10,17 +10,6 @@ from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.restitution import after_impact
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, C_of_B, impact_phase, rho, sawtooth
 
-CHECKS = (
-    "small_balls",
-    "weak_coupling",
-    "own_frequency",
-    "bound_of_the_balls",
-    "common_impact_instants",
-    "equations_in_U_and_W",
-    "leading_order_solution",
-    "manifold_from_impact_conditions",
-    "orders_of_the_expansion",
-)
 ROUNDING = 1e-12
 KAPPAS = (0.05, 0.3, 0.65, 0.95)
 _TERMS = {"one term": "distance", "two terms": "two terms"}

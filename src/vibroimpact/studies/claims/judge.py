@@ -6,11 +6,19 @@ why it does not hold, the same text for claims that fail for the same reason). d
 claims. A check takes the Evidence and the arguments, and returns a Finding.
 """
 
+from inspect import isfunction
+
 from vibroimpact.studies.claims import equation_checks, manifold_checks, motion_checks, point_checks
 from vibroimpact.studies.claims.evidence import Evidence
 
 MODULES = equation_checks, manifold_checks, point_checks, motion_checks
-CHECKS = {name: getattr(module, name) for module in MODULES for name in module.CHECKS}
+CHECKS = {
+    name: found
+    for module in MODULES
+    for name, found in vars(module).items()
+    if isfunction(found) and found.__module__ == module.__name__ and not name.startswith("_")
+}
+"""Checks by name: all public functions of these modules."""
 NOT_JUDGED = "not judged"
 FIELDS = ("id", "place", "statement", "check", "refuted_by")
 OPTIONAL = ("arguments", "central", "fact")

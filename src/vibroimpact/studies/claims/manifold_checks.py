@@ -11,15 +11,6 @@ from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, largest_C, rho, sawtooth
 from vibroimpact.theory.masri import impact_multipliers, limit_with_squares, lower_limit, printed_limit, upper_limit
 
-CHECKS = (
-    "fold_of_the_manifold",
-    "no_penetration",
-    "printed_condition",
-    "two_branches",
-    "right_arm_is_stable",
-    "left_arm_has_a_stable_piece",
-    "stability_regions",
-)
 KAPPAS = np.linspace(0.01, 0.99, 99)
 EXPONENTS = range(4)
 """Exponents of pi and rho in (10.26) that a misprint may have changed."""

@@ -14,20 +14,6 @@ from vibroimpact.system.verdict import STABLE, UNSTABLE
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import stays_within_walls
 
-CHECKS = (
-    "steady_two_impacts",
-    "numerical_results_are_similar",
-    "transients_are_long",
-    "only_possible_behaviour",
-    "no_practical_importance",
-    "resonant_intervals",
-    "beating",
-    "lower_amplitudes_end_stable_responses",
-    "unstable_means_modulated",
-    "periodic_solutions",
-    "assesses_stability",
-    "restitution_far_from_unity",
-)
 SIMILAR = 0.1
 """Largest relative difference of amplitudes that count as similar, about the least that a figure can show."""
 BEAT_VARIATION = 0.5 / np.sqrt(2)

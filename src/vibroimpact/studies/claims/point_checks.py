@@ -8,21 +8,10 @@ from scipy.optimize import brentq
 from vibroimpact.studies.claims.finding import Finding
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 from vibroimpact.theory.fixed_points.balance import Balance, determinant, singular_points
-from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels, search
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, search
 from vibroimpact.theory.manifold import B_of_C, C_min, rho
 from vibroimpact.theory.slow_flow import rates
 
-CHECKS = (
-    "number_of_fixed_points",
-    "phases_can_be_eliminated",
-    "label_of_a_point",
-    "stable_points",
-    "on_the_left_arm",
-    "points_move_left",
-    "stable_point_moves_down_the_right_arm",
-    "singular_and_bifurcating",
-    "places_of_singular_points",
-)
 NAMES = ("C1", "C2")
 CAPTIONS = {
     "equal": {"a": UNSTABLE, "b": STABLE, "c": STABLE},
@@ -189,8 +178,7 @@ def places_of_singular_points(evidence, case, label):
     The chapter does not print (10.24) itself, so that either elimination may be meant.
     """
     system = evidence.systems[case]
-    listed = fixed_points(system)
-    point = next(p for name, p in zip(labels(system, listed), listed, strict=True) if name == label)
+    point = next(point for point in fixed_points(system) if point.label == label)
     first = singular_points(system, point, 1)[:, 0]
     C = np.linspace(0.0, 3.0, 3001)
     other = np.array([_other_determinant(system, [c, point.C[1]]) for c in C])
