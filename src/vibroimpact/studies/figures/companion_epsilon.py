@@ -11,7 +11,7 @@ from vibroimpact.accuracy.second_term import NoOrbit, first_order
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
 from vibroimpact.studies.regimes.epsilon_limit import distance_to_orbit, order
 from vibroimpact.tables import curve, join
-from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
     "title": "How the error of the theory falls with epsilon",
@@ -86,12 +86,12 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     """
     epsilon = np.geomspace(*epsilon, values)
     curves, orders = [], []
-    points = {case: _by_label(system) for case, system in systems.items()}
-    if mixed and mixed["label"] not in (known := points[mixed["case"]]):
+    points = {case: {point.label: point for point in fixed_points(system)} for case, system in systems.items()}
+    if mixed and mixed["label"] not in (known := sorted(points[mixed["case"]])):
         what = f"the case {mixed['case']!r} has no fixed point {mixed['label']!r}, it has {', '.join(known) or 'none'}"
         raise ValueError(f"mixed.label: {what}; null leaves the entry out")
     for case, system in systems.items():
-        for label, point in points[case].items():
+        for label, point in sorted(points[case].items()):
             if {"case": case, "label": label} == mixed:
                 continue
             found = list(_compared(system, point, epsilon))
@@ -108,12 +108,6 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     nothing = pd.DataFrame(columns=["panel", "series", "epsilon", "error"])
     columns = ["case", "label", "panel", "order", "uncertainty"]
     return {"csv": join(curves or [nothing]), "orders": pd.DataFrame(orders, columns=columns)}
-
-
-def _by_label(system):
-    """Return a mapping from label to fixed point, sorted by label."""
-    points = fixed_points(system)
-    return dict(sorted(zip(labels(system, points), points, strict=True), key=lambda pair: pair[0]))
 
 
 def _compared(system, point, epsilon):

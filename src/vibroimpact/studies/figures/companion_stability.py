@@ -39,8 +39,7 @@ def compute(points: pd.DataFrame) -> pd.DataFrame:
 
     points: table with columns case, label, C1, C2 and one per criterion, as in `fixed_points.csv`.
     """
-    table = points.rename(columns={"case": "panel"})[["panel", "label", "C1", "C2", *CRITERIA]]
-    return table
+    return points.rename(columns={"case": "panel"})[["panel", "label", "C1", "C2", *CRITERIA]]
 
 
 @styled

@@ -18,7 +18,7 @@ from vibroimpact.studies.regimes.followed import followed
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.tables import join
 from vibroimpact.theory.criteria import CRITERIA, EXACT, THEORY, of_fixed_point
-from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
     "title": "Fixed points over the second force",
@@ -85,10 +85,10 @@ def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]
         names, tracks = _continued(names, last, now, tracks)
         last = now
         exact = exact_orbits(system, now, symmetric_solutions(system)) if points else ()
-        for track, point, label, orbit in zip(names, points, labels(system, points), exact, strict=True):
+        for track, point, orbit in zip(names, points, exact, strict=True):
             says = of_fixed_point(system, point)
             row = {"value": value, "track": track, "C1": point.C[0], "B1": point.B[0], "C2": point.C[1]}
-            row |= {"B2": point.B[1], "label": label, **says}
+            row |= {"B2": point.B[1], "label": point.label, **says}
             rows.append(row | {EXACT: floquet(orbit) if orbit else NO_ORBIT})
             multipliers += _multipliers(value, track, orbit) if orbit and orbit.admissible else []
     for value, orbit in followed(systems):

@@ -160,13 +160,8 @@ def _window(system, state, cycles):
 
 def _at_rest(run):
     """Return True for each ball that is at rest at all samples, shape (n,) for n active modules."""
-    return ~run.samples[:, _of_modules(run.system, (5, 7))].any(axis=0)
-
-
-def _of_modules(system, places):
-    """Return the given indices of the state without those of inactive modules (not in `System.modules`)."""
-    moves = active_mask(system)
-    return [place for place in places if moves[place]]
+    speeds = np.array([5, 7])
+    return ~run.samples[:, speeds[active_mask(run.system)[speeds]]].any(axis=0)
 
 
 def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
