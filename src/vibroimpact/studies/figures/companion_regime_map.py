@@ -123,7 +123,8 @@ def _border(system, cells, series):
 
     Each end consists of the number of the piece, f10_hat and f20_hat. The ends are found by bisection.
     """
-    which, square = list(BORDERS).index(series), _square(cells, series.replace(" ", "_"))
+    which = BORDERS.index(series)
+    square = cells.pivot(index="f20_hat", columns="f10_hat", values=series.replace(" ", "_")).to_numpy(float)
 
     @cache
     def count(f10, f20):
@@ -218,8 +219,3 @@ def _ends(centres):
     """Return the outer edges of a row of cells, rounded so that rounding errors cannot hide a tick at an edge."""
     half = 0.5 * (centres[1] - centres[0])
     return np.round([centres[0] - half, centres[-1] + half], 12)
-
-
-def _square(cells, column):
-    """Return the values of a column on the grid, with f20_hat along the first axis."""
-    return cells.pivot(index="f20_hat", columns="f10_hat", values=column).to_numpy(dtype=float)
