@@ -39,7 +39,21 @@ _EQUAL, _MERGED = 1e-6, 1e-5  # flight fractions, and states of a motion, that d
 _HELD = 1e-12
 
 
-class SymmetricOrbits:
+class _OwnImage:
+    """Family of motions each of which is its own mirror image."""
+
+    @staticmethod
+    def images(system, x) -> list[np.ndarray]:
+        """Return the roots of the same motion and of its mirror image: x alone, since both are equal."""
+        return [x]
+
+    @staticmethod
+    def merging(system, x) -> str:
+        """Return the kind of special point if x equals an image of itself, which ends the branch, or ""."""
+        return ""
+
+
+class SymmetricOrbits(_OwnImage):
     """Symmetric exact orbits: x = (tau_1, tau_2, C_1, C_2)."""
 
     name, angles = "symmetric orbit", slice(0, 2)
@@ -55,16 +69,6 @@ class SymmetricOrbits:
     def roots(cls, system) -> np.ndarray:
         """Return all roots, shape (n, 4)."""
         return np.where(_idle(cls, system), cls.rest, symmetric_solutions(system))
-
-    @staticmethod
-    def images(system, x) -> list[np.ndarray]:
-        """Return the roots of the same motion and of its mirror image: x alone, since both are equal."""
-        return [x]
-
-    @staticmethod
-    def merging(system, x) -> str:
-        """Return the kind of special point if x equals an image of itself, which ends the branch, or ""."""
-        return ""
 
     @classmethod
     def equations(cls, system, x):
@@ -228,7 +232,7 @@ class PeriodicOrbits(AsymmetricOrbits):
         return self.orbit.run.tau0 / self.orbit.system.period * system.period
 
 
-class FixedPoints:
+class FixedPoints(_OwnImage):
     """Fixed points of the slow flow: x = (C_1, psi_1, C_2, psi_2)."""
 
     name, angles = "fixed point", slice(1, 4, 2)
@@ -244,16 +248,6 @@ class FixedPoints:
         """Return all fixed points with C_1, C_2 >= 0, shape (n, 4)."""
         found = [np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]
         return np.where(_idle(cls, system), cls.rest, np.reshape(found, (-1, 4)))
-
-    @staticmethod
-    def images(system, x) -> list[np.ndarray]:
-        """Return the roots of the same motion and of its mirror image: x alone, since both are equal."""
-        return [x]
-
-    @staticmethod
-    def merging(system, x) -> str:
-        """Return "", since every fixed point is symmetric."""
-        return ""
 
     @classmethod
     def equations(cls, system, x):
