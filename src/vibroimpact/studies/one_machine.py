@@ -16,12 +16,13 @@ import numpy as np
 
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.lanes.ensemble import ensemble
+from vibroimpact.studies.absorbers.linear import checked_band
 from vibroimpact.studies.absorbers.peaks import finished
 from vibroimpact.studies.absorbers.references import fixed_balls, tuned, without_balls
 from vibroimpact.studies.absorbers.tuning import best_tuning
 from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.system import PhysicalSystem
-from vibroimpact.system.arguments import instance, pair, reals
+from vibroimpact.system.arguments import instance, reals
 from vibroimpact.system.extras import need
 from vibroimpact.system.progress import track
 from vibroimpact.system.state import IMPACT, RELEASE, STICK, inactive_at_rest
@@ -362,9 +363,7 @@ class _Study:
     """Simulations of one machine over a band, with their frequencies, lengths and initial states."""
 
     def __init__(self, machine, band):
-        low, high = pair("band", band)
-        if not 0 < low < high:
-            raise ValueError(f"band: ({low}, {high}) Hz; needs 0 < low < high")
+        low, high = checked_band(band)
         if not machine.c1 or not machine.F10:
             raise ValueError("machine: needs a damper c above 0 and a force F, base or unbalance other than 0")
         natural = {"omega1": machine.omega10, "omega2": machine.omega10}
@@ -443,13 +442,12 @@ def _impacts(machine, run) -> dict:
     seconds = run.cycles * run.system.period / machine.omega10
     speeds = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa  # just before the impact
     impulses = machine.m / (1 + run.system.epsilon) * (1 + machine.kappa) * speeds
-    rests, spans = _at_rest(events, run), run.cycles * run.system.period
     return {
         "impacts_per_s": len(states) / seconds,
         "impact_speed_m_s": float(speeds.mean()) if len(speeds) else 0.0,
         "impulse_Ns": float(impulses.mean()) if len(impulses) else 0.0,
         "impulse_Ns_per_s": float(impulses.sum()) / seconds,
-        "sticking": rests / spans,
+        "sticking": _at_rest(events, run) / (run.cycles * run.system.period),
     }
 
 
