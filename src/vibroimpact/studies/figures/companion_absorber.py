@@ -118,9 +118,10 @@ REMEASURED_STARTS = 8
 """Number of starts, rest among them, in the second measurement of a lowest peak."""
 IMPULSES, ENERGY_FRACTION = np.geomspace(0.5, 50.0, 81), 0.1
 """Impulses on box 1 (as velocities, in units of L omega_10), and the fraction of the energy left after a decay."""
-MEASURED = "value", "spread", "largest", "swept"
-SUMMARY_COLUMNS = *MEASURED, "kappa", *FORCES, "sigma_e_hat", "clearance", "narrowest", "widest"
-"""Columns of the summary that describe a lowest peak."""
+SUMMARY_COLUMNS = [
+    *("quantity", "who", "value", "spread", "largest", "swept", "kappa", *FORCES, "sigma_e_hat"),
+    *("clearance", "narrowest", "widest", "regime"),
+]
 
 
 def compute(
@@ -171,7 +172,7 @@ def compute(
         {
             "quantity": PEAK,
             "who": who,
-            **_summary_row(place),
+            **place,
             "regime": _regime(system, place, observation, several, seed),
         }
         for who, (place, several) in optima.items()
@@ -181,7 +182,7 @@ def compute(
     rows += [{"quantity": STROKE, "who": who, "value": optima[who][0]["clearance"]} for who in (BALLS, BEST_KAPPA)]
     rows += _response_ratios(system, per_force(system, response), band)
     rows += _decays(system, linear)
-    summary = pd.DataFrame(rows)
+    summary = pd.DataFrame(rows, columns=SUMMARY_COLUMNS)
     for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
         summary.insert(5, column, (summary["value"] / peaks[name]).where(summary["quantity"] == PEAK))
     swept = pd.concat([clearance.assign(sweep="clearance"), design.assign(sweep="design")])
@@ -231,10 +232,6 @@ def _remeasured(system, place, band, states, cycles, settle):
     return {**place, **measured, "sigma_e_hat": float(detunings[found.at])}
 
 
-def _summary_row(place):
-    return {name: place[name] for name in SUMMARY_COLUMNS if name in place}
-
-
 def _regime(system, place, observation, number, seed):
     """Return the regime in which most starts end at a point of a sweep, at the frequency of its peak."""
     there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
@@ -243,7 +240,7 @@ def _regime(system, place, observation, number, seed):
 
 
 def _of_restitution(places):
-    rows = [{"quantity": LOWEST, "who": BALLS, **_summary_row(place)} for place in places]
+    rows = [{"quantity": LOWEST, "who": BALLS, **place} for place in places]
     told = zip((PLATEAU, FROM, TO), plateau(places), strict=True)
     return [*rows, *({"quantity": quantity, "who": BALLS, "value": value} for quantity, value in told)]
 
