@@ -18,6 +18,7 @@ from vibroimpact.figures.plotting.style import (
     styled,
 )
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
+from vibroimpact.studies.figures.sweep import SYMBOLS
 from vibroimpact.studies.regimes import onset
 from vibroimpact.studies.regimes.branches import Path, branches
 from vibroimpact.studies.regimes.classification import APERIODIC, ASYMMETRIC, SYMMETRIC, UNSETTLED
@@ -143,8 +144,8 @@ NAMES = {SymmetricOrbits.name: "symmetric", AsymmetricOrbits.name: "asymmetric"}
 """Names of the branches of exact orbits; branches of the theory are named by their stability."""
 CROWDED_FRACTION, INSET = 0.1, (0.03, 0.72, 0.36, 0.25)
 """Fraction of each axis within which three marks count as crowded, and place of the inset that enlarges them."""
-COLUMNS = ["panel", "series", "label", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
-_NAMES = {"f10_hat": r"\hat f_{10}", "f20_hat": r"\hat f_{20}"}
+NODES = ["family", "special", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
+"""Columns of `Branch.rows` that are kept."""
 
 
 def compute(
@@ -182,12 +183,12 @@ def compute(
         path, interval = Path(system, tuple(settings["along"])), settings["range"]
         for family in FAMILIES.values():
             found = branches(family, path, interval, np.linspace(*interval, seeds), longest_step)
-            nodes += [part for number, branch in enumerate(found) for part in _pieces(panel, number, branch)]
+            nodes += [{"panel": panel, **row} for number, branch in enumerate(found) for row in branch.rows(number)]
         ends = _attractors(panel, path, interval, observation, **attractors)
         attracting.append(ends)
         cases += [(panel, case, p) for case, p in _on(path, interval, systems)]
         onsets += onset.onsets(path, np.unique(ends["p"]), ends["p"], ends["label"])
-    nodes = pd.concat(nodes, ignore_index=True) if nodes else pd.DataFrame(columns=COLUMNS)
+    nodes = pd.DataFrame(nodes, columns=["panel", *NODES]).rename(columns={"family": "series", "special": "label"})
     return {
         "csv": nodes,
         "attractors": pd.concat(attracting, ignore_index=True),
@@ -213,16 +214,6 @@ def _on(path, interval, systems):
     for case, p in places.items():
         if interval[0] <= p <= interval[1] and path(p) == systems[case]:
             yield case, p
-
-
-def _pieces(panel, number, branch):
-    """For each piece of a branch, yield the table of its nodes."""
-    for piece, (inner, nodes) in enumerate(branch.pieces()):
-        amplitudes = np.array([node.amplitudes for node in nodes])
-        place = {"panel": panel, "series": branch.family.name, "label": [node.kind for node in nodes]}
-        place |= {"branch": number, "piece": piece, "p": [node.p for node in nodes]}
-        place |= {"C1": amplitudes[:, 0], "C2": amplitudes[:, 1]}
-        yield pd.DataFrame({**place, "stable": inner.stable, "admissible": inner.admissible})
 
 
 def _attractors(panel, path, interval, observation, values, starts, seed):
@@ -257,7 +248,7 @@ def draw(tables: dict) -> Figure:
             )
             _attractor_dots(inset, simulated)
             _branches(inset, exact)
-        grid[1, column].set_xlabel(_axis(along))
+        grid[1, column].set_xlabel(f"${' = '.join(SYMBOLS[name].strip('$') for name in along.split())}$")
         for row, words in enumerate(("theory: fixed points", "exact 1:1 responses, and what attracts")):
             heading(grid[row, column], ascii_lowercase[row * len(panels) + column], words)
     for axes in grid[:, 0]:
@@ -318,9 +309,3 @@ def _attractor_dots(axes, attractors):
     for kind, style in DOTS.items():
         rows = attractors[kinds == kind]
         axes.plot(rows["p"], rows["C2"], zorder=1, **style, label=kind)
-
-
-def _axis(along):
-    return (
-        "$" + " = ".join(_NAMES.get(name, r"\mathrm{" + name.replace("_", r"\_") + "}") for name in along.split()) + "$"
-    )
