@@ -106,6 +106,7 @@ TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
 """Couplings at which patterns are also searched for at the forces of the cases."""
 NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 """Couplings at which the second term of (10.7) is computed."""
+ERRORS = ["panel", "series", "case", "coupling", "error", "own_error", "predicted", "orbits", "stable"]
 WELL = 5.0
 """Least coupling at which errors and missing motions are reported separately."""
 ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", VANISHES: "v"}
@@ -128,9 +129,9 @@ def compute(systems: dict) -> dict:
     equal = systems["equal"]
     strong = {case: system for case, system in systems.items() if case in STRONG}
     found = [_errors(strong, held) for held in (False, True)]
-    asymmetric, watched = _patterns(equal.with_(**ALIKE))
+    asymmetric, ranges = _patterns(equal.with_(**ALIKE))
     power, lasting = _power(equal)
-    summary = _of_errors(found) | _two_terms(equal) | _of_patterns(asymmetric) | watched | _of_power(power) | lasting
+    summary = _of_errors(found) | _two_terms(equal) | ranges | _of_power(power) | lasting
     tried = [coupled(system, value) for system in strong.values() for value in TRIED]
     summary |= {
         "searches at the forces of the cases": len(tried),
@@ -140,17 +141,16 @@ def compute(systems: dict) -> dict:
         summary |= _of_weak(_errors({WEAK: systems[WEAK]}, held=False))
     if "unequal" in systems:
         summary |= _coexisting(systems["unequal"])
-    known = [value if isinstance(value, tuple) else (value, 0.0) for value in summary.values()]
-    rows = pd.DataFrame(known, columns=["value", "uncertainty"])
-    rows.insert(0, "quantity", list(summary))
-    return {"csv": join([*found, *asymmetric, power]), "summary": rows}
+    rows = [(name, *(value if isinstance(value, tuple) else (value, 0.0))) for name, value in summary.items()]
+    summary = pd.DataFrame(rows, columns=["quantity", "value", "uncertainty"])
+    return {"csv": join([*found, *asymmetric, power]), "summary": summary}
 
 
 def errors(system) -> list[dict]:
     """Return a row per fixed point: relative error of C, verdicts of the theory and of the exact orbit.
 
     error: the largest difference of C_1 or C_2 from that of the exact orbit, over the larger of its C; nan where there
-    is none that is a motion. own_error: the same with each difference over its own C. predicted, exact: True if called
+    is none that is a motion. own_error: the same with each difference over its own C. predicted, stable: True if called
     stable on both time scales, and if all multipliers are inside the unit circle. orbits: how many symmetric motions
     there are, the same in all rows.
     """
@@ -166,22 +166,18 @@ def errors(system) -> list[dict]:
         predicted = criteria.of_fixed_point(system, point)[criteria.THEORY] == verdict.STABLE
         of_point = {"error": float(apart.max() / C.max()), "own_error": float((apart / C).max())}
         stable = moves and orbit.stability == verdict.STABLE
-        rows.append(of_point | {"predicted": predicted, "exact": stable, "orbits": motions})
+        rows.append(of_point | {"predicted": predicted, "orbits": motions, "stable": stable})
     return rows
 
 
 def _errors(systems, held):
     rows = [
-        {"case": case, "coupling": value} | row
+        {"panel": "error", "series": HELD if held else PROPORTION, "case": case, "coupling": value} | row
         for case, system in systems.items()
         for value in COUPLINGS
         for row in errors(coupled(system, value, held))
     ]
-    table = pd.DataFrame(rows, columns=["case", "coupling", "error", "own_error", "predicted", "exact", "orbits"])
-    columns = {
-        name: table[name].to_numpy() for name in ("case", "coupling", "error", "own_error", "predicted", "orbits")
-    }
-    return curve("error", HELD if held else PROPORTION, **columns, stable=table["exact"].to_numpy())
+    return pd.DataFrame(rows, columns=ERRORS)
 
 
 def _two_terms(system):
@@ -205,30 +201,32 @@ def _two_terms(system):
 
 
 def _patterns(system):
-    """Return the curves of all stable ranges, and the shares of starts that end on each pattern."""
-    curves = []
+    """Return the curves of all stable ranges, their ends, and the shares of starts that end on each pattern."""
+    curves, summary = [], {}
     for name, start, found, (below, above) in stable_ranges(system, LIMITS):
-        ends = [below or None, *[None] * (len(found) - 2), above or None]
+        series, ends = f"{name}, from {start:g}", [below or None, *[None] * (len(found) - 2), above or None]
         coupling, orbits = zip(*found, strict=True)
         v = [abs(flight_asymmetry(orbit)[0]) for orbit in orbits]
-        curves.append(curve("asymmetry", f"{name}, from {start:g}", coupling=coupling, v=v, stable=True, ends=ends))
-    shared = {}
+        curves.append(curve("asymmetry", series, coupling=coupling, v=v, stable=True, ends=ends))
+        summary |= {f"{series}: stable from": coupling[0], f"{series}: stable up to": coupling[-1]}
     for value in WATCHED:
         here = coupled(system, value)
         asymmetric = asymmetric_orbits(here)
         if asymmetric:
             ended = shares(asymmetric, plane(asymmetric[0].state, POINTS), ENOUGH)
-            shared |= {f"share of starts, {name}, coupling {value:g}": share for name, share in ended.items()}
-    return curves, shared
+            summary |= {f"share of starts, {name}, coupling {value:g}": share for name, share in ended.items()}
+    return curves, summary
 
 
 def _power(equal):
     """Return the powers along the force, and the quantities of starts that settle late and of the asymmetric orbit."""
-    found = [_power_at(equal.with_(f10_hat=force, f20_hat=force), force) for force in FORCES]
-    rows = [row for rows, _ in found for row in rows]
-    table = pd.DataFrame(rows, columns=["series", "force", "power", "spread", "asymmetric_share", "stable"])
-    table.insert(0, "panel", "power")
-    return table, {name: value for _, quantities in found for name, value in quantities.items()}
+    rows, quantities = [], {}
+    for force in FORCES:
+        here, found = _power_at(equal.with_(f10_hat=force, f20_hat=force), force)
+        rows += [("power", *row) for row in here]
+        quantities |= found
+    columns = ["panel", "series", "force", "power", "spread", "asymmetric_share", "stable"]
+    return pd.DataFrame(rows, columns=columns), quantities
 
 
 def _power_at(system, force):
@@ -268,17 +266,15 @@ def _coexisting(system):
     for orbit in asymmetric_orbits(system, both=False)[:1]:
         taken = impact_power(system, plane(orbit.state, SIDE), CYCLES, SETTLED) / _power_on(orbit)
         others = taken[~np.isclose(taken, 1.0, rtol=SAME_POWER)]
-        share = {
+        summary = {
             "starts at unequal forces": len(taken),
             "asymmetric share, unequal forces": 1 - len(others) / len(taken),
         }
-        if not len(others):
-            return share
-        error = others.std() / len(others) ** 0.5
-        return share | {
-            "modulated over asymmetric, unequal forces": (others.mean(), error),
-            "spread over asymmetric, unequal forces": (others.std(), error / 2**0.5),
-        }
+        if len(others):
+            error = others.std() / len(others) ** 0.5
+            summary["modulated over asymmetric, unequal forces"] = others.mean(), error
+            summary["spread over asymmetric, unequal forces"] = others.std(), error / 2**0.5
+        return summary
     return {}
 
 
@@ -294,15 +290,14 @@ def _of_errors(tables):
     summary = {}
     for name, table in zip((PROPORTION, HELD), tables, strict=True):
         known, missing = table.dropna(subset="error"), table[table["error"].isna()]["coupling"]
-        at_ours = table[table["coupling"] == 1.0]["error"]
-        beyond = known[known["coupling"] >= WELL]
+        at_1, at_100 = (table[table["coupling"] == coupling] for coupling in (1.0, 100.0))
         summary |= {
             f"points, {name}": len(table),
             f"largest error, {name}": known["error"].max(),
-            f"largest error from coupling {WELL:g}, {name}": beyond["error"].max(),
-            f"largest error at coupling 1, {name}": at_ours.max(),
-            f"largest error over its own C, coupling 1, {name}": table[table["coupling"] == 1.0]["own_error"].max(),
-            f"largest error over its own C, coupling 100, {name}": table[table["coupling"] == 100.0]["own_error"].max(),
+            f"largest error from coupling {WELL:g}, {name}": known[known["coupling"] >= WELL]["error"].max(),
+            f"largest error at coupling 1, {name}": at_1["error"].max(),
+            f"largest error over its own C, coupling 1, {name}": at_1["own_error"].max(),
+            f"largest error over its own C, coupling 100, {name}": at_100["own_error"].max(),
             f"without a motion, {name}": len(missing),
             f"without a motion, from coupling {WELL:g}, {name}": int((missing >= WELL).sum()),
             f"called stable, {name}": int(table["predicted"].sum()),
@@ -319,17 +314,6 @@ def _of_weak(table):
         "without a motion, case weak": len(missing),
         "without a motion, case weak, from coupling": missing.min(),
     }
-
-
-def _of_patterns(curves):
-    summary = {}
-    for part in curves:
-        series = part["series"].iloc[0]
-        summary |= {
-            f"{series}: stable from": part["coupling"].min(),
-            f"{series}: stable up to": part["coupling"].max(),
-        }
-    return summary
 
 
 def _of_power(table):
