@@ -250,10 +250,8 @@ def _row(system, case, name, point, label, way, fit_below):
     small = epsilon < fit_below
     fitted = order(epsilon[small], distance[small]) if np.count_nonzero(small) > 1 else (np.nan, np.nan)
     last = asymmetric_limit.distance_to_limit(way[-1], point)
-    slow_error = np.abs(last.rates - last.predicted).max()
-    fast_error = np.abs(last.multipliers - last.predicted_multipliers)[len(last.predicted) :].max()
     onset = asymmetric_limit.onset(way) if not point.real else 0.0
-    return [*row, label, distance[0], onset, *fitted, slow_error, fast_error, last.epsilon]
+    return [*row, label, distance[0], onset, *fitted, last.slow_error, last.fast_error, last.epsilon]
 
 
 @styled

@@ -50,7 +50,6 @@ SPEC = {
 }  # fmt: skip
 
 TWO_TERMS = "two terms"
-PANELS = ("distance", "slow", "fast")
 LOOKS = {
     "fast": ("fast multipliers", {"color": BLACK, "marker": "^", "markerfacecolor": "white"}),
     "slow": ("rates of the slow multipliers", {"color": BLACK, "marker": "s", "markerfacecolor": "white"}),
@@ -76,8 +75,9 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     mixed : dict, optional
         `case` and `label` of a point to leave out because its fast and slow multipliers cannot be distinguished.
 
-    Returns "csv": columns panel (one of PANELS, or "two terms": the distance with the first-order term added to the
-    fixed point), series ("case, label"), epsilon, error; and "orders": case, label, panel, order, uncertainty.
+    Returns "csv": columns panel ("distance", "slow", "fast", or "two terms": the distance with the first-order term
+    added to the fixed point), series ("case, label"), epsilon, error; and "orders": case, label, panel, order,
+    uncertainty.
 
     Raises
     ------
@@ -95,10 +95,13 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
             if {"case": case, "label": label} == mixed:
                 continue
             found = list(_compared(system, point, epsilon))
-            for panel, errors in zip(
-                [*PANELS, TWO_TERMS], [*_errors(found), _two_terms(system, point, found)], strict=True
-            ):
-                reached = np.array([c.epsilon for c in found])
+            reached = np.array([c.epsilon for c in found])
+            for panel, errors in {
+                "distance": np.array([c.distance for c in found]),
+                "slow": np.array([c.slow_error for c in found]),
+                "fast": np.array([c.fast_error for c in found]),
+                TWO_TERMS: _two_terms(system, point, found),
+            }.items():
                 curves.append(curve(panel, f"{case}, {label}", epsilon=reached, error=errors))
                 small = (reached < fit_below) & np.isfinite(errors)
                 if np.count_nonzero(small) > 1:
@@ -115,13 +118,6 @@ def _compared(system, point, epsilon):
     for value in epsilon:
         with suppress(NoOrbit):
             yield distance_to_orbit(system.with_(epsilon=value), point)
-
-
-def _errors(found):
-    distance = np.array([c.distance for c in found])
-    slow = np.array([np.abs(c.rates - c.predicted).max() for c in found])
-    fast = np.array([np.abs(c.multipliers - c.predicted_multipliers)[len(c.predicted) :].max() for c in found])
-    return distance, slow, fast
 
 
 def _two_terms(system, point, found):

@@ -36,6 +36,16 @@ class Comparison:
         """Euclidean distance between fixed point and orbit."""
         return float(np.linalg.norm(self.offset))
 
+    @property
+    def slow_error(self) -> float:
+        """Largest error of a predicted slow rate."""
+        return float(np.abs(self.rates - self.predicted).max())
+
+    @property
+    def fast_error(self) -> float:
+        """Largest error of a predicted fast multiplier."""
+        return float(np.abs(self.multipliers - self.predicted_multipliers)[len(self.predicted) :].max())
+
 
 def distance_to_orbit(system, point) -> Comparison:
     """Compare a fixed point with the nearest symmetric orbit.
