@@ -199,7 +199,9 @@ def test_what_went_wrong_is_said():
     system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.9)
     far = vi.simulate(system, np.zeros(8), 2000).final
     with pytest.raises(
-        ValueError, match=r"\Astate: no motion of period 1 found; Newton's method stops at a gap of 0.\d+\Z"
+        ValueError,
+        match=r"\Astate: no motion of period 1 found; where Newton's method stops, start and end of the run still "
+        r"differ by 0.\d+\Z",
     ):
         vi.periodic_orbit(system.with_(kappa=0.2), vi.simulate(system.with_(kappa=0.2), np.zeros(8), 2000).final)
     with pytest.raises(ValueError, match=r"\Aperiods: "):

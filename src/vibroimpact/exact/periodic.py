@@ -27,7 +27,7 @@ _NEUTRAL = 1e-10  # relative: if the velocity of a ball depends less on the stat
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
 _CONVERGED = ((1e-5, 1e-8), (1e-12, 1e-6))
-"""Steps and gaps at which Newton's method may stall: at a fold, and where the motion multiplies rounding errors."""
+"""Largest step and `_gap` accepted if Newton's method stalls: at a fold, or if the motion amplifies rounding errors."""
 _TOUCH = 1e-9
 
 
@@ -86,7 +86,7 @@ class PeriodicOrbit(Representation):
 
     @property
     def impacts(self) -> np.ndarray:
-        """Number of impacts per period, (2, 2), [module, wall +1 / wall -1]; a chatter counts until its completion."""
+        """Number of impacts per period, (2, 2), [module, wall +1 / wall -1]; of a chatter, only those simulated."""
         events = self._impacts
         return np.array([[np.sum((events["module"] == i) & (events["wall"] == w)) for w in (1, -1)] for i in (1, 2)])
 
@@ -98,7 +98,7 @@ class PeriodicOrbit(Representation):
 
     @property
     def grazing(self) -> bool:
-        """True if a ball touches a wall without relative speed; where it begins to impact, a multiplier diverges."""
+        """True if a ball touches a wall without relative speed; a multiplier diverges where it becomes an impact."""
         return _grazes(self.run)
 
     @property
@@ -209,7 +209,8 @@ def refined(system, state, periods) -> PeriodicOrbit:
         return PeriodicOrbit(system, periods, _at_zero(run), run)
     grazes = "; a ball grazes a wall" if _grazes(start) or _grazes(run) else ""
     raise ValueError(
-        f"state: no motion of period {periods} found; Newton's method stops at a gap of {_gap(run):.2g}{grazes}"
+        f"state: no motion of period {periods} found; where Newton's method stops, start and end of the run still "
+        f"differ by {_gap(run):.2g}{grazes}"
     )
 
 
@@ -225,7 +226,7 @@ def determined(run):
 
 
 def _nearer(run, step):
-    """Move the start of a run by a step, or a fraction of it, to reduce the gap; return the new run, or None."""
+    """Move the start of a run by a step, or a fraction of it, to reduce `_gap`; return the new run, or None."""
     for _ in range(_HALVINGS):
         x = run.start + step
         if within_walls(x[None])[0]:
@@ -244,7 +245,7 @@ def _with_free_balls_at_rest(system, x, periods, begin):
 
 
 def _gap(run):
-    """Return the largest difference of the ends of a run."""
+    """Return the largest difference between the states at the start and at the end of a run."""
     return float(np.abs(run.final - run.start).max())
 
 

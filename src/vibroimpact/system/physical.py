@@ -30,8 +30,8 @@ class PhysicalSystem:
     kappa : float
         Restitution coefficient.
     base, unbalance : float, default 0.0
-        Excitation of box 1 by ground motion or by an unbalance, see `single`. The value given as F10 is then replaced
-        by the one at omega1.
+        Excitation of box 1 by ground motion or by an unbalance, see `single`. F10 is then replaced by the resulting
+        force amplitude at omega1.
 
     Raises
     ------

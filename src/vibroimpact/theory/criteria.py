@@ -44,7 +44,7 @@ class Stability(NamedTuple):
 
 
 def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
-    """Return the verdict of (10.26) as printed on a motion with the saw-tooth amplitudes C, shape (2,).
+    """Return the verdict of the printed condition (10.26) on a motion with the saw-tooth amplitudes C, shape (2,).
 
     error: bound on the errors of C.
     """

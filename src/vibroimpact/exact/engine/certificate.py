@@ -40,8 +40,8 @@ class Errors(NamedTuple):
     """Estimated errors of a state, in UNIT.
 
     independent: covariance (8, 8) of independent rounding errors. repeated: sums (8, 6) of rounding errors that are the
-    same each time, with one column for each source: the tables make each box grow (columns 0, 2) or rotate (1, 3), and
-    restitution changes the rebound of each ball (4, 5).
+    same each time, with one column for each source: errors of the tables that make the motion of each box grow (columns
+    0, 2) or rotate in the phase plane (1, 3), and errors of restitution that change the rebound of each ball (4, 5).
     """
 
     independent: np.ndarray
@@ -50,7 +50,7 @@ class Errors(NamedTuple):
 
 @compiled
 def errors_of(flow, flights, events, limit):
-    """Return (errors at the start and end of every flight, rows (m + 1, 2); error of the final state), estimated.
+    """Return estimated errors: (at the start and end of every flight, rows (m + 1, 2); of the final state).
 
     An error is the root of the sum of the mean squares over all components. If it exceeds the limit after an event (or
     at the end), all later errors are inf.
@@ -212,7 +212,7 @@ def _root(errors):
 
 @inlined_source
 def _add_miss(covariance, flight, event):
-    """Before an impact, add the distance by which the ball was moved onto its wall to the covariance, squared."""
+    """Add to the covariance the square of the distance by which the ball was moved onto its wall at an impact."""
     if event[3] == IMPACT:
         i = int(event[1]) - 1
         miss = 1.0 - abs(flight[AFTER + i] - flight[AFTER + 4 + i])
@@ -250,11 +250,13 @@ def _add_table(q, state, sums):
 
 @inlined
 def _add_rounding(q, errors, flight, state, met):
-    """Add a unit rounding error for a state (8,), [boxes, balls], at the end of a flight (row with at least its start).
+    """Add a unit rounding error for a state (8,), [boxes, balls], at the end of a flight.
+
+    flight: row of the flight, of which only the start is used. met: for each module, True if its ball meets a wall now.
 
     The effect of the force, F / Omega^2 on a position and F / Omega on a velocity, is part of the sums in a flight. Its
     rounding error remains even if the effect cancels later. The same holds for velocities due to a stiff spring. The
-    velocity of a free ball is only computed at an impact, so it has a rounding error only for module `met`.
+    velocity of a free ball is only computed at an impact, so it has a rounding error only then.
     """
     covariance, began = errors.independent, flight[BEFORE:]
     speed = q.drive / max(1.0, q.omega)
@@ -291,7 +293,7 @@ class Certificate(Representation):
     wall_residual : float
         Largest ||W| - 1| at an impact, before the ball was moved onto the wall.
     nearest_miss : float
-        Smallest gap to a wall at which a ball in that half of its box turned back; inf if no ball did.
+        Smallest gap at which a ball turned back before the nearer wall; inf if no ball did.
     shallowest_hit : float
         Smallest depth beyond a wall that a ball would have reached without the impact.
     clearance : float
@@ -369,7 +371,7 @@ def _least_ratio(margins, errors):
 
 
 def _horizon(errors, error, times, duration):
-    """Return the time since the start of the first event (or the end) with infinite error, or inf."""
+    """Return the time, since the start of the run, of the first event (or the end) with infinite error, or inf."""
     if np.isfinite(error):
         return np.inf
     return [*times, duration][np.count_nonzero(np.isfinite(errors[:, 0])) - 1]

@@ -103,7 +103,8 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
     images = rates.reshape(-1, SIZE * SIZE) @ OPERATORS
     equations[..., :-1, :-1] = images.reshape(*rates.shape[:2], TRIANGLE, TRIANGLE)
-    equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED  # make S unique: a multiple of sin^2 + cos^2 is constant
+    # S is defined up to a multiple of the form sin^2 + cos^2, which is constant; these entries select one S.
+    equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED
     sides = np.zeros((TRIANGLE + 1, len(kernels)))
     sides[:-1] = kernels[:, ROWS, COLUMNS].T
     sides = np.broadcast_to(sides, (*rates.shape[:2], *sides.shape))

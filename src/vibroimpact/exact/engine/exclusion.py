@@ -261,7 +261,7 @@ def _time_from_zero(c, bound, margin, horizon, rises):
     """Return a time over which a constraint that is initially zero within rounding certainly holds.
 
     If the constraint rises, its polynomial is divided by t to remove the zero at the start. If it does not rise, or if
-    only the remainder bound makes the proved time short, values above -margin also count as holding.
+    only the remainder bound makes the proved time short, the constraint may fall to -margin within the time.
     """
     time = 0.0
     if rises:

@@ -299,7 +299,10 @@ def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
 
 
 def _digits(value):
-    """Return the bits after the binary point of 2 pi that leave _GUARD_BITS accurate bits in value x 2 pi."""
+    """Return how many bits of 2 pi are needed for _GUARD_BITS accurate bits in value x 2 pi.
+
+    Both numbers count the bits after the binary point.
+    """
     return _GUARD_BITS + max(math.ceil(abs(value)).bit_length(), 0)
 
 

@@ -239,10 +239,10 @@ def _lower(margins, margin):
 
 @inlined_source
 def _of_event(q, walls, boxes, balls, events, n, left):
-    """Return the margin by which event n is not after the end of the run, a time `left` later.
+    """Return the error of the state at event n that would move the event to the end of the run, a time `left` later.
 
-    For a release, it is also at most the depth to which the contact force would fall below zero. It is inf for a stick
-    that does not complete a chatter.
+    For a release, it is also at most the error that would prevent the release. It is inf for a stick that does not
+    complete a chatter.
     """
     i, wall, kind, phase = int(events[n, 1]) - 1, events[n, 2], events[n, 3], events[n, PHASE]
     force = wall * box_accelerations(q, walls, boxes, math.sin(phase))[i]
@@ -259,7 +259,7 @@ def _of_event(q, walls, boxes, balls, events, n, left):
 
 @inlined_source
 def _at_start(q, boxes, balls, phase):
-    """Return the margin by which the balls are in their contact states at the start of the run."""
+    """Return the error of the state at the start of the run that would change the contact state of a ball."""
     margin = math.inf
     for i in range(2):
         gap, speed = 1.0 - abs(boxes[i] - balls[i]), abs(boxes[2 + i] - balls[2 + i])
@@ -272,9 +272,10 @@ def _at_start(q, boxes, balls, phase):
 
 @inlined_source
 def _at_end(q, walls, boxes, balls, phase):
-    """Return the margin by which the next event is not before the end of the run.
+    """Return the error of the state at the end of the run that would cause another event before the end.
 
-    It is the gap of a ball that approaches a wall, or the contact force on a sticking ball if this force decreases.
+    For a free ball that approaches a wall, it is the gap. For a sticking ball, it is `_force` if the contact force
+    decreases. Otherwise it is inf. The smaller value of both balls is returned.
     """
     margin = math.inf
     for i in range(2):

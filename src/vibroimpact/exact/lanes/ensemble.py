@@ -216,8 +216,8 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 def _single_run(system, state, begin, stages, final, statistics):
     """Compute a run outside the lanes; return its status, and write final states (k, 8) and statistics (k, STATISTICS).
 
-    This is for systems whose flights would take many steps in a lane, since the rates of boxes and forcing differ much,
-    and for systems whose potentials lose accuracy by cancellation.
+    This is for systems whose flights would take many steps in a lane, since the frequencies of boxes and forcing differ
+    much, and for systems whose energy integrals would lose digits as differences of potentials (`energy.Potentials`).
     """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]

@@ -48,15 +48,16 @@ CONSTANTS = DROPS + 12 * len(energy.OBSERVED)
 """Rows of the constants, (CONSTANTS, 8), one column per lane, for the system of the run in the lane:
 
 from 0: exp(A h) - 1 for a step h, four rows of six
-LOW_PARTS: rounding remainders of its columns for the boxes, four rows of four, since every step would repeat this error
+LOW_PARTS: rounding remainders of its columns for the boxes, four rows of four; without them, every step would
+repeat the same rounding errors
 SCALARS_AT: scalars of `flow.numbers_of`, in their order
 CA, SA: cos - 1 and sin of Omega h; STEP: h
-BEND, BEND_FORCE: a bound on the fourth derivative over 72 is BEND times the root of twice the energy, plus BEND_FORCE
-ROUNDING, LEAST_ROUNDING: a bound on rounding errors, as factor and constant in the same way
-LOSS: energy loss of an impact over its squared relative velocity
+BEND, BEND_FORCE: BEND times the root of twice the energy, plus BEND_FORCE, is a bound on the fourth derivative / 72
+ROUNDING, LEAST_ROUNDING: ROUNDING times the root of twice the energy, plus LEAST_ROUNDING, bounds rounding errors
+LOSS: energy loss of an impact divided by its squared relative velocity
 FIRST, FIRST_TAIL: phase at the start of the run, and its remainder
-DRIFTS: drift of each integral
-DROPS: for each integral, the two rows of its potential for the velocities of the boxes
+DRIFTS: drift c of each integral (`energy.Potentials`)
+DROPS: for each integral, the two rows of its matrix S (`energy.Potentials`) for the velocities of the boxes
 """
 
 LONGEST_STEP = 0.52  # longest step, times the largest rate of boxes and forcing

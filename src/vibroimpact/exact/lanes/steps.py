@@ -42,7 +42,7 @@ RUNNING, WAITING, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 RUNNING: the run goes on. WAITING: the next step is not proved, so that the lane waits for a pass. STOPPED: the run has
 reached the end of a window. DOUBTFUL: the lane needs the event loop."""
 
-SHORTEST = 1 / 32  # if a proof over a smaller fraction of a step fails, the event loop takes over
+SHORTEST = 1 / 32  # if a proof over this fraction of a step or less fails, the event loop takes over
 LONGEST = 6.0  # forcing angle [rad], below a full turn, after which sine and cosine are computed again from the phase
 ROUNDED = 8.0 * 2.0**-52  # relative bound on the rounding error of a few operations
 SAME_TIME = 2.0**-48  # a run stops if no more time than this is left
@@ -159,7 +159,7 @@ class Impact(NamedTuple):
 
 @in_place
 def step_to_event(runs, c, work, integrals):
-    """Advance runs that wait for a pass over a step, which ends at an impact, at the end of the flight or earlier.
+    """Advance the waiting runs by one step, which ends at an impact, at the end of the flight or earlier.
 
     Returns the number of runs that need the event loop or stop. work (2 ORDER + 2, 8): workspace for polynomials.
     integrals: number of observed integrals.

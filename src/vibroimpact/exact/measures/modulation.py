@@ -22,7 +22,7 @@ def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
 def variation(amplitudes) -> float:
     """Return the standard deviation of the amplitudes divided by their mean.
 
-    The result is 0 for a steady response and d / sqrt(2) for a beat 1 + d cos.
+    The result is 0 for a steady response and d / sqrt(2) for a beat with the amplitudes 1 + d cos(...).
 
     It converges as the window becomes longer, unlike `extreme_depth`.
     """

@@ -6,7 +6,7 @@ import numpy as np
 
 _STEPS = 30
 _CONVERGED, _CONVERGED_LATE = 1e-12, 1e-8
-"""Relative steps that count as converged: in any step, and in the last one (double roots)."""
+"""Relative size of a Newton step below which a start has converged: at any step, and at the last one (double roots)."""
 
 
 def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
@@ -14,7 +14,7 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
 
     equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened so that no
     component exceeds `reach`. A start has converged once its step is below 1e-12 (1 + |x|) or, in the last step, below
-    1e-8 (1 + |x|). A start gives no root if it does not converge or meets a singular Jacobian.
+    1e-8 (1 + |x|). A start gives no root if it does not converge or if the Jacobian becomes singular.
 
     `starts` may have further columns after the d unknowns; they are passed to the equations and returned unchanged.
     """

@@ -19,7 +19,7 @@ from vibroimpact.system.state import BALLS, BOXES, MODULES, NAMES
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _STEP = 0.005  # spacing of samples of W in radians of the fastest oscillation; Hermite interpolation is exact to 2e-12
-_SAMPLES = 4096  # samples of each flight held at a time, so that memory does not grow with the period
+_SAMPLES = 4096  # samples of each flight computed at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
 _MOST_STARTS = 2**20
 _SIDES = "1_plus", "1_minus", "2_plus", "2_minus"

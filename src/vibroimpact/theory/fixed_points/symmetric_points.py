@@ -141,7 +141,7 @@ def search(system: System) -> FixedPointSearch:
     if system.modules == (1, 2):
         zeros, multiple = real_zeros(*balance.polynomials(), search_radius(system))
         solutions = _solutions(system, balance, zeros, multiple)
-    else:  # no point at rest, since the ball dissipates energy
+    else:  # without a force there is no fixed point, since the ball dissipates energy
         solutions = [solution for module in system.modules for solution in _of_one_module(balance, module - 1)]
     points = [_fixed_point(system, *solution) for solution in solutions]
     points.sort(key=lambda point: tuple(np.nan_to_num(point.C)))

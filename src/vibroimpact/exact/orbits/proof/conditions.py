@@ -60,7 +60,7 @@ def identity(size: int) -> arb_mat:
 
 
 class EnclosedConditions:
-    """The equations for one system, whose float64 matrices and forcing count as exact.
+    """The six equations of asymmetric.py for one system, whose float64 matrices and forcing count as exact.
 
     Raises
     ------
