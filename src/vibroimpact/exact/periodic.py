@@ -217,7 +217,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
 def determined(run):
     """Return a mask (8,) of the coordinates of active modules (`System.modules`), without those of neutral balls.
 
-    A neutral ball hits no wall, or its mass is immense; its position is a free parameter of the motion.
+    A neutral ball hits no wall or has an immense mass, so that its position is a free parameter of the motion.
     """
     changes = np.abs(run.jacobian - np.eye(8))
     turned = changes[[5, 7]].max(axis=1) > _NEUTRAL * max(1.0, changes.max())
@@ -238,7 +238,7 @@ def _nearer(run, step):
 
 
 def _with_free_balls_at_rest(system, x, periods, begin):
-    """Return the run from x, with a ball in neutral equilibrium at rest, since it returns to its position only then."""
+    """Return the run from x with neutral balls (`determined`) at rest, as they return to their positions only then."""
     run = simulate(system, x, periods, begin)
     free = _BALL_VELOCITIES & ~determined(run)
     return simulate(system, np.where(free, 0.0, x), periods, begin) if x[free].any() else run

@@ -88,7 +88,8 @@ def disk_cached(**options):
 def code_folder(package: Path) -> Path | None:
     """Return the cache folder for a package, or None if NUMBA_CACHE_DIR is set.
 
-    Numba needs a writable folder. If the library is read-only, the code compiled at its installation is copied to one.
+    Numba needs a writable folder. If the library is read-only, the code compiled at its installation is copied
+    to such a folder.
     """
     if config.CACHE_DIR:
         return None

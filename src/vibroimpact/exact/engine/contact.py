@@ -1,4 +1,4 @@
-"""Apply free flights, and the impacts, completed chatters, sticks and releases at one instant, to a motion.
+"""Apply a free flight, or all events of one instant, to a motion: impacts, completed chatters, sticks and releases.
 
 The impact law is defined in `vibroimpact.system.restitution`, which lists its other implementations.
 

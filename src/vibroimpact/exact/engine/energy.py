@@ -46,6 +46,7 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 class Potentials(NamedTuple):
     """Potentials S (4, k, 6, 6) and drifts c (4, k) for k integrals in each of the 4 contact states.
 
+    An integral over a flight is the difference of z S z + c t (see the module docstring), not of a potential energy.
     k = 0 means that Gauss's rule computes the integrals instead.
     """
 
@@ -149,7 +150,7 @@ class Energy(Representation):
         Change of the energy stored in boxes, balls and springs.
     per_cycle : ndarray
         Structured array (cycles,) of type ENERGY with these five energies for each forcing period since the start of
-        the run. An event exactly between two periods counts in the later one.
+        the run. An event exactly between two periods belongs to the later one.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Prove how long the constraints of a flight hold at least, and bracket the time at which one ceases to hold.
+"""Prove a time over which the constraints of a flight hold, and bracket the time at which one is first violated.
 
 A constraint is a smooth function g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. Its Taylor
 polynomial of degree 6 and a bound on its seventh derivative give a lower bound c0 + ... + c7 t^7 with coefficients

@@ -28,7 +28,7 @@ LARGEST_TIME = 2.0**43
 MOST_CYCLES = 10_000_000
 """Largest number of cycles in one run. A run stores all its events, which take about a kilobyte per cycle."""
 WALL_TOLERANCE = 1e-12
-"""Largest accepted distance of a ball beyond a wall in an initial state (plus rounding); the run starts on the wall."""
+"""Accepted distance of a ball beyond a wall in an initial state (plus rounding); the run moves it to the wall."""
 
 
 def checked_state(state) -> np.ndarray:

@@ -334,9 +334,9 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 class Growth(NamedTuple):
     """Growth of k orthonormal perturbations in each of the n cycles of a run.
 
-    factors (n, k): growth factors, |diagonal of R| in the QR decomposition. Where sticking loses a perturbation, its
-    factor is above 0 by rounding only. impacts (n,): number of impacts. stuck (n,): largest number of balls that stick
-    at the same time. frame (8, k): final perturbations, orthonormal again.
+    factors (n, k): growth factors, |diagonal of R| in the QR decomposition. Where sticking removes a perturbation,
+    its factor differs from 0 only by rounding. impacts (n,): number of impacts. stuck (n,): largest number of balls
+    that stick at the same time. frame (8, k): final perturbations, orthonormal again.
     """
 
     factors: np.ndarray

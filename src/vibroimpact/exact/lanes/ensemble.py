@@ -51,8 +51,8 @@ MOST_RUNS, SHARES = 1024, 4
 DEFERRED = INADMISSIBLE + 1
 """Status of a run that the lanes skip and `_single_run` computes."""
 MOST_LOG_RATIO = np.log(4.0)
-"""Largest log ratio of the rates of boxes and forcing for a run in lanes; beyond it a flight takes many steps, and the
-rounding errors of the steps add up."""
+"""Largest |log(rate of the boxes / forcing frequency)| for a run in lanes; beyond it a flight takes many steps, whose
+rounding errors add up."""
 
 
 def ensemble(
@@ -217,7 +217,7 @@ def _single_run(system, state, begin, stages, final, statistics):
     """Compute a run outside the lanes; return its status, and write final states (k, 8) and statistics (k, STATISTICS).
 
     This is for systems whose flights would take many steps in a lane, since the frequencies of boxes and forcing differ
-    much, and for systems whose energy integrals would lose digits as differences of potentials (`energy.Potentials`).
+    much, and for systems whose integrals would lose digits as differences of potentials (`energy.Potentials`).
     """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]

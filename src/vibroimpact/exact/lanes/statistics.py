@@ -1,7 +1,7 @@
 """Compute the statistics of runs in an ensemble: impacts, displacements of boxes, speeds of balls, integrals.
 
 In the lanes, statistics are added up flight by flight (`observe`); in the event loop, event by event
-(`accumulate_statistics`). Integrals are differences of potentials, which are not energies (`energy.Potentials`).
+(`accumulate_statistics`). Integrals are differences of potentials (`energy.Potentials`).
 
 A turn is a point at which a box reverses. If the hull of a step shows that a turn may be the largest displacement of
 the box so far, the turn is stored, but not yet computed. Stored turns are computed later for all lanes together
@@ -33,7 +33,7 @@ from vibroimpact.exact.lanes.rows import (
 )
 from vibroimpact.system.state import IMPACT, STICK
 
-PIECE = 4  # length in spacings of the flow table; a box turns at most once in a piece, except almost at rest
+PIECE = 4  # length in spacings of the flow table; a box turns at most once in a piece, except when almost at rest
 STEPS = 4  # number of Newton steps to find a turn
 
 

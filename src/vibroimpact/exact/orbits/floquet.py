@@ -161,8 +161,8 @@ def by_multipliers(jacobian: np.ndarray, residual: float, slowest: float) -> str
 
     A multiplier counts as inside or outside if its modulus differs from 1 by more than an error. This error is
     estimated to first order, as the condition number of the eigenvalue times the error of the monodromy matrix. The
-    matrix has errors from rounding and from the error of the orbit: the residual over the distance of the nearest
-    multiplier from +1 and over the slowest speed. Both errors are relative to the norm of the matrix.
+    matrix has errors from rounding and from the error of the orbit: the residual divided by the distance of the
+    nearest multiplier from +1 and by the slowest speed. Both errors are relative to the norm of the matrix.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ class Orbit(Representation):
         Ball speeds on the flights that start at each wall, shape (2, 2); some are negative for an inadmissible root.
     multipliers : ndarray
         Complex Floquet multipliers by descending modulus, shape (8,), or (4,) for a single machine. If both modules
-        impact at the same instant and gamma12 is not 0, they hold for perturbations after which module 1 impacts first.
+        impact at the same instant and gamma12 is not 0, they are for perturbations after which module 1 impacts first.
     state : ndarray
         State at tau = 0, shape (8,); if there is an impact at tau = 0, the state just after it.
     passage : Passage

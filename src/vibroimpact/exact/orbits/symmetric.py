@@ -212,10 +212,10 @@ def _line_starts(matrices, constant):
 
     The first start is the solution of the linear system.
 
-    If the matrix is singular (for identical modules in phase, for example), the solutions form a line that meets the
-    circle c^2 + s^2 = 1 twice. Near such a matrix both intersections are needed as starts. The other two starts are
-    therefore always the intersections for the line in the weakest direction, or its point nearest to the circle.
-    Missing starts are NaN.
+    If the matrix is singular (for identical modules in phase, for example), the solutions form a line that
+    intersects the circle c^2 + s^2 = 1 twice. Near such a matrix both intersections are needed as starts. The other two
+    starts are therefore always the intersections for the line in the weakest direction, or its point nearest to the
+    circle. Missing starts are NaN.
     """
     u, values, v = np.linalg.svd(matrices)
     parts = constant @ u

@@ -156,7 +156,7 @@ def _contract(pair, size, points):
     """Return a mask (n,) of the points that are simple zeros: Newton's method contracts in a box about the point.
 
     The condition follows Kantorovich's theorem. The shift of the zero due to rounding, plus the change of the Newton
-    step over the box with twice the second derivatives, must be smaller than the half-width of the box.
+    step over the box (from twice the second derivatives), must be smaller than the half-width of the box.
     """
     _, gradient, noise = _expanded(pair, size, points)
     by_x, by_y = _derivatives(pair)
