@@ -1,4 +1,4 @@
-"""Run work in threads on all cores; the compiled engine releases the global interpreter lock."""
+"""Run work on all cores, in threads, since the compiled engine releases the global interpreter lock."""
 
 import os
 import sys

@@ -246,7 +246,7 @@ def _end_of_chatter(flow, motion, i, counters):
 
 @inlined_source
 def _complete(flow, motion, i, counters):
-    """Complete the chatter of ball i if possible; return (motion, time until the chatter ends or -1)."""
+    """Complete the chatter of ball i if possible; return (motion, time until the chatter ends), or -1 as time."""
     done, end = _end_of_chatter(flow, motion, i, counters)
     if not done:
         return motion, -1.0

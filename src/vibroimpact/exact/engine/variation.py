@@ -82,7 +82,7 @@ def first_departure(start, phase):
 
 @inlined
 def next_departure(q, events, n, leaving, end):
-    """Return the departure after event n; if there is no event n, the previous one with time and phase in `end`."""
+    """Return the departure after event n, or `leaving` with the time and phase in `end` if there is no event n."""
     if n == len(events):
         return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
     event, walls = events[n], leaving.walls
@@ -142,7 +142,7 @@ def completes_chatter(events, n):
 
 @inlined
 def rests_at_start(events, n):
-    """Return True if event n is a stick at the start of the run, of a ball that rests on its wall."""
+    """Return True if event n is the stick, at the start of the run, of a ball that already rests on its wall."""
     first = events[n, 0] == 0.0 and events[n, 3] == STICK
     for k in range(n):
         first = first and events[k, 1] != events[n, 1]
