@@ -8,9 +8,9 @@ from vibroimpact.figures.plotting.style import SINGLE_COLUMN, styled
 SPEC = {
     "title": "The mechanical system",
     "notebook": "drawings",
-    "caption": "Fig. 10.1. The vibro-impact system: two boxes of mass :math:`M`, each with a ball of mass :math:`m` "
-        "that moves freely in a straight cavity, tied to the ground by :math:`k_i`, :math:`c_i` and to each other by "
-        ":math:`k_{12}`, :math:`c_{12}`, under forces :math:`F_i(t)`.",
+    "caption": "Fig. 10.1. The vibro-impact system: two boxes of mass :math:`M`, tied to the ground by :math:`k_i`, "
+        ":math:`c_i` and to each other by :math:`k_{12}`, :math:`c_{12}`, under forces :math:`F_i(t)`. In each box a "
+        "ball of mass :math:`m` moves freely in a straight cavity.",
     "alt": "Technical drawing. Two boxes of mass M in a row on rollers, each with a ball of mass m in a straight "
         "cavity. Springs and dampers tie box 1 to the left support, the boxes to each other, and box 2 to the right "
         "support. Arrows show the forces F1 and F2 and the coordinates x and y of boxes and balls.",
@@ -18,7 +18,7 @@ SPEC = {
         r"x_1) &= F_{10}\sin(\omega_1 t) \\ M\ddot x_2 + c_2\dot x_2 + k_2 x_2 + c_{12}(\dot x_2 - \dot x_1) + "
         r"k_{12}(x_2 - x_1) &= F_{20}\sin(\omega_2 t) \\ m\ddot y_1 = 0, \qquad m\ddot y_2 &= 0 \end{aligned} "
         r"\tag{10.1}"],
-    "method": "drawn to scale, nothing computed",
+    "method": "drawing to scale, without computed quantities",
 }  # fmt: skip
 
 WIDTH, HEIGHT = SINGLE_COLUMN, 39.0

@@ -12,7 +12,7 @@ SPEC = {
     "alt": "Technical drawing of one box with a ball in its cavity and the characteristic dimension L, the free path "
         "of the ball to either wall from the middle.",
     "equations": [r"|x_i - y_i| \le L, \qquad X_i = x_i/L, \quad Y_i = y_i/L, \quad W_i = X_i - Y_i"],
-    "method": "drawn to scale, nothing computed",
+    "method": "drawing to scale, without computed quantities",
 }  # fmt: skip
 
 WIDTH, HEIGHT = SINGLE_COLUMN, 46.0

@@ -16,8 +16,8 @@ SPEC = {
     "notebook": "closed_form",
     "caption": r"Fig. 10.3. The saw-tooth function :math:`Z_i(\tau_0)` of (10.11) for constant :math:`C_i` and "
         r":math:`\theta_i`; its corners are the impacts.",
-    "alt": "Triangle wave Z over tau_0 between C and -C; its corners, the impacts, are half a period apart, at theta, "
-        "theta + pi and so on.",
+    "alt": "Triangle wave Z against tau_0 between C and -C. Its corners, the impacts, are half a period apart, at "
+        "theta, theta + pi and so on.",
     "equations": [r"Z_i = \frac{2}{\pi}\,C_i \arcsin\left[\cos(\tau_0 - \theta_i)\right] \tag{10.11}"],
     "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
     "columns": {

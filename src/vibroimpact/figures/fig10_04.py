@@ -13,11 +13,11 @@ from vibroimpact.theory.masri import impact_multipliers, lower_limit, printed_li
 SPEC = {
     "title": "The slow invariant manifold",
     "notebook": "closed_form",
-    "caption": "Fig. 10.4. Slow invariant manifold (SIM): stable branch bold solid, unstable branch dashed, as (10.26) "
-        r"divides them; dotted: :math:`B_{\min}` and :math:`C_{\min}`. Inset: the stable piece of the left arm, from "
-        "the border by (10.26) to the fold.",
-    "alt": "V-shaped curve B over C with a rounded bottom that touches the dotted level B_min at C_min; the left arm "
-        "is dashed, unstable, the bottom and the right arm are bold, stable; an inset shows the bottom.",
+    "caption": "Fig. 10.4. Slow invariant manifold (SIM) with its stable branch (bold solid) and unstable branch "
+        r"(dashed) by (10.26); dotted: :math:`B_{\min}` and :math:`C_{\min}`. Inset: the stable piece of the left arm, "
+        "from the limit of (10.26) to the fold.",
+    "alt": "V-shaped curve of B against C. Its rounded bottom touches the dotted level B_min at C_min. The left arm is "
+        "dashed (unstable); the bottom and the right arm are bold (stable). An inset shows the bottom.",
     "equations": [
         r"B_i^2 = 1 - 2C_i + (1 + \rho^2)\,C_i^2, \qquad \rho = \frac{2(1-\kappa)}{\pi(1+\kappa)} \tag{10.16}",
         r"B_{\min} = \frac{\rho}{\sqrt{1+\rho^2}}, \qquad C_{\min} = \frac{1}{1+\rho^2} \tag{10.25}",
@@ -25,7 +25,7 @@ SPEC = {
     "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
     "columns": {
         "panel": {},
-        "series": {"meaning": r"the branches that (10.26) divides, and the level $B_{\min}$ of (10.25)", "values": [
+        "series": {"meaning": r"stable and unstable branch by (10.26), and the level $B_{\min}$ of (10.25)", "values": [
             "SIM stable", "SIM unstable", "B_min"]},
         "C, B": {"compared": "algebra"},
     },

@@ -15,14 +15,14 @@ SPEC = {
     "notebook": "closed_form",
     "caption": r"Fig. 10.5. Stable (shaded) and unstable (white) regions on the plane :math:`(\kappa, C_i)` by "
         r"(10.26); dotted: :math:`C_{\min}(\kappa)`.",
-    "alt": "Plane of kappa and C, shaded above a rising line, stable, and white below it, unstable. The dotted curve "
-        "C_min of kappa runs inside the shaded region and meets the line at kappa = 1.",
+    "alt": "Plane of kappa and C, divided by a rising line: shaded (stable) above, white (unstable) below. The dotted "
+        "curve C_min of kappa lies in the shaded region and meets the line at kappa = 1.",
     "equations": [r"C_i > \frac{4}{4 + \pi\rho} \tag{10.26}"],
     "method": "closed form: (10.11), (10.16), (10.25), (10.26)",
     "columns": {
         "panel": {},
-        "series": {"meaning": r"outlines of the regions that (10.26) divides, and the line $C_{\min}(\kappa)$ of "
-            "(10.25)", "values": ["stable", "unstable", "C_min"]},
+        "series": {"meaning": r"outlines of the regions of (10.26), and the line $C_{\min}(\kappa)$ of (10.25)",
+            "values": ["stable", "unstable", "C_min"]},
         "kappa, C": {"compared": "algebra"},
     },
 }  # fmt: skip

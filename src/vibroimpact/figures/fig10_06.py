@@ -20,9 +20,10 @@ SPEC = {
     "notebook": "fixed_points",
     "caption": r"Fig. 10.6. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` on the "
         "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` (grey "
-        "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed; an "
-        "arrow after :math:`S_2`: there is one further up the SIM, off the frame. Heads: verdicts of (10.26), those "
-        "of the chapter; it judges the impacts alone, and the exact motion may be unstable where it says stable.",
+        "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed. An "
+        "arrow after :math:`S_2` points to a singular point outside the frame. Headings: verdicts of (10.26), which "
+        "agree with the chapter. They concern the impacts alone; where they are stable, the exact motion may be "
+        "unstable.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
         "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, grey squares S1, S2 the "
         "singular points; in row b an arrow points to an S2 beyond the frame.",
@@ -30,7 +31,7 @@ SPEC = {
         "title": "Fixed points of case {case}",
         "caption": r"Fixed points of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, "
             "on the SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, "
-            ":math:`S_2` (grey squares), one row per fixed point. Heads: verdicts of (10.26), which judges the "
+            ":math:`S_2` (grey squares), one row per fixed point. Headings: verdicts of (10.26), which judges the "
             "impacts alone.",
         "alt": "A row for each fixed point of case {case}, of two planes, C1 and B1, C2 and B2, with the V-shaped "
             "manifold, its left arm dashed and its right arm bold. Black circles P1, P2 mark the fixed point of the "
@@ -43,8 +44,8 @@ SPEC = {
     "method": "manifold in closed form, singular points as real zeros of (10.24)",
     "columns": {
         "panel": {"meaning": "label of the fixed point and module: a1, a2, ..."},
-        "series": {"meaning": "both branches of the manifold as (10.26) divides them, the point's projection P_i, "
-            'singular points S_i of (10.24); "beyond" those outside the frame'},
+        "series": {"meaning": "both branches of the manifold by (10.26), the projection P_i of the fixed point, and "
+            'singular points S_i of (10.24); "beyond": those outside the frame'},
         "C, B": {"compared": "roots"},
     },
 }  # fmt: skip

@@ -32,7 +32,7 @@ SPEC = {
     "columns": {
         "panel": {"values": ["module 1", "module 2"]},
         "series": {"values": ["U_1", "X_1", "W_1", "Y_1", "U_2", "X_2", "W_2", "Y_2"]}, "tau": {"compared": "roots"},
-        "value": {"meaning": "the coordinate that the series names, $U_i$, $X_i$, $W_i$ or $Y_i$ by (10.9), (10.10)",
+        "value": {"meaning": "coordinate named in `series`: $U_i$, $X_i$, $W_i$ or $Y_i$ by (10.9), (10.10)",
             "unit": "dimensionless", "compared": "roots"},
     },
 }  # fmt: skip

@@ -18,12 +18,12 @@ SPEC = {
     },
     "equations": [r"W_i^{\prime +} = -\kappa\,W_i^{\prime -}, \qquad X_i^{\prime +} + \varepsilon Y_i^{\prime +} = "
         r"X_i^{\prime -} + \varepsilon Y_i^{\prime -}"],
-    "method": "motion of the second module as simulated, with its events as corners",
+    "method": "simulated motion of the second module, with a corner at each event",
     "columns": {
         "panel": {"values": ["a", "b"]}, "series": {"values": ["X_2", "W_2"]}, "tau": {"compared": "trajectory"},
         "cycle": {"meaning": r"time in forcing periods, $\tau/T$", "unit": "forcing periods", "compared": "trajectory"},
-        "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, as the series says; the events of module 2 are among the "
-            "points", "unit": "dimensionless", "compared": "trajectory"},
+        "value": {"meaning": "$X_2$ or $W_2 = X_2 - Y_2$, named in `series`; the points include the events of module 2",
+            "unit": "dimensionless", "compared": "trajectory"},
     },
 }  # fmt: skip
 

@@ -20,9 +20,9 @@ SPEC = {
     "equations": "fig10_07",
     "method": "leading order, (10.9) and (10.10), at a fixed point",
     "columns": {
-        "panel": {"meaning": "label of the fixed point and module; of its response the module"},
+        "panel": {"meaning": "label of the fixed point and module; for the response, the module"},
         "series": {"meaning": "as in figures 10.6 and 10.7"}, "C, B, tau": {"compared": "roots"},
-        "value": {"meaning": "the coordinate that the series names, $U_i$, $X_i$, $W_i$ or $Y_i$ by (10.9), (10.10)",
+        "value": {"meaning": "coordinate named in `series`: $U_i$, $X_i$, $W_i$ or $Y_i$ by (10.9), (10.10)",
             "unit": "dimensionless", "compared": "roots"},
     },
 }  # fmt: skip

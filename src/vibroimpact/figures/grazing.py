@@ -13,18 +13,18 @@ from vibroimpact.integrators import METHODS
 from vibroimpact.system import System
 
 SPEC = {
-    "title": "The error of each method over the depth of a grazing impact",
-    "caption": "Where methods fail. A ball meets its wall so softly that without the wall it would go beyond it by the "
-        "depth shown, in units of half the gap. A method that does not notice the impact (hollow marks) has an error "
-        "that falls with the root of the depth.",
-    "alt": "Error of the final state over the depth of an impact from 0.01 to 1e-14, both logarithmic, a named line "
-        "per method. Some methods leave the lower part, one after the other, for a common line with hollow marks, "
-        "that of a missed impact.",
+    "title": "Error of each method against the depth of a grazing impact",
+    "caption": "Where methods fail. A ball grazes its wall: without the wall it would move beyond it by the depth "
+        "shown, in units of half the gap. If a method misses the impact (hollow marks), its error decreases with the "
+        "square root of the depth.",
+    "alt": "Error of the final state against the depth of an impact from 0.01 to 1e-14, on logarithmic axes, with a "
+        "named line per method. One after the other, some methods leave the lower part for a common line with hollow "
+        "marks, the line of a missed impact.",
     "method": "error against a reference of extended precision",
     "file": "results/accuracy/grazing.csv",
     "columns": {
         "method": {},
-        "digits": {"meaning": "the ball would go beyond its wall by 10 to the power of minus this", "unit": "number",
+        "digits": {"meaning": "minus the decimal logarithm of the depth", "unit": "number",
             "compared": "algebra"},
         "verdict": {"meaning": "as in `stress_tests.csv`", "unit": "text"},
         "error_state": {"compared": "measured error", "infinite": True},

@@ -28,28 +28,29 @@ from vibroimpact.system.state import NAMES
 from vibroimpact.theory.fixed_points.table import fixed_point_table
 
 SPEC = {
-    "title": "Error against cost of each model in each scene",
-    "caption": "Every model that a figure can be computed with: its largest error, in percent of the axis, against the "
-        "time that it takes. The error is the distance from the exact orbits, for simulations from the reference "
-        "arithmetic, for chaos in the statistics of bursts. Filled: the model in use, the cheapest below the "
-        "tolerance (dotted). In the grey lane: the reference itself, and errors below 0.001 %.",
-    "alt": "A panel per figure from 10.6 to 10.11, error over time on logarithmic axes, with a named mark for each "
-        "model. The slow flow errs by 3 to 5 %, the second term by some tenths of a per cent. In double precision the "
-        "steady motion of figure 10.8 is in the grey lane, the chaotic one of 10.11 above the tolerance.",
-    "method": "each figure computed by each of its models, and compared in the quantities that it plots",
+    "title": "Error against run time of the models of each figure",
+    "caption": "Largest error of each model of a figure, in percent of the axis, against its run time. The reference "
+        "is the exact orbits or, for simulations, a run in arbitrary precision; for chaotic motions, statistics of "
+        "bursts are compared. Filled: the model in use, the cheapest below the tolerance (dotted). Grey lane: the "
+        "reference itself, and errors below 0.001 %.",
+    "alt": "A panel per figure from 10.6 to 10.11 with error against run time on logarithmic axes and a named mark for "
+        "each model. The error of the slow flow is 3 to 5 %, that of the second term some tenths of a per cent. In "
+        "double precision, the steady motion of figure 10.8 is in the grey lane, the chaotic one of 10.11 above the "
+        "tolerance.",
+    "method": "each figure is computed with each of its models; the plotted quantities are compared",
     "file": "results/accuracy/models.csv",
     "columns": {
-        "figure": {"meaning": "the figure", "unit": "text"},
-        "model": {"meaning": "one of its models, by rising cost", "unit": "text", "values": ["slow_flow",
+        "figure": {"meaning": "name of the figure", "unit": "text"},
+        "model": {"meaning": "model of the figure, in ascending order of cost", "unit": "text", "values": ["slow_flow",
             "exact_orbit", "second_term", "float64", "reference"]},
-        "compared_with": {"meaning": "what its error is the distance from", "unit": "text", "values": ["exact_orbit",
+        "compared_with": {"meaning": "reference of the error", "unit": "text", "values": ["exact_orbit",
             "reference", "statistics of bursts"]},
-        "error": {"meaning": "largest error of what the figure plots, over the range of its axis; infinite where the "
-            "model shows other motions", "unit": "per cent", "infinite": True},
-        "tolerance": {"meaning": "largest error that the figure may have", "unit": "per cent"},
-        "seconds": {"meaning": "run time of the whole figure, without drawing; that of a simulation as its run time "
-            "per forcing period", "unit": "seconds"},
-        "in_use": {"meaning": "the model that the figure is drawn with", "unit": "true or false"},
+        "error": {"meaning": "largest error of a plotted quantity over the range of its axis; infinite if the model "
+            "gives other motions", "unit": "per cent", "infinite": True},
+        "tolerance": {"meaning": "largest error allowed for the figure", "unit": "per cent"},
+        "seconds": {"meaning": "run time to compute the figure, without drawing; transients in arbitrary precision are "
+            "extrapolated from the time per forcing period", "unit": "seconds"},
+        "in_use": {"meaning": "True if the figure is drawn with this model", "unit": "true or false"},
     },
 }  # fmt: skip
 

@@ -10,16 +10,16 @@ from vibroimpact.figures.plotting.style import DOUBLE_COLUMN, new_figure, styled
 from vibroimpact.integrators import METHODS
 
 SPEC = {
-    "title": "Every method in every stress test",
-    "caption": "Where methods fail. In each cell: how many of the group's stress tests the method gets right, of how "
-        "many; the mark and the colour are those of its worst verdict, the colour is the deeper the more tests fail.",
-    "alt": "Table of marks: methods across, groups of stress tests down. A check mark means all right; else the worst "
-        "verdict: a question mark reported undecidable, an exclamation mark refused, an infinity sign did not finish, "
-        "a cross silently wrong.",
+    "title": "Results of every method in the stress tests",
+    "caption": "Where methods fail. Each cell gives the number of stress tests of the group that the method solves "
+        "correctly, and their total. Mark and colour show the worst verdict; the colour is deeper if more tests fail.",
+    "alt": "Table of marks with methods across and groups of stress tests down. A check mark means that all results "
+        "are right. Other marks show the worst verdict: a question mark reported undecidable, an exclamation mark "
+        "refused, an infinity sign did not finish, a cross silently wrong.",
     "method": "error against a reference of extended precision",
     "file": "results/accuracy/stress_tests.csv",
     "columns": {
-        "group": {"meaning": "what is hard", "unit": "text"},
+        "group": {"meaning": "difficulty that the tests of the group share", "unit": "text"},
         "test": {"meaning": "name of the test problem", "unit": "text"}, "method, family, setting": {},
         "steps": {"compared": "of the machine"},
         "verdict": {"meaning": "right: the error of the final state is at most 0.01, and no impact is missed or "
@@ -27,7 +27,7 @@ SPEC = {
             "reported undecidable", "refused with an error", "did not finish", "silently wrong", "unavailable"]},
         "error_state, error_time": {"compared": "measured error", "infinite": True},
         "missed, spurious": {"compared": "impacts"},
-        "reason": {"meaning": "what the method says of its failure or of its doubt", "unit": "text",
+        "reason": {"meaning": "why the run has no result, or why the method reports it as undecidable", "unit": "text",
             "compared": "of the machine"},
     },
 }  # fmt: skip

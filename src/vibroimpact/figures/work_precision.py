@@ -16,28 +16,29 @@ from vibroimpact.integrators import TIMED
 from vibroimpact.system import System
 
 SPEC = {
-    "title": "Error against time, method by method",
-    "caption": "Accuracy against speed: error against an independent reference of extended precision, and time per "
-        "forcing cycle, of eight methods with their settings on three test problems: the nearer to the lower left, the "
-        "better. Dotted: errors of :math:`10^{-6}` and :math:`10^{-12}`. Hollow marks: impacts missed or spurious. In "
-        "the lane at the right: runs without a result. The table has every method, setting and reason.",
+    "title": "Error against run time of every method",
+    "caption": "Accuracy and speed of eight methods with their settings on three test problems: error against an "
+        "independent reference of extended precision, and time per forcing cycle. Methods nearer to the lower left are "
+        "better. Dotted: errors of :math:`10^{-6}` and :math:`10^{-12}`. Hollow marks: missed or spurious impacts. "
+        "Lane at the right: runs without a result. The table lists every method, setting and reason.",
     "alt": "A panel per test problem with the error of the final state against the time per forcing cycle, both on "
-        "logarithmic axes, a named line per method. This engine stands alone in the lower left corner.",
+        "logarithmic axes, and a named line per method. Only the line of this engine is in the lower left corner.",
     "method": "error against a reference of extended precision, run time as measured",
     "file": "results/accuracy/work_precision.csv",
     "columns": {
-        "problem": {"meaning": "the test problem, one of `accuracy.problems` in the config", "unit": "text"},
+        "problem": {"meaning": "test problem in `accuracy.problems` of the config", "unit": "text"},
         "method, family, setting": {},
         "error_state, error_time": {"compared": "measured error", "infinite": True},
         "missed, spurious": {"compared": "impacts"},
         "seconds_per_cycle": {"meaning": "run time per forcing cycle, the shortest of several runs", "unit": "seconds",
             "compared": "of the machine"},
         "steps": {"compared": "of the machine"},
-        "evaluations": {"meaning": "evaluations of the right-hand side, 0 where the method does not count them",
+        "evaluations": {"meaning": "evaluations of the right-hand side, 0 if the method does not count them",
             "unit": "number", "compared": "of the machine"},
-        "outcome": {"meaning": "finished; refused: an error; unfinished: out of steps; unavailable", "unit": "text",
+        "outcome": {"meaning": "finished; refused: stopped with an error; unfinished: step limit reached; unavailable",
+            "unit": "text",
             "values": ["finished", "refused", "unfinished", "unavailable"]},
-        "reason": {"meaning": "why there is no result, or what the method itself calls undecidable", "unit": "text",
+        "reason": {"meaning": "why the run has no result, or why the method reports it as undecidable", "unit": "text",
             "compared": "of the machine"},
         "order": {"meaning": "order of convergence: slope of log error over log step, for methods that have one",
             "unit": "dimensionless", "compared": "order"},
