@@ -8,13 +8,13 @@ from matplotlib.patches import Circle, Rectangle
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT_GREY, new_figure, styled
 
 SPEC = {
-    "title": "The motion of case {case}",
-    "caption": r"The motion of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`: of one "
-        "cycle six instants, where :math:`T` is the forcing period and a star marks a wall that is hit before the next "
-        "instant; of several cycles the displacements of both boxes (grey) and their envelopes (black).",
-    "alt": "Of one cycle of case {case} six small pictures of two boxes on springs with a ball in each, at successive "
-        "instants; of several cycles the displacement of each box within its envelope.",
-    "method": "the window of a simulation, frame by frame",
+    "title": "Motion of case {case}",
+    "caption": r"Motion of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`. For one "
+        "cycle: six instants, where :math:`T` is the forcing period and a star marks a wall that is hit before the "
+        "next instant. For several cycles: the displacements of both boxes (grey) and their envelopes (black).",
+    "alt": "For one cycle of case {case}: six small pictures of two boxes on springs with a ball in each, at "
+        "successive instants. For several cycles: the displacement of each box within its envelope.",
+    "method": "frames of the simulated window",
 }  # fmt: skip
 
 REST_POSITIONS = {1: -3.0, 2: 3.0}

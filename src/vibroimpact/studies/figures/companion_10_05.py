@@ -10,17 +10,18 @@ from vibroimpact.theory.masri import lower_limit, printed_limit, upper_limit
 
 SPEC = {
     "title": "Stability regions as derived",
-    "caption": "Companion of Fig. 10.5. The region where the motion exists and is stable (shaded), as derived; dashed: "
-        "where the ball leaves the box; dotted: the printed limit (10.26).",
+    "caption": "Companion of Fig. 10.5. Region where the motion exists and is stable, as derived (shaded). Dashed: "
+        "limit at which the ball leaves the box. Dotted: the printed limit (10.26).",
     "alt": "Plane of kappa and C. The shaded region of stable motion lies between the curve C_min and a horizontal "
-        "line, cut off at small kappa by the dashed limit at which the ball leaves the box. The printed limit is "
+        "line. At small kappa, the dashed limit at which the ball leaves the box cuts it off. The printed limit is "
         "dotted, below the region.",
     "equations": [r"p\cot p = \frac{1}{1+\kappa}, \qquad \frac{1}{C_{\mathrm g}} = 1 - "
         r"\frac{2p}{\pi}\big(1+\kappa\cot^2p\big)"],
     "method": "closed form: (10.26), limits of Masri's analysis; penetration as a root",
     "columns": {
         "series": {"meaning": r"lines of $C_{\min}$, of $\pi^2/(\pi^2 - 4)$, of the $C$ at which the ball grazes the "
-            "wall that it has left, and of (10.26)", "values": ["fold", "symmetry breaking", "penetration", "printed"]},
+            "wall that it has just left, and of (10.26)", "values": ["fold", "symmetry breaking", "penetration",
+            "printed"]},
         "kappa, C": {"compared": "algebra"},
     },
     "tables": {

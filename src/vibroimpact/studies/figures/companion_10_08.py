@@ -11,22 +11,21 @@ from vibroimpact.theory.fixed_points.table import labelled_points
 from vibroimpact.theory.response import impact_times, leading_order
 
 SPEC = {
-    "title": "Two motions, one figure",
-    "caption": "Companion of Figs. 10.7 and 10.8: the relative displacement :math:`W_2` over the phase of the forcing, "
-        "by the theory at the fixed point nearest to the simulated motion, and as simulated, with the length of each "
-        "flight in forcing periods :math:`T`. Grey: the mirror image of the simulated motion, half a period later with "
-        "all signs changed, which the equations allow as well.",
-    "alt": "W2 over two forcing periods. By the theory it goes from wall to wall in flights of equal length, half a "
-        "period each. As simulated, long and short flights take turns; another curve shows the mirror image of that "
-        "motion.",
+    "title": "Predicted and simulated flights",
+    "caption": "Companion of Figs. 10.7 and 10.8: relative displacement :math:`W_2` against the phase of the forcing, "
+        "predicted at the fixed point nearest to the simulated motion, and simulated, with the length of each flight "
+        "in forcing periods :math:`T`. Grey: mirror image of the simulated motion, half a period later with all signs "
+        "changed, which also solves the equations.",
+    "alt": "W2 over two forcing periods. In the theory, all flights from wall to wall take half a period. In the "
+        "simulation, long and short flights alternate; another curve shows the mirror image of this motion.",
     "equations": [r"W_{i0} = B_i\sin(\tau_0 + \phi_i) + Z_i \tag{10.10}"],
-    "method": "(10.10) at the fixed point nearest to the simulated motion, and that motion",
+    "method": "(10.10) at the fixed point nearest to the simulated motion, and the simulated motion",
     "columns": {
         "panel": {"values": ["theory", "simulation"]},
         "series": {"meaning": "the motion; its mirror image, half a period later with all signs changed; the impacts",
             "values": ["W_2", "mirror image", "impact"]},
         "label": {"meaning": "label of the fixed point", "unit": "text"},
-        "phase": {"meaning": r"time since a forcing period began, $\tau/T$", "unit": "forcing periods",
+        "phase": {"meaning": r"time since the start of a forcing period, $\tau/T$", "unit": "forcing periods",
             "compared": "trajectory"},
         "W2": {"meaning": "$W_2 = X_2 - Y_2$", "unit": "dimensionless", "compared": "trajectory"},
     },

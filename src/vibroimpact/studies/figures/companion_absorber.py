@@ -29,72 +29,76 @@ from vibroimpact.studies.regimes.settling import settle as settled
 from vibroimpact.studies.sweeps.grid import axis
 
 SPEC = {
-    "title": "How low balls bring the peak",
+    "title": "Peak reduction by impacting balls",
     "caption": r"Peaks of :math:`|X_i|/f`, displacement per static deflection with :math:`f = \varepsilon\hat f_{i0}`, "
-        "in a band of frequencies, over the clearance, at the restitution coefficient of the chapter and at the best "
-        "that was tried: at the worst frequency of the band, what one cycle in a hundred exceeds. Level lines: no "
-        "balls, and the best linear absorbers of the mass of the balls, in closed form. Stars: the lowest peaks, "
-        "measured again from rest and seven other starts at twice as many frequencies.",
-    "alt": "Peak over clearance on logarithmic axes. Two valleys of dots, that of small restitution half as high as "
-        "that of the chapter's, lie between a level line without balls far above and one of the best linear absorbers "
-        "at half the height of the lower valley.",
-    "method": "the points of three sweeps; linear systems in closed form, absorbers tuned by optimisation",
+        "in a band of frequencies against the clearance, at the restitution coefficient of the chapter and at the best "
+        "one tested. A peak is the value exceeded in 1 % of the cycles at the worst frequency of the band. Level "
+        "lines: no balls, and the best linear absorbers with the mass of the balls, in closed form. Stars: the lowest "
+        "peaks, measured again from rest and seven other starts at twice as many frequencies.",
+    "alt": "Peak against clearance on logarithmic axes, with two valleys of dots. The valley of the small restitution "
+        "coefficient is half as high as that of the chapter's. Of two level lines, the one without balls lies far "
+        "above, the one of the best linear absorbers at half the height of the lower valley.",
+    "method": "points of three sweeps; linear systems in closed form; absorbers tuned by optimisation",
     "sweeps": {"clearance": {"along": [["f10_hat", "f20_hat"]],
         "observe": ["peaks", "amplitudes", "envelopes", "energy", "regimes"]},
         "design": {"along": [["kappa"], ["f10_hat", "f20_hat"]], "observe": ["peaks"]}},
     "columns": {
-        "sweep": {"meaning": "the sweep of the config", "unit": "text", "values": ["clearance", "design"]},
+        "sweep": {"meaning": "sweep of the config", "unit": "text", "values": ["clearance", "design"]},
         "kappa": {"compared": "algebra"},
         "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection", "unit": "dimensionless",
             "compared": "algebra"},
-        "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band, of the box that moves more: what one cycle in "
-            "a hundred of all starts exceeds", "unit": "dimensionless", "compared": "extremes"},
-        "one_ball": {"meaning": "the same from rest, where only one ball ever meets a wall; blank elsewhere",
+        "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band for the box that moves more: value exceeded in "
+            "1 % of the cycles of all starts", "unit": "dimensionless", "compared": "extremes"},
+        "one_ball": {"meaning": "the same for the start from rest, if only one ball ever hits its walls; otherwise "
+            "blank",
             "unit": "dimensionless", "compared": "extremes"},
     },
     "tables": {
         "summary": {
             "file": "results/absorber.csv",
-            "about": "What the balls are good for, in numbers, at the system of the sweep `clearance` and along its "
-                "band.",
+            "about": "Effect of the balls in numbers, for the system and the band of the sweep `clearance`.",
             "columns": {
-                "quantity": {"meaning": r"peak: the largest $\lvert X_i\rvert/f$ in the band, of balls what one "
-                    "cycle in a hundred exceeds, at the clearance (and kappa) where it is lowest in the sweep. lowest "
-                    "peak: the same at each kappa of the sweep `design`. plateau: the largest kappa up to which lowest "
-                    "peaks are at most 1.2 times the lowest of all; plateau from, plateau to: the least and the "
-                    r"greatest of these. stroke: the largest $\lvert X_i - Y_i\rvert/f$ in the band, the room that "
-                    "linear absorbers need to each side; of balls the clearance. Of balls against who, at one "
-                    "force: frequencies won, the share of frequencies at which the boxes move less with balls; least "
-                    r"and greatest of the largest $\lvert X_i\rvert$ over that of who. decay: cycles until a tenth of "
-                    "the energy of an impulse on box 1 is left, of balls after the impulse for which this is soonest",
+                "quantity": {"meaning": r"peak: largest $\lvert X_i\rvert/f$ in the band (with balls, the value "
+                    "exceeded in 1 % of the cycles) at the clearance (and kappa) with the lowest peak in the sweep. "
+                    "lowest peak: the same at each kappa of the sweep `design`. plateau: largest kappa up to which all "
+                    "lowest peaks are at most 1.2 times the lowest of all; plateau from, plateau to: the least and the "
+                    r"greatest of these peaks. stroke: largest $\lvert X_i - Y_i\rvert/f$ in the band, the room that "
+                    "linear absorbers need on each side; for balls, the clearance. For balls compared with `who` at "
+                    "one force: frequencies won, share of frequencies at which the boxes move less with balls; least "
+                    r"and greatest, extremes of the ratio of the largest $\lvert X_i\rvert$ to that of `who`. decay: "
+                    "cycles until a tenth of the energy of an impulse on box 1 is left; for balls, after the impulse "
+                    "with the shortest decay",
                     "unit": "text", "values": ["peak", "lowest peak", "plateau", "plateau from", "plateau to",
                     "stroke", "frequencies won", "least", "greatest", "decay"]},
                 "who": {"meaning": "balls at the kappa of the config, balls at the best kappa of the sweep `design`, "
-                    "one ball at the kappa of the config while the other meets no wall, or what they are held against",
+                    "one ball at the kappa of the config while the other hits no wall, or the linear system for "
+                    "comparison",
                     "unit": "text", "values": ["balls", "balls, best kappa", "one ball", "without balls", "balls fixed",
                     "absorbers of the textbook", "best absorbers"]},
-                "value": {"meaning": "what the quantity says; of a peak of balls the lower of two measured again where "
-                    "the sweep has its lowest, from rest and seven other starts, at frequencies half-way between, too; "
-                    "with one ball as in the sweep, from rest", "unit": "dimensionless", "compared": {
+                "value": {"meaning": "value of the quantity. For a peak with balls, the two lowest peaks of the sweep "
+                    "are measured again, from rest and seven other starts, also at frequencies half-way between; the "
+                    "value is the lower result. For one ball, it is the peak of the sweep, from rest",
+                    "unit": "dimensionless", "compared": {
                     "decay": "trajectory", "without balls": "algebra",
                     "balls fixed": "algebra", "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
                     "frequencies won": "shares", "least": "extremes", "greatest": "extremes", "others": "peaks"}},
-                "spread": {"meaning": "standard error of `value`: the jackknife, one start left out at a time",
+                "spread": {"meaning": "standard error of `value` by the jackknife, with one start left out at a time",
                     "unit": "dimensionless", "compared": "spreads"},
-                "largest": {"meaning": r"the largest $\lvert X_i\rvert/f$ in the same cycles. Of a chaotic motion it "
-                    "grows with their number, as `value` does not", "unit": "dimensionless", "compared": "peaks"},
-                "of_absorbers, of_without": {"meaning": "of a peak: the value over that of the best absorbers, and "
-                    "over that without balls", "unit": "dimensionless", "compared": "peaks"},
-                "swept": {"meaning": "the peak there as the sweep has it", "unit": "dimensionless",
+                "largest": {"meaning": r"largest $\lvert X_i\rvert/f$ in the same cycles. For a chaotic motion it "
+                    "increases with their number, in contrast to `value`", "unit": "dimensionless",
+                    "compared": "peaks"},
+                "of_absorbers, of_without": {"meaning": "for a peak, ratio of the value to that of the best absorbers, "
+                    "and to that without balls", "unit": "dimensionless", "compared": "peaks"},
+                "swept": {"meaning": "peak at the same point in the sweep", "unit": "dimensionless",
                     "compared": "extremes"},
                 "kappa": {"compared": {"lowest peak": "algebra", "others": "places"}},
                 "f10_hat, f20_hat": {"compared": {"peak": "places", "lowest peak": "places", "others": "algebra"}},
-                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at which the peak is met",
+                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at the peak",
                     "unit": "dimensionless", "compared": "places"},
-                "clearance, narrowest, widest": {"meaning": "$1/f = k_1L/F$, clearance over static deflection, where "
-                    "the peak is lowest; and how far about it, on the grid of the sweep, it is at most 1.25 times as "
-                    "high", "unit": "dimensionless", "compared": "places"},
-                "regime": {"meaning": "the `regime` that most starts end in there", "unit": "text",
+                "clearance, narrowest, widest": {"meaning": "$1/f = k_1L/F$, clearance over static deflection, at the "
+                    "lowest peak, and the ends of the range around it, on the grid of the sweep, in which the peak is "
+                    "at most 1.25 times as high", "unit": "dimensionless", "compared": "places"},
+                "regime": {"meaning": "`regime` that most starts reach there", "unit": "text",
                     "compared": "places"},
             },
         },
@@ -241,8 +245,8 @@ def _regime(system, place, observation, number, seed):
 
 def _of_restitution(places):
     rows = [{"quantity": LOWEST, "who": BALLS, **place} for place in places]
-    told = zip((PLATEAU, FROM, TO), plateau(places), strict=True)
-    return [*rows, *({"quantity": quantity, "who": BALLS, "value": value} for quantity, value in told)]
+    named = zip((PLATEAU, FROM, TO), plateau(places), strict=True)
+    return [*rows, *({"quantity": quantity, "who": BALLS, "value": value} for quantity, value in named)]
 
 
 def plateau(places):

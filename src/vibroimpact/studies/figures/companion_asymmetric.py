@@ -23,99 +23,102 @@ from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, lower_limit
 
 SPEC = {
     "title": "The asymmetric branch of the manifold",
-    "caption": "Motions whose balls take unequal time for their two flights. a: the manifold; where symmetry breaks, "
-        r"at :math:`C_i = \pi^2/(\pi^2-4)`, its stable part goes on as an asymmetric branch. Circles: fixed points of "
-        r"the slow flow on that branch; diamonds: exact asymmetric orbits at the :math:`\varepsilon` of the cases. "
-        r"Then, per case, how unequal the flights of each exact pair of mirror images are as :math:`\varepsilon` falls "
-        "(:math:`v`: difference of the flight times over the period), down to the fixed point that it leads to; named "
-        r"is its verdict at the :math:`\varepsilon` of the case. The stable pair of the equal case, A3 in "
-        "`orbits.csv`, is the response of Fig. 10.8.",
-    "alt": "First panel: B over C with a V-shaped curve, bold where stable, from whose right arm a green curve rises "
-        "steeply, circles and diamonds next to it. Other panels: lines of v squared over epsilon from diamonds, "
-        "named stable or unstable, to circles at epsilon 0; the lowest line crosses zero just before.",
+    "caption": "Motions whose balls take unequal times for their two flights. a: the manifold. At :math:`C_i = "
+        r"\pi^2/(\pi^2-4)`, symmetry breaks, and the stable part continues as an asymmetric branch. Circles: fixed "
+        r"points of the slow flow on this branch; diamonds: exact asymmetric orbits at the :math:`\varepsilon` of the "
+        "cases. Other panels, one per case: asymmetry of the flights of each exact pair of mirror images (:math:`v`: "
+        r"difference of the flight times over the period) as :math:`\varepsilon` decreases, down to the fixed point "
+        r"that is its limit. Labels: verdict at the :math:`\varepsilon` of the case. The stable pair of the equal "
+        "case, A3 in `orbits.csv`, is the response of Fig. 10.8.",
+    "alt": "First panel: a V-shaped curve of B against C, bold where stable. A green curve rises steeply from its "
+        "right arm, with circles and diamonds next to it. Other panels: lines of v squared against epsilon from "
+        "diamonds, labelled stable or unstable, to circles at epsilon 0; the lowest line crosses zero just before.",
     "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
         r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
-    "method": "closed form, fixed points, and exact asymmetric responses followed to small epsilon",
+    "method": "closed form, fixed points, and exact asymmetric responses continued to small epsilon",
     "columns": {
-        "series": {"meaning": "a piece of the manifold", "values": ["symmetric, left", "symmetric, stable",
+        "series": {"meaning": "piece of the manifold", "values": ["symmetric, left", "symmetric, stable",
             "symmetric, right", "asymmetric, stable", "asymmetric, right"]},
         "C, B": {"compared": "algebra"},
     },
     "tables": {
         "modules": {
             "file": "results/figures/companion_asymmetric.modules.csv",
-            "about": "Modules with unequal flights in the plane of `companion_asymmetric`: of fixed points and exact "
-                "orbits, one of each pair of mirror images.",
+            "about": "Modules with unequal flights in the plane of `companion_asymmetric`, for fixed points and for "
+                "exact orbits, one of each pair of mirror images.",
             "columns": {
-                "case": {}, "series": {"meaning": "of what", "values": ["fixed point", "exact orbit"]},
+                "case": {}, "series": {"meaning": "type of solution", "values": ["fixed point", "exact orbit"]},
                 "label": {"meaning": "label in `asymmetric_fixed_points.csv` or `orbits.csv`", "unit": "text"},
-                "module": {"meaning": "the module, 1 or 2", "unit": "number", "compared": "algebra"},
+                "module": {"meaning": "module, 1 or 2", "unit": "number", "compared": "algebra"},
                 "C, B": {"compared": "roots"},
             },
         },
         "pairs": {
             "file": "results/figures/companion_asymmetric.pairs.csv",
-            "about": r"How unequal the flights of exact pairs are as $\varepsilon$ falls.",
+            "about": r"Asymmetry of the flights of exact pairs of orbits as $\varepsilon$ decreases.",
             "columns": {
                 "case": {}, "label": {"meaning": "label in `orbits.csv`", "unit": "text"},
-                "exact": {"meaning": r"verdict of the multipliers at the $\varepsilon$ of the case"},
+                "exact": {"meaning": r"verdict by the multipliers at the $\varepsilon$ of the case"},
                 "epsilon": {"compared": "algebra"},
                 "squared": {"meaning": "$v^2$ of the module with the more unequal flights", "unit": "dimensionless",
                     "compared": "roots"},
-                "limit": {"meaning": "the same of the fixed point that the pair leads to; blank without one",
+                "limit": {"meaning": "the same for the fixed point that is the limit of the pair; blank if there is "
+                    "none",
                     "unit": "dimensionless", "compared": "roots"},
             },
         },
         "points": {
             "file": "results/asymmetric_fixed_points.csv",
-            "about": "All fixed points of the slow flow in which a ball takes unequal time for its two flights, of all "
-                r"cases, with $C_1, C_2 \ge 0$ ([derivation](derivation.md), section 11), and the exact pairs that "
-                r"lead to them as $\varepsilon$ falls.",
+            "about": "All fixed points of the slow flow in which a ball takes unequal times for its two flights, for "
+                r"all cases, with $C_1, C_2 \ge 0$ ([derivation](derivation.md), section 11), and the exact pairs "
+                r"whose limits they are for $\varepsilon \to 0$.",
             "columns": {
                 "case": {}, "label": {"meaning": "U1, U2, ... by ascending $C_1$", "unit": "text"},
-                "squared1, squared2": {"meaning": "$v_i^2$, $v_i$ the difference of the two flight times of ball $i$ "
-                    "over the period, 0 where they are equal; below 0 no motion at leading order, but where the branch "
-                    "goes on beyond symmetry breaking", "unit": "dimensionless"},
+                "squared1, squared2": {"meaning": "$v_i^2$, where $v_i$ is the difference of the two flight times of "
+                    "ball $i$ over the period, 0 if they are equal; negative for solutions on the continuation of the "
+                    "branch beyond symmetry breaking, which are no motions at leading order", "unit": "dimensionless"},
                 "C1, C2, B1, B2, psi1, psi2": {},
-                "real": {"meaning": r"a motion at leading order, $v_i^2 \ge 0$", "unit": "true or false"},
-                "admissible": {"meaning": "one in which, at leading order, both balls stay between their walls",
+                "real": {"meaning": r"True for a motion at leading order, $v_i^2 \ge 0$", "unit": "true or false"},
+                "admissible": {"meaning": "True for a motion in which, at leading order, both balls stay between their "
+                    "walls",
                     "unit": "true or false"},
-                "impact_map": {"meaning": "Masri's analysis for equal and unequal flights: the impact maps of both "
-                    r"modules, $B_i$ and $\phi_i$ held", "unit": "text", "values": ["stable", "unstable", "undecided"]},
-                "slow_flow": {"meaning": "the real parts of all eigenvalues of the slow flow on this branch are "
-                    "negative", "unit": "text", "values": ["stable", "unstable", "undecided"]},
-                "modulus": {"meaning": "largest modulus of the multipliers that impact maps and slow flow predict, "
-                    "over a forcing period", "unit": "dimensionless"},
-                "lost_at": {"meaning": "of a point that the slow flow calls stable: the factor of both forces, below "
-                    "1, at which its symmetric module sinks to the fold of the manifold; blank if there is none above "
-                    "a half", "unit": "dimensionless"},
-                "orbit": {"meaning": "label in `orbits.csv` of the exact orbit (one of two mirror images) that leads "
-                    "here; blank if there is none", "unit": "text"},
-                "distance": {"meaning": r"of that orbit, at the $\varepsilon$ of the case: norm of the difference in "
-                    "$C_1$, $C_2$, $v_1^2$, $v_2^2$ and the phases [radians] half-way between the impacts of each "
-                    "module", "unit": "dimensionless"},
-                "onset": {"meaning": r"the $\varepsilon$ at which the exact pair is born from a symmetric orbit; 0 if "
-                    r"it reaches $\varepsilon = 0$", "unit": "dimensionless"},
-                "order": {"meaning": r"the exponent $p$ of distance $\sim \varepsilon^p$, fitted to the smallest "
-                    r"$\varepsilon$", "unit": "dimensionless"},
-                "uncertainty": {"meaning": "its standard error", "unit": "dimensionless"},
-                "slow_error": {"meaning": "at `at_epsilon`: largest error of a predicted slow rate, "
-                    r"$\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$", "unit": "dimensionless"},
-                "fast_error": {"meaning": "at `at_epsilon`: largest error of a predicted fast multiplier",
+                "impact_map": {"meaning": "verdict of Masri's analysis for equal and unequal flights on the impact "
+                    r"maps of both modules, with constant $B_i$ and $\phi_i$", "unit": "text", "values": ["stable",
+                    "unstable", "undecided"]},
+                "slow_flow": {"meaning": "verdict of the slow flow on this branch: stable if the real parts of all "
+                    "eigenvalues are negative", "unit": "text", "values": ["stable", "unstable", "undecided"]},
+                "modulus": {"meaning": "largest modulus of the multipliers over a forcing period, predicted by impact "
+                    "maps and slow flow", "unit": "dimensionless"},
+                "lost_at": {"meaning": "for a point that is stable in the slow flow, factor of both forces, below 1, "
+                    "at which its symmetric module reaches the fold of the manifold; blank if there is none above 0.5",
                     "unit": "dimensionless"},
-                "at_epsilon": {"meaning": r"the smallest $\varepsilon$ that the pair was followed to",
+                "orbit": {"meaning": "label in `orbits.csv` of the exact orbit (one of two mirror images) whose limit "
+                    "is this point; blank if there is none", "unit": "text"},
+                "distance": {"meaning": r"distance of this orbit from the point at the $\varepsilon$ of the case: norm "
+                    "of the difference in $C_1$, $C_2$, $v_1^2$, $v_2^2$ and the phases [radians] half-way between the "
+                    "impacts of each module", "unit": "dimensionless"},
+                "onset": {"meaning": r"$\varepsilon$ at which the exact pair branches off a symmetric orbit; 0 if it "
+                    r"reaches $\varepsilon = 0$", "unit": "dimensionless"},
+                "order": {"meaning": r"exponent $p$ of distance $\sim \varepsilon^p$, fitted to the smallest "
+                    r"$\varepsilon$", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "standard error of `order`", "unit": "dimensionless"},
+                "slow_error": {"meaning": "largest error of a predicted slow rate at `at_epsilon`, "
+                    r"$\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$", "unit": "dimensionless"},
+                "fast_error": {"meaning": "largest error of a predicted fast multiplier at `at_epsilon`",
+                    "unit": "dimensionless"},
+                "at_epsilon": {"meaning": r"smallest $\varepsilon$ to which the pair was followed",
                     "unit": "dimensionless"},
             },
         },
         "relaxation": {
             "file": "results/regimes/relaxation.csv",
-            "about": "The modulated response as the slow flow sees it, drift to the fold of the manifold and return at "
-                "$B = 1$ ([derivation](derivation.md), section 12), of every case, a row per module.",
+            "about": "Modulated response in the slow flow: drift to the fold of the manifold and return at $B = 1$ "
+                "([derivation](derivation.md), section 12), for every case, one row per module.",
             "columns": {
                 "case, module": {},
-                "burst": {"meaning": "mean length of a stretch in resonance; blank if none ends",
+                "burst": {"meaning": "mean length of a resonant interval; blank if none ends",
                     "unit": "forcing periods"},
-                "share": {"meaning": "part of the time in resonance", "unit": "share"},
+                "share": {"meaning": "share of the time in resonance", "unit": "share"},
                 "largest": {"meaning": "largest $B_i$", "unit": "dimensionless"},
             },
         },

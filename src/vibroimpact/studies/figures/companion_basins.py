@@ -13,15 +13,15 @@ from vibroimpact.system.state import NAMES
 
 SPEC = {
     "title": "Basins of coexisting responses",
-    "caption": "Basins: in which response a start ends, on the plane of starts whose boxes and velocities are those of "
-        r"the stable asymmetric orbit (circle) at :math:`\tau = 0`. Diamond: its mirror image, whose boxes are then "
-        "elsewhere.",
-    "alt": "Map of a plane of starts, each cell in the colour of the response in which the start ends, with the case "
-        "in the heading. A circle marks the stable orbit in its own colour, a diamond its mirror image. Below, a key.",
-    "method": "direct integration of (10.1) from many starts, until it repeats",
+    "caption": "Basins of attraction: the response that each start reaches, in the plane of starts that share the "
+        r"positions of the boxes and all velocities with the stable asymmetric orbit (circle) at :math:`\tau = 0`. "
+        "Diamond: mirror image of this orbit, with other positions of the boxes at that time.",
+    "alt": "Map of a plane of starts. Each cell has the colour of the response that the start reaches; the heading "
+        "names the case. A circle marks the stable orbit in its own colour, a diamond its mirror image. Below, a key.",
+    "method": "direct integration of (10.1) from many starts, until the motion repeats",
     "columns": {
         "panel": {"meaning": "the case"},
-        "label": {"meaning": "regime that the start ends in; of two mirrored asymmetric responses one is called "
+        "label": {"meaning": "regime that the start reaches; of two mirrored asymmetric responses, one is called "
             "mirrored", "unit": "text", "compared": "cells of a basin"},
         "W1, W2": {"meaning": r"$W_i = X_i - Y_i$ at $\tau = 0$", "unit": "dimensionless", "compared": "algebra"},
     },
@@ -30,9 +30,10 @@ SPEC = {
             "file": "results/figures/companion_basins.orbits.csv",
             "about": "The stable asymmetric orbit of `companion_basins` and its mirror image, or boxes at rest.",
             "columns": {
-                "series": {"meaning": "the state whose boxes and velocities all starts share, the orbit itself where "
-                    "there is one, and its mirror image", "values": ["shared", "mirror image"]},
-                "X1, Y1, X2, Y2, dX1, dY1, dX2, dY2": {"meaning": r"place or velocity (d is d/dtau) at $\tau = 0$",
+                "series": {"meaning": "shared: the state whose box positions and velocities all starts have, the orbit "
+                    "if there is one; its mirror image", "values": ["shared", "mirror image"]},
+                "X1, Y1, X2, Y2, dX1, dY1, dX2, dY2": {"meaning": r"displacement or velocity (d is d/dtau) at $\tau = "
+                    "0$",
                     "unit": "dimensionless", "compared": "roots"},
             },
         },
@@ -40,9 +41,9 @@ SPEC = {
             "file": "results/regimes/basin_shares.csv",
             "about": "Share of the plane of `companion_basins` that leads to each regime.",
             "columns": {
-                "regime": {"meaning": "the `label` of `companion_basins`", "unit": "text", "values": []},
+                "regime": {"meaning": "`label` in `companion_basins`", "unit": "text", "values": []},
                 "share": {"meaning": "share of the starts", "unit": "share"},
-                "uncertainty": {"meaning": "its binomial standard error", "unit": "share"},
+                "uncertainty": {"meaning": "binomial standard error of the share", "unit": "share"},
             },
         },
     },

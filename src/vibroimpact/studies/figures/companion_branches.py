@@ -40,78 +40,81 @@ from vibroimpact.studies.regimes.families import (
 from vibroimpact.studies.regimes.settling import Observation, settle
 
 SPEC = {
-    "title": "Branches of 1:1 responses and what attracts",
-    "caption": "Branches of 1:1 responses over the forcing, from the theory and exact: stable bold solid, unstable "
-        "dashed. Marked are their folds and ends, and where stability is lost; all other special points are in "
-        "`special_points.csv`. Vertical lines: the cases. Dots: where simulations from several starts end.",
-    "alt": "Curves of the saw-tooth amplitude C2 over the forcing amplitude: theory and exact branches, stable bold "
-        "solid and unstable dashed, symmetric ones blue and asymmetric ones green, both named, with marked special "
-        "points, thin vertical lines at the cases, and dots where simulations from several starts end.",
+    "title": "Branches of 1:1 responses and attractors",
+    "caption": "Branches of 1:1 responses against the forcing, by the theory and exact: stable bold solid, unstable "
+        "dashed. Markers: folds, ends, and points where stability is lost; all other special points are in "
+        "`special_points.csv`. Vertical lines: the cases. Dots: attractors, from simulations from several starts.",
+    "alt": "Curves of the saw-tooth amplitude C2 against the forcing amplitude: theory and exact branches, stable bold "
+        "solid and unstable dashed, symmetric ones blue and asymmetric ones green, both labelled, with marked special "
+        "points, thin vertical lines at the cases, and dots for the attractors of simulations from several starts.",
     "method": "continuation of fixed points and exact 1:1 responses; attractors by direct integration of (10.1) from "
-        "many starts, until it repeats",
+        "many starts, until the motion repeats",
     "columns": {
         "panel": {"meaning": "a letter for each path, in the order of the config"},
         "series": {"meaning": "family of the branch", "values": ["symmetric orbit", "asymmetric orbit",
             "fixed point"]},
-        "label": {"meaning": "what is special about the node, blank for others", "unit": "text"},
+        "label": {"meaning": "kind of the special point; blank for other nodes", "unit": "text"},
         "branch, piece": {"meaning": "number of the branch in its family, and of its piece between special points, "
             "from 0", "unit": "number", "compared": "algebra"},
         "p": {"compared": "roots"},
         "C1, C2": {"meaning": "$C_i$ of the saw-tooth, (10.11)", "compared": "roots"},
-        "stable": {"meaning": "all multipliers of the piece are inside the unit circle; of fixed points, Masri's "
-            "analysis and the slow flow say so", "unit": "true or false"},
-        "admissible": {"meaning": "the orbits of the piece are motions of the system; of fixed points always True",
+        "stable": {"meaning": "True if all multipliers of the piece are inside the unit circle; for fixed points, if "
+            "they are stable by Masri's analysis and in the slow flow", "unit": "true or false"},
+        "admissible": {"meaning": "True if the orbits of the piece are motions of the system; always True for fixed "
+            "points",
             "unit": "true or false"},
     },
     "tables": {
         "attractors": {
             "file": "results/figures/companion_branches.attractors.csv",
-            "about": "Where simulations end along the paths of `companion_branches`, a row per start.",
+            "about": "Attractors of simulations along the paths of `companion_branches`, one row per start.",
             "columns": {
-                "panel": {"meaning": "the path, as in `companion_branches`"},
-                "label": {"meaning": "the `regime`", "unit": "text", "compared": "outcomes"},
+                "panel": {"meaning": "path, as in `companion_branches`"},
+                "label": {"meaning": "`regime` of the attractor", "unit": "text", "compared": "outcomes"},
                 "p": {"compared": "algebra"},
-                "C1, C2": {"meaning": "$C_i$, (10.11), of half the ball's mean way per cycle",
+                "C1, C2": {"meaning": "$C_i$, (10.11), computed from half of the ball's mean path per cycle",
                     "compared": "amplitudes"},
             },
         },
         "cases": {
             "file": "results/figures/companion_branches.cases.csv",
-            "about": "The cases on the paths of `companion_branches`.",
+            "about": "Cases on the paths of `companion_branches`.",
             "columns": {
-                "panel": {"meaning": "the path, as in `companion_branches`"},
+                "panel": {"meaning": "path, as in `companion_branches`"},
                 "case": {}, "p": {"compared": "algebra"},
             },
         },
         "special_points": {
             "file": "results/regimes/special_points.csv",
-            "about": "The special points of the branches in `companion_branches`.",
+            "about": "Special points of the branches in `companion_branches`.",
             "columns": {
                 "path": {},
                 "family": {"meaning": "exact symmetric or asymmetric orbits, or fixed points of the theory",
                     "unit": "text", "values": ["symmetric orbit", "asymmetric orbit", "fixed point"]},
-                "kind": {"meaning": "what happens there; of fixed points with the module, where only one is concerned",
+                "kind": {"meaning": "kind of the special point; for fixed points with the module, if only one is "
+                    "concerned",
                     "unit": "text", "values": ["fold", "symmetry breaking", "period doubling", "Neimark-Sacker", "Hopf",
                     "grazing", "speed zero", "fold of the SIM, module 1", "fold of the SIM, module 2",
                     "symmetry breaking, module 1", "symmetry breaking, module 2"]},
                 "p, C1, C2": {"compared": "roots"},
-                "admissible": {"meaning": "the orbits on one side at least are motions of the system; of fixed points "
-                    "always True", "unit": "true or false"},
+                "admissible": {"meaning": "True if the orbits on at least one side are motions of the system; always "
+                    "True for fixed points", "unit": "true or false"},
             },
         },
         "onsets": {
             "file": "results/regimes/modulation_onsets.csv",
-            "about": "Where modulated responses are along the paths of `companion_branches`, as the slow flow predicts "
-                "it and as its attractors show it ([derivation](derivation.md), section 12), two rows per path.",
+            "about": "Ranges of modulated responses along the paths of `companion_branches`, predicted by the slow "
+                "flow and simulated ([derivation](derivation.md), section 12), two rows per path.",
             "columns": {
                 "path": {},
-                "source": {"meaning": "slow flow: a ball goes in and out of resonance for good, by the picture of "
-                    "`relaxation.csv`. simulation: a start ends in a strongly modulated or chaotic response",
+                "source": {"meaning": "slow flow: a ball enters and leaves resonance again and again, as computed for "
+                    "`relaxation.csv`. simulation: a start reaches a strongly modulated or chaotic response",
                     "unit": "text", "values": ["slow flow", "simulation"]},
-                "first, last": {"meaning": "ends of the longest range of `p` in which that is so at every value, blank "
-                    "without one", "unit": "dimensionless"},
-                "uncertainty": {"meaning": "of the ends: from one value of `p` to the next", "unit": "dimensionless"},
-                "agreement": {"meaning": "part of the values of `p` at which both say the same", "unit": "share"},
+                "first, last": {"meaning": "ends of the longest range of `p` with modulated responses at every value; "
+                    "blank if there is none", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "uncertainty of the ends: distance between values of `p`",
+                    "unit": "dimensionless"},
+                "agreement": {"meaning": "share of the values of `p` at which both sources agree", "unit": "share"},
             },
         },
     },

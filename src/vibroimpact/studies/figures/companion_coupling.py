@@ -35,39 +35,42 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
     "title": "From weak to strong coupling",
-    "caption": "a: largest error of leading order in :math:`C` over the fixed points of the cases equal and unequal, "
-        "against their exact orbits, with the coupling damper in proportion to the spring and held; crosses: couplings "
-        "at which a fixed point has no exact motion (upper row: damper in proportion). b: difference of the flight "
-        "times of ball 1 over the period where both balls are asymmetric, in phase or in antiphase, while that is "
-        "stable; marks: how it ends. Modules tuned alike, forces 1.52 and 1.54. c: mean power of all impacts, over the "
-        "square of both forces: exact symmetric orbits, the stable asymmetric one, mean and standard deviation over "
-        "starts; dotted: dampers of linear absorbers of the same mass.",
-    "alt": "Three panels. First: errors near six per cent but for couplings from 1.4 to 2, and crosses there and near"
-        " 40. Second: antiphase rises from 0.76 to 4.7 and falls next to 14; in phase is level, up to 5.9 and from 14 "
-        "on. Third: the mean over starts falls from above the dotted level to the diamonds of the asymmetric orbit.",
-    "method": "fixed points, exact responses followed along the coupling, simulations from many starts",
+    "caption": "a: largest error of leading order in :math:`C`, compared with exact orbits, over the fixed points of "
+        "the cases equal and unequal, with the coupling damper in proportion to the spring or held constant; crosses: "
+        "couplings at which a fixed point has no exact motion (upper row: damper in proportion). b: difference of the "
+        "flight times of ball 1 over the period, on stable orbits with two asymmetric balls, in phase or in antiphase; "
+        "marks: ends of stability. Modules with equal tuning, forces 1.52 and 1.54. c: mean power of all impacts over "
+        "the square of both forces, for exact symmetric orbits, for the stable asymmetric orbit, and as mean and "
+        "standard deviation over starts; dotted: dampers of linear absorbers of the same mass.",
+    "alt": "Three panels. First: errors near six per cent except for couplings from 1.4 to 2, with crosses there and "
+        "near 40. Second: antiphase rises from 0.76 to 4.7 and falls next to 14; in phase is level, up to 5.9 and from "
+        "14 on. Third: the mean over starts falls from above the dotted level to the diamonds of the asymmetric orbit.",
+    "method": "fixed points, exact responses continued along the coupling, simulations from many starts",
     "columns": {
-        "panel": {"meaning": "error, asymmetry or power", "values": ["error", "asymmetry", "power"]},
-        "series": {"meaning": "of error: damper in proportion or held; of asymmetry: pattern, and where it was found; "
-            "of power: the motion"},
-        "case": {"meaning": "of error: the case of the config", "unit": "text"},
+        "panel": {"meaning": "quantity of the panel", "values": ["error", "asymmetry", "power"]},
+        "series": {"meaning": "for error: damper in proportion or held; for asymmetry: pattern, and the coupling at "
+            "which it was found; for power: type of motion"},
+        "case": {"meaning": "for error: case of the config", "unit": "text"},
         "coupling": {"meaning": r"$\hat\alpha_{12}$", "unit": "dimensionless", "compared": "algebra"},
         "error": {"meaning": "largest error of $C_1$ or $C_2$ over the larger exact one; blank without a motion",
             "unit": "dimensionless", "compared": "roots"},
-        "own_error": {"meaning": "largest error of $C_1$ or $C_2$ over its own exact one; blank without a motion",
+        "own_error": {"meaning": "largest error of $C_1$ or $C_2$, each over its own exact value; blank without a "
+            "motion",
             "unit": "dimensionless", "compared": "roots"},
-        "predicted": {"meaning": "the theory calls the point stable on both time scales", "unit": "true or false"},
-        "orbits": {"meaning": "number of symmetric motions of that case at that coupling", "unit": "dimensionless",
+        "predicted": {"meaning": "True if the theory calls the point stable on both time scales",
+            "unit": "true or false"},
+        "orbits": {"meaning": "number of symmetric motions of the case at this coupling", "unit": "dimensionless",
             "compared": "algebra"},
-        "stable": {"meaning": "all multipliers are inside the unit circle", "unit": "true or false"},
+        "stable": {"meaning": "True if all multipliers are inside the unit circle", "unit": "true or false"},
         "v": {"meaning": "difference of the flight times of ball 1 over the period", "unit": "dimensionless",
             "compared": "roots"},
-        "ends": {"meaning": "how the range in which the pattern is stable ends there", "unit": "text"},
+        "ends": {"meaning": "bifurcation or event that ends the range of stability of the pattern", "unit": "text"},
         "force": {"meaning": r"$\hat f_{10} = \hat f_{20}$", "unit": "dimensionless", "compared": "algebra"},
-        "power": {"meaning": r"mean power over $\hat f_{10}^2$; of starts their mean", "unit": "dimensionless",
+        "power": {"meaning": r"mean power over $\hat f_{10}^2$; for starts, the mean over them",
+            "unit": "dimensionless",
             "compared": {"all starts": "extremes", "others": "roots"}},
         "spread": {"meaning": "standard deviation over starts", "unit": "dimensionless", "compared": "spreads"},
-        "asymmetric_share": {"meaning": "part of the starts that end on the asymmetric orbit", "unit": "share",
+        "asymmetric_share": {"meaning": "share of the starts that reach the asymmetric orbit", "unit": "share",
             "compared": "shares"},
     },
     "tables": {
@@ -75,10 +78,10 @@ SPEC = {
             "file": "results/regimes/coupling.csv",
             "about": "Numbers of [strong coupling](coupling.md), by name.",
             "columns": {
-                "quantity": {"meaning": "what was measured", "unit": "text"},
-                "value": {"meaning": "couplings, shares, ratios, numbers of points", "unit": "dimensionless"},
-                "uncertainty": {"meaning": "standard error from the spread over starts, of a spread that of a normal "
-                    "distribution; 0 of motions that repeat", "unit": "dimensionless"},
+                "quantity": {"meaning": "name of the measured quantity", "unit": "text"},
+                "value": {"meaning": "coupling, share, ratio or number of points", "unit": "dimensionless"},
+                "uncertainty": {"meaning": "standard error from the spread over starts; for a spread, that of a normal "
+                    "distribution; 0 for motions that repeat", "unit": "dimensionless"},
             },
         },
     },

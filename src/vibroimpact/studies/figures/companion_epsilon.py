@@ -14,36 +14,37 @@ from vibroimpact.tables import curve, join
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
-    "title": "How the error of the theory falls with epsilon",
-    "caption": r"The largest error of leading-order theory over the fixed points of the three cases, against exact "
-        r"orbits, as :math:`\varepsilon` falls: of amplitudes and phases, also with the term of first order added "
-        "(grey), of the slow flow's rates, and of the fast multipliers. Triangles: slopes 1 and 2.",
-    "alt": "Errors of the theory over epsilon on logarithmic axes: three straight lines of slope 1, for fast "
-        "multipliers, slow rates, and amplitudes and phases; a fourth, grey, falls twice as steeply.",
+    "title": "Error of the theory against epsilon",
+    "caption": "Largest error of leading-order theory over the fixed points of the three cases, compared with exact "
+        r"orbits, as :math:`\varepsilon` decreases: error of amplitudes and phases, also with the first-order term "
+        "(grey); of the rates of the slow flow; and of the fast multipliers. Triangles: slopes 1 and 2.",
+    "alt": "Errors of the theory against epsilon on logarithmic axes: three straight lines of slope 1, for fast "
+        "multipliers, slow rates, and amplitudes and phases; a fourth, grey, has slope 2.",
     "method": "fixed points and exact symmetric responses at every epsilon",
     "columns": {
-        "panel": {"meaning": "distance: of fixed point and orbit; slow, fast: largest error of a predicted slow rate "
-            "or fast multiplier; two terms: distance with the term of first order added to the fixed point",
+        "panel": {"meaning": "distance: between fixed point and orbit; slow, fast: largest error of a predicted slow "
+            "rate or fast multiplier; two terms: distance with the first-order term added to the fixed point",
             "values": ["distance", "slow", "fast", "two terms"]},
         "series": {"meaning": "case and label of the fixed point"},
         "epsilon": {"compared": "algebra"},
-        "error": {"meaning": "what the panel names: the norm of the difference in $C_1$, $C_2$ and both impact phases "
-            r"[radians]; the largest of $\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$ over the slow "
-            r"multipliers $\mu$, $\lambda$ the eigenvalues of the slow flow; the largest $\lvert\mu - \mu_0\rvert$ "
-            r"over the fast ones, $\mu_0$ by the impact map", "unit": "dimensionless", "compared": "logarithm"},
+        "error": {"meaning": "error named in `panel`: norm of the difference in $C_1$, $C_2$ and both impact phases "
+            r"[radians]; largest $\lvert\log\mu/(2\pi\varepsilon/\Omega) - \lambda\rvert$ over the slow multipliers "
+            r"$\mu$, with the eigenvalues $\lambda$ of the slow flow; largest $\lvert\mu - \mu_0\rvert$ over the fast "
+            r"multipliers, with $\mu_0$ from the impact map", "unit": "dimensionless", "compared": "logarithm"},
     },
     "tables": {
         "orders": {
             "file": "results/regimes/epsilon_orders.csv",
-            "about": r"Orders $p$ of error $\sim \varepsilon^p$ in `companion_epsilon`, fitted to its smallest "
+            "about": r"Orders $p$ of error $\sim \varepsilon^p$ in `companion_epsilon`, fitted to the smallest "
                 r"$\varepsilon$.",
             "columns": {
                 "case": {}, "label": {"meaning": "label of the fixed point", "unit": "text"},
-                "panel": {"meaning": "the error, as in the panels of `companion_epsilon`", "unit": "text", "values": [
+                "panel": {"meaning": "error, as in the panels of `companion_epsilon`", "unit": "text", "values": [
                     "distance", "slow", "fast", "two terms"]},
-                "order": {"meaning": "the exponent $p$, by least squares on the logarithms", "unit": "dimensionless",
+                "order": {"meaning": "exponent $p$, by least squares on the logarithms", "unit": "dimensionless",
                     "compared": "exponent"},
-                "uncertainty": {"meaning": "its standard error", "unit": "dimensionless", "compared": "exponent"},
+                "uncertainty": {"meaning": "standard error of `order`", "unit": "dimensionless",
+                    "compared": "exponent"},
             },
         },
     },

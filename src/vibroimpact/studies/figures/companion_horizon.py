@@ -11,18 +11,19 @@ from vibroimpact.system.state import NAMES
 from vibroimpact.tables import curve, join, select
 
 SPEC = {
-    "title": "Where double precision leaves the true trajectory",
-    "caption": "Where a simulation in double precision leaves the true trajectory of Fig. 10.11, which is computed "
-        "with many digits and proved by doubling them.",
-    "alt": "Distance between the trajectory in double precision and the proved one over forcing cycles, on a "
-        "logarithmic axis: it grows from rounding to the size of the motion, then stays there.",
-    "method": "the same in float64, and the error that the certificate of every run expects",
+    "title": "Departure of double precision from the true trajectory",
+    "caption": "Departure of a simulation in double precision from the true trajectory of Fig. 10.11, which is "
+        "computed with many digits and confirmed by doubling them.",
+    "alt": "Distance between the trajectory in double precision and the confirmed one over forcing cycles, on a "
+        "logarithmic axis. It grows from rounding to the size of the motion and stays there.",
+    "method": "simulation in float64, and the error estimate in the certificate of this run",
     "columns": {
         "panel": {}, "series": {"values": ["measured", "expected", "horizon"]},
-        "cycle": {"meaning": "time since the start; in the series horizon when the expected error passes $10^{-3}$",
+        "cycle": {"meaning": "time since the start; for the series horizon, time at which the estimated error exceeds "
+            "$10^{-3}$",
             "unit": "forcing periods", "compared": {"measured": "algebra", "others": "horizon"}},
-        "error": {"meaning": "largest difference of a component of the state from the truth, and what the certificate "
-            "of the run expects of it", "unit": "dimensionless", "compared": {"measured": "rounding",
+        "error": {"meaning": "largest error of a component of the state: measured, or estimated by the certificate of "
+            "the run", "unit": "dimensionless", "compared": {"measured": "rounding",
             "others": "certificate"}},
     },
 }  # fmt: skip

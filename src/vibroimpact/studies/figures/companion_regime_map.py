@@ -19,22 +19,22 @@ from vibroimpact.studies.sweeps.observations import FROM_REST, fixed_point_count
 
 SPEC = {
     "title": "Map of regimes over both forcing amplitudes",
-    "caption": "Over the plane of both forcing amplitudes the regime that most of several starts end in, with a stroke "
-        "where others coexist. Started from rest, which is not counted, a ball may stay idle. Line: where the theory's "
-        "number of stable fixed points changes; crosses: the cases.",
+    "caption": "Most frequent regime of several starts in the plane of both forcing amplitudes, with a stroke where "
+        "others coexist. The start from rest is not counted, since a ball may stay idle. Line: change of the number of "
+        "stable fixed points in the theory. Crosses: the cases.",
     "alt": "Map over the plane of f10 and f20 in patches of one colour for each class of regimes. Strongly modulated "
         "responses fill the middle and the lower left, other periodic ones the upper left and the right edge, "
         "asymmetric ones the upper middle, where a closed solid line encloses the forces for which the theory has a "
         "stable fixed point; chaos has an island below.",
-    "method": "the points of a sweep, with the cases; borders of the theory by bisection",
+    "method": "points of a sweep, and the cases; borders of the theory by bisection",
     "sweeps": {"regime_map": {"along": [["f10_hat"], ["f20_hat"]], "evenly": True,
         "observe": ["regimes", "fixed_points"]}},
     "columns": {
-        "label": {"meaning": "regime that the start from rest ends in", "unit": "text", "compared": "cells of a map"},
+        "label": {"meaning": "regime that the start from rest reaches", "unit": "text", "compared": "cells of a map"},
         "f10_hat, f20_hat": {"compared": "algebra"},
-        "regime": {"meaning": "regime that most starts other than rest end in", "unit": "text",
+        "regime": {"meaning": "regime that most of the other starts reach", "unit": "text",
             "compared": "cells of a map"},
-        "coexisting": {"meaning": "number of regimes that starts other than rest settle in", "unit": "number",
+        "coexisting": {"meaning": "number of regimes in which the other starts settle", "unit": "number",
             "compared": "cells of a map"},
         "symmetric": {"compared": "counts of a map"},
         "asymmetric, other periodic, strongly modulated, chaotic": {"compared": "cells of a map"},
@@ -47,16 +47,16 @@ SPEC = {
     "tables": {
         "cases": {
             "file": "results/figures/companion_regime_map.cases.csv",
-            "about": "The cases of the config in the plane of `companion_regime_map`.",
+            "about": "Cases of the config in the plane of `companion_regime_map`.",
             "columns": {"case": {}, "f10_hat, f20_hat": {"compared": "algebra"}},
         },
         "borders": {
             "file": "results/figures/companion_regime_map.borders.csv",
-            "about": "Lines in the plane of `companion_regime_map` on which the theory's counts change, in straight "
-                "pieces.",
+            "about": "Lines in the plane of `companion_regime_map` on which the theory's number of fixed points, or of "
+                "stable ones, changes, as straight pieces.",
             "columns": {
-                "series": {"meaning": "the count that changes", "values": ["fixed points", "stable points"]},
-                "piece": {"meaning": "number of the piece of the line, from 1 on, whose two ends are two rows",
+                "series": {"meaning": "number that changes on the line", "values": ["fixed points", "stable points"]},
+                "piece": {"meaning": "number of the piece of the line, from 1; its two ends are two rows",
                     "unit": "number", "compared": "algebra"},
                 "f10_hat, f20_hat": {"compared": "roots"},
             },

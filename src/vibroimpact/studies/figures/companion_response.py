@@ -28,36 +28,37 @@ from vibroimpact.studies.regimes.one_to_one import by_exact_orbits, by_theory
 from vibroimpact.studies.sweeps.grid import axis
 
 SPEC = {
-    "title": "How far the boxes move with balls",
-    "caption": "Displacement per static deflection, :math:`|X_i|/f`, of the box that moves more, :math:`f` the larger "
-        r"of the forces :math:`\varepsilon\hat f_{i0}`. a to c: over the frequency, forces on both boxes and on one; "
-        "d: over the force. Dots: balls, the largest of three starts, filled where most of them repeat; grey: between "
-        "5 % and 95 % of the cycles; lines: linear systems in closed form, named in d.",
-    "alt": "Four panels. a to c: response over the detuning; a high resonance peak without balls, dots and a grey band "
-        "of the balls below it near resonance and above it beside it, a flat line of the best absorbers below nearly "
-        "all dots. d: over the force the dots fall from the line without balls to a lowest place near force 1 and rise "
-        "slowly.",
-    "method": "the points of two sweeps; fixed points, exact symmetric orbits and linear systems in closed form",
+    "title": "Displacement of the boxes with balls",
+    "caption": "Displacement per static deflection, :math:`|X_i|/f`, of the box that moves more, where :math:`f` is "
+        r"the larger of the forces :math:`\varepsilon\hat f_{i0}`. a to c: against the frequency, with forces on both "
+        "boxes and on one; d: against the force. Dots: with balls, largest value of three starts, filled if most "
+        "starts repeat; grey: between 5 % and 95 % of the cycles; lines: linear systems in closed form, labelled in d.",
+    "alt": "Four panels. a to c: response against the detuning, with a high resonance peak without balls. With balls, "
+        "dots and a grey band lie below it near resonance and above it elsewhere. A flat line of the best absorbers "
+        "lies below nearly all dots. d: with increasing force, the dots fall from the line without balls to a minimum "
+        "near force 1 and rise slowly.",
+    "method": "points of two sweeps; fixed points, exact symmetric orbits and linear systems in closed form",
     "sweeps": {"frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
         "observe": ["amplitudes", "envelopes", "energy", "regimes"]}},
     "columns": {
-        "panel": {"meaning": "the sweep: over the frequency, or over the force", "values": ["frequency", "force"]},
-        "label": {"meaning": "the `regime` that most starts end in", "unit": "text", "compared": "few outcomes"},
+        "panel": {"meaning": "sweep over the frequency, or over the force", "values": ["frequency", "force"]},
+        "label": {"meaning": "`regime` that most starts reach", "unit": "text", "compared": "few outcomes"},
         "f10_hat, f20_hat": {"compared": "algebra"},
         "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless", "compared": "algebra"},
-        "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more, of all starts",
+        "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ over all starts, for the box that moves more",
             "unit": "dimensionless", "compared": "extremes"},
-        "low, high": {"meaning": "amplitude cycle by cycle, per $f$, that is exceeded in 95 % and in 5 % of the cycles",
+        "low, high": {"meaning": "amplitude per cycle over $f$ that is exceeded in 95 % (low) and in 5 % (high) of the "
+            "cycles",
             "unit": "dimensionless", "compared": "extremes"},
         "impact_share": {"compared": "extremes"},
     },
     "tables": {
         "linear": {
             "file": "results/figures/companion_response.linear.csv",
-            "about": "The linear systems beside the balls of `companion_response`.",
+            "about": "Linear systems to which `companion_response` compares the balls.",
             "columns": {
-                "panel": {"meaning": "over the frequency, or over the force", "values": ["frequency", "force"]},
-                "series": {"meaning": "the linear system", "values": ["without balls", "balls fixed",
+                "panel": {"meaning": "against the frequency, or against the force", "values": ["frequency", "force"]},
+                "series": {"meaning": "linear system", "values": ["without balls", "balls fixed",
                     "absorbers of the textbook", "best absorbers"]},
                 "f10_hat, f20_hat": {"compared": "algebra"},
                 "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
@@ -68,30 +69,33 @@ SPEC = {
         },
         "one_to_one": {
             "file": "results/figures/companion_response.one_to_one.csv",
-            "about": "The symmetric 1:1 responses where the sweeps of `companion_response` have been.",
+            "about": "Symmetric 1:1 responses at the points of the sweeps of `companion_response`.",
             "columns": {
-                "panel": {"meaning": "the sweep: over the frequency, or over the force", "values": ["frequency",
+                "panel": {"meaning": "sweep over the frequency, or over the force", "values": ["frequency",
                     "force"]},
-                "series": {"meaning": "by the theory, or exact", "values": ["theory", "symmetric orbits"]},
+                "series": {"meaning": "response by the theory, or exact orbit", "values": ["theory",
+                    "symmetric orbits"]},
                 "f10_hat, f20_hat": {"compared": "algebra"},
                 "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
                     "compared": "algebra"},
                 "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more",
                     "unit": "dimensionless", "compared": "roots"},
                 "impact_share": {"compared": "roots"},
-                "stable": {"meaning": "all multipliers of the orbit are inside the unit circle; of the theory, Masri's "
-                    "analysis and the slow flow say so", "unit": "true or false"},
+                "stable": {"meaning": "True if all multipliers of the orbit are inside the unit circle; for the "
+                    "theory, if the fixed point is stable by Masri's analysis and in the slow flow",
+                    "unit": "true or false"},
             },
         },
         "shares": {
             "file": "results/impact_shares.csv",
-            "about": "What impacts take of the work of the forces, over the frequencies of `companion_response`.",
+            "about": "Share of the work of the forces that impacts dissipate, over the frequencies of "
+                "`companion_response`.",
             "columns": {
-                "source": {"meaning": "balls, as simulated, or the symmetric 1:1 responses by the theory or exact, "
-                    "stable or not", "unit": "text", "values": ["balls", "theory", "symmetric orbits"]},
+                "source": {"meaning": "simulation with balls, or symmetric 1:1 responses, stable or not, by the theory "
+                    "or exact", "unit": "text", "values": ["balls", "theory", "symmetric orbits"]},
                 "f10_hat, f20_hat": {},
-                "points": {"meaning": "how many frequencies, or responses at all of them, there are", "unit": "number"},
-                "least, middle, greatest": {"meaning": "the least share, the median, and the greatest", "unit": "share"
+                "points": {"meaning": "number of frequencies, or of responses at all frequencies", "unit": "number"},
+                "least, middle, greatest": {"meaning": "smallest, median and largest share", "unit": "share"
                     },
             },
         },

@@ -8,14 +8,14 @@ from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 SPEC = {
     "title": "Four criteria side by side",
-    "caption": "What four criteria say of the fixed points of all cases: (10.26) as printed, Masri's analysis as "
+    "caption": "Verdicts of four criteria on the fixed points of all cases: (10.26) as printed, Masri's analysis as "
         "derived, the slow flow, and the multipliers of the exact orbit that continues the point. Filled: stable; "
         "hollow: unstable.",
-    "alt": "A matrix of dots: a row per fixed point, a column per criterion, filled where the criterion says stable. "
-        "The last column, that of the exact orbits, is hollow throughout.",
-    "method": "verdicts as computed",
+    "alt": "A matrix of dots with a row per fixed point and a column per criterion, filled if the verdict is stable. "
+        "The last column, for the exact orbits, is hollow throughout.",
+    "method": "computed verdicts",
     "columns": {
-        "panel": {"meaning": "the case"}, "label": {"meaning": "label of the fixed point", "unit": "text"},
+        "panel": {"meaning": "case"}, "label": {"meaning": "label of the fixed point", "unit": "text"},
         "C1, C2": {"compared": "roots"}, "printed_10_26, fast, slow, exact": {},
     },
 }  # fmt: skip

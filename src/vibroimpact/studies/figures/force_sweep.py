@@ -21,22 +21,22 @@ from vibroimpact.theory.criteria import CRITERIA, EXACT, THEORY, of_fixed_point
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
-    "title": "Fixed points over the second force",
-    "caption": r"Fixed points over :math:`\hat f_{20}` with :math:`\hat f_{10} = {f10_hat}`, with the letters that the "
-        "chapter would give them where most of them exist; stable: on both time scales. Broad: exact asymmetric "
-        "orbits, which belong to no fixed point, darker where they are stable.",
-    "alt": "Two panels with C1 and C2 of every fixed point over f20, one line per point, filled markers where both "
-        "time scales are stable, hollow ones where not, rings around those whose exact orbit is stable; broad dots "
-        "for the asymmetric orbits.",
+    "title": "Fixed points against the second force",
+    "caption": r"Fixed points against :math:`\hat f_{20}` for :math:`\hat f_{10} = {f10_hat}`, with the letters of the "
+        "chapter's order at the force where most of them exist. Stable points are stable on both time scales. Broad "
+        "dots: exact asymmetric orbits, which belong to no fixed point, darker if stable.",
+    "alt": "Two panels with C1 and C2 of every fixed point against f20, one line per point. Markers are filled if both "
+        "time scales are stable, hollow otherwise, and ringed if the exact orbit is stable. Broad dots show the "
+        "asymmetric orbits.",
     "method": "fixed points and exact orbits at every value of the force",
     "file": "results/force_sweep/force_sweep.csv",
     "on_demand": "make report",
     "columns": {
-        "value": {"meaning": r"the value of $\hat f_{20}$", "unit": "dimensionless"},
-        "track": {"meaning": "number, from 1 on, of the line of points that follow each other as the value grows",
+        "value": {"meaning": r"value of $\hat f_{20}$", "unit": "dimensionless"},
+        "track": {"meaning": "number, from 1, of the line of points that continue each other as the value increases",
             "unit": "number"},
         "C1, B1, C2, B2": {},
-        "label": {"meaning": "label (a), (b), (c) as the chapter would give it at this value", "unit": "text"},
+        "label": {"meaning": "label (a), (b), (c) in the chapter's order at this value", "unit": "text"},
         "printed_10_26, fast, slow, theory, exact": {},
     },
 }  # fmt: skip

@@ -13,29 +13,29 @@ from vibroimpact.studies.absorbers.tuning import compared
 from vibroimpact.system import PhysicalSystem
 
 SPEC = {
-    "title": "Machines in kilograms, newtons and metres",
+    "title": "Machines in SI units",
     "notebook": "physical_units",
-    "caption": "Two machines on springs, in SI units. a: the largest displacement of the box that swings more over the "
-        "frequency, from rest, without balls, with balls at several clearances :math:`L`, and with the best linear "
-        "absorbers of the mass of the balls. b: box 1 and its ball over the time, from rest.",
-    "alt": "Two panels. a: largest displacement in millimetres over frequency in hertz: a tall resonance without "
-        "balls, a low flat line of the best absorbers, and a line with markers for each clearance of the balls. b: box "
-        "1 swings up from rest until its wall strikes the ball, which then flies from wall to wall; dots mark the "
-        "impacts.",
+    "caption": "Two machines on springs, in SI units. a: displacement of the box that moves more, against the "
+        "frequency: the largest from rest with balls at several clearances :math:`L`, and the amplitudes without balls "
+        "and with the best linear absorbers of the mass of the balls. b: box 1 and its ball against time, from rest.",
+    "alt": "Two panels. a: largest displacement in millimetres against frequency in hertz: a tall resonance without "
+        "balls, a low flat line of the best absorbers, and a line with markers for each clearance of the balls. b: the "
+        "motion of box 1 grows from rest until its wall strikes the ball, which then flies from wall to wall; dots "
+        "mark the impacts.",
     "own": {
-        "title": "Machines in kilograms, newtons and metres",
-        "caption": "Two machines on springs, in SI units. a: the largest displacement over the frequency, from rest, "
-            "of linear systems and with balls at several clearances :math:`L`. b: box 1 and its ball over the time, "
+        "title": "Machines in SI units",
+        "caption": "Two machines on springs, in SI units. a: largest displacement against the frequency, for linear "
+            "systems and, from rest, with balls at several clearances :math:`L`. b: box 1 and its ball against time, "
             "from rest.",
-        "alt": "Two panels: the largest displacement in millimetres over the frequency in hertz, a line for each "
-            "linear system and each clearance; and the displacements of box 1 and of its ball over the time, with dots "
-            "at impacts.",
+        "alt": "Two panels: the largest displacement in millimetres against the frequency in hertz, with a line for "
+            "each linear system and each clearance; and the displacements of box 1 and of its ball against time, with "
+            "dots at impacts.",
     },
     "equations": [r"\tau = \omega_{10} t, \quad \omega_{10}^2 = k_1/M, \quad X_i = x_i/L, \quad \varepsilon = m/M, "
         r"\quad \hat f_{i0} = F_{i0}/(\varepsilon k_1 L)"],
     "method": "direct integration of (10.1) from rest; linear systems in closed form",
     "columns": {
-        "series": {"meaning": "the linear systems, and each clearance", "unit": "text"},
+        "series": {"meaning": "linear system, or clearance", "unit": "text"},
         "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz", "compared": "algebra"},
         "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres", "compared": {
             "without balls": "algebra", "best absorbers": "trajectory", "others": "extremes"}},
@@ -43,28 +43,29 @@ SPEC = {
     "tables": {
         "motion": {
             "file": "results/figures/machines.motion.csv",
-            "about": "Box 1 of `machines` and its ball from rest.",
+            "about": "Motion of box 1 of `machines` and its ball from rest.",
             "columns": {
                 "L": {"meaning": "clearance $L$", "unit": "metres", "compared": "algebra"},
                 "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz",
                     "compared": "algebra"},
-                "time": {"meaning": "time from rest", "unit": "seconds of the machine", "compared": "trajectory"},
+                "time": {"meaning": "time from the start", "unit": "seconds of the machine", "compared": "trajectory"},
                 "box, ball": {"meaning": "displacement $x_1$ or $y_1$", "unit": "millimetres",
                     "compared": "trajectory"},
-                "at_wall": {"meaning": "the ball meets a wall then", "unit": "true or false"},
+                "at_wall": {"meaning": "True if the ball hits a wall at this time", "unit": "true or false"},
             },
         },
         "summary": {
             "file": "results/figures/machines.summary.csv",
-            "about": "The machines at each clearance, at the frequency at which the boxes swing most.",
+            "about": "Power and displacement of the machines for each clearance, at the frequency with the largest "
+                "displacement.",
             "columns": {
                 "L": {"meaning": "clearance $L$", "unit": "metres"},
                 "frequency": {"meaning": r"frequency of the forces, $\omega/(2\pi)$", "unit": "hertz"},
                 "power": {"meaning": "mean power of the forces", "unit": "watts"},
-                "share": {"meaning": "what impacts take of it", "unit": "share"},
+                "share": {"meaning": "share of this power that impacts dissipate", "unit": "share"},
                 "swing": {"meaning": r"largest $\lvert x_i\rvert$ of both boxes", "unit": "millimetres"},
-                "force": {"meaning": "$F_{10}$ that the clearance suits as the best of them suits the force of the "
-                    "machines", "unit": "newtons"},
+                "force": {"meaning": "$F_{10}$ for which this clearance is as good as the best one is for the force of "
+                    "the machines", "unit": "newtons"},
             },
         },
     },

@@ -23,9 +23,9 @@ SPEC = {
     "caption": "Exact motion that the chapter calls stable, with ball 2 moved by a millionth of the half-clearance. "
         "(a) Distance from the predicted motion, once per forcing period; line: growth by its largest multiplier. "
         "(b) Length of each flight of ball 2 in forcing periods; the prediction is one half.",
-    "alt": "Left: the distance from the predicted motion climbs along a straight line on a logarithmic axis, then "
-        "stays large. Right: the flights, at first equal, split into long and short ones for good.",
-    "method": "the exact orbit of the fixed point, and a simulation that starts beside it",
+    "alt": "Left: the distance from the predicted motion follows a straight line on a logarithmic axis, then stays "
+        "large. Right: the flights, at first equal, permanently split into long and short ones.",
+    "method": "exact orbit of the fixed point, and a simulation that starts next to it",
     "animated": ["gif"],
 }  # fmt: skip
 
