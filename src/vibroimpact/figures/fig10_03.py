@@ -65,8 +65,8 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 def exact(amplitude: float, theta: float, tau0_max: float) -> str:
     """Return a sentence on the exact system, in Markdown; the arguments are those of `compute`."""
     return (
-        f"{EXACTLY} between its impacts a ball flies freely, so that $Z = W - U = -(1 + \\varepsilon)Y$ is made of "
-        "straight lines there, too. Only in symmetric motions are its corners half a period apart."
+        f"{EXACTLY} between its impacts a ball flies freely, so that $Z = W - U = -(1 + \\varepsilon)Y$ consists of "
+        "straight lines there, too. Its corners are half a period apart only in symmetric motions."
     )
 
 

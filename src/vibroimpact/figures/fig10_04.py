@@ -62,8 +62,8 @@ def exact(kappa: float, C_max: float) -> str:
     border, low, high = printed_limit(rho(kappa)), lower_limit(kappa), upper_limit(kappa)
     growth = abs(impact_multipliers(border, kappa)).max()
     return (
-        f"{EXACTLY} with the boxes' motion held, small disturbances at the border of (10.26), $C = {border:.3f}$, are "
-        f"multiplied by **{growth:.2f}** from impact to impact. They die out for ${low:.3f} < C < {high:.3f}$ alone."
+        f"{EXACTLY} with prescribed box motion, small disturbances at the border of (10.26), $C = {border:.3f}$, are "
+        f"multiplied by **{growth:.2f}** from impact to impact. They decay only for ${low:.3f} < C < {high:.3f}$."
     )
 
 

@@ -71,9 +71,9 @@ def exact(C_range: tuple[float, float]) -> str:
     kappa = np.linspace(0.0, 1.0, 201)
     growth = max(abs(impact_multipliers(printed_limit(rho(k)), k)).max() for k in kappa)
     return (
-        f"{EXACTLY} with the boxes' motion held, small disturbances at the border of (10.26) are multiplied by up to "
-        f"**{growth:.2f}** from impact to impact. They die out between the dotted line $C_{{\\min}}(\\kappa)$ and "
-        f"$C = {SYMMETRY_BREAKING_C:.3f}$ alone, for every $\\kappa$."
+        f"{EXACTLY} with prescribed box motion, small disturbances at the border of (10.26) are multiplied by up to "
+        f"**{growth:.2f}** from impact to impact. They decay only between the dotted line $C_{{\\min}}(\\kappa)$ and "
+        f"$C = {SYMMETRY_BREAKING_C:.3f}$, for every $\\kappa$."
     )
 
 
