@@ -1,4 +1,4 @@
-"""Two motions, one figure: against the exact orbits, whose impacts are known without a simulation."""
+"""Predicted and simulated flights, against the exact orbits, whose impacts are known without a simulation."""
 
 import numpy as np
 import pytest
