@@ -150,7 +150,7 @@ def _design_options(parser):
     parser.add_argument("--to", dest="high", type=float, required=True, metavar="HZ", help="last frequency [Hz]")
     parser.add_argument(
         "--clearance", type=float, nargs="+", metavar="L",
-        help="candidate clearances, half of the play [m] (default: 8 around F / k M / m, then more near the best)",
+        help="candidate clearances to each side [m] (default: 8 around (F / k) (M / m), then more near the best)",
     )  # fmt: skip
     parser.add_argument(
         "--restitution", type=float, nargs="+", metavar="E",
