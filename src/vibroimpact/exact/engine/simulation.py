@@ -84,8 +84,8 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
     if not (abs(start) < LARGEST_TIME and abs(end) < LARGEST_TIME):
         name, tau = ("cycles", end) if abs(start) < LARGEST_TIME else ("tau0", start)
         raise ValueError(
-            f"{name}: the run reaches tau = {tau}; times must stay below 2**43, where floats are 1e-3 apart "
-            "(start whole forcing periods earlier instead)"
+            f"{name}: the run reaches tau = {tau}; times must stay below 2**43, where floats are 1e-3 apart. "
+            "The motion is the same if tau0 is some whole forcing periods smaller"
         )
     return begin, cycles
 
