@@ -13,7 +13,8 @@ SPEC = {
     "title": "Theoretical response of fixed point (c)",
     "notebook": "theoretical_response",
     "caption": r"Fig. 10.7. Theoretical steady-state response of fixed point (c) for :math:`\hat f_{10} = {f10_hat}`, "
-        r":math:`\hat f_{20} = {f20_hat}`: :math:`U_i`, :math:`X_i` grey, :math:`W_i`, :math:`Y_i` black.",
+        r":math:`\hat f_{20} = {f20_hat}`: boxes :math:`X_i` and :math:`U_i = X_i + "
+        r"\varepsilon Y_i` grey, balls :math:`Y_i` and :math:`W_i = X_i - Y_i` black.",
     "alt": "Two panels over two forcing periods, one for each module: the sine-like U and X in grey, the relative "
         "displacement W and the zigzag of the ball Y in black.",
     "own": {
