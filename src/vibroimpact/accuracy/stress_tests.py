@@ -140,9 +140,9 @@ def _row(test, method, reference):
 
 
 def grazing(system: System, side: int, digits: int) -> StressTest:
-    """Return the test in which ball 1 clears a wall (side 1) or hits it (side -1) by 10^-digits.
+    """Return the test in which ball 1 misses a wall by 10^-digits (side 1), or would pass it by as much (side -1).
 
-    Every impact counts, also the slowest.
+    A method must find even the slowest impact.
     """
     start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
     name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"

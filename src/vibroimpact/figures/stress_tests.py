@@ -40,7 +40,7 @@ VERDICTS = {  # in order of increasing severity
     "did not finish": ("∞", "#A68FC4"),
     "silently wrong": ("×", "#DB5A45"),
 }
-"""Mark and colour of each verdict, both with the same meaning; the colour is used in full if all tests fail."""
+"""Mark and colour of each verdict; either identifies it. The fewer tests of a cell fail, the paler is its colour."""
 PALEST = 0.3
 """Share of the full colour in a cell where almost no test fails."""
 ROW, HEAD, FOOT = 7.4, 18.0, 9.0

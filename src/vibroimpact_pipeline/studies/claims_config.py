@@ -1,4 +1,4 @@
-"""Decide if the claims of the chapter can be judged with a config, since they were written for one config."""
+"""Decide if a config has the parameters and settings for which the claims of the chapter were written."""
 
 import hashlib
 import json

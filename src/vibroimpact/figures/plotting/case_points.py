@@ -94,7 +94,7 @@ def _expect_same_points(given, expected, path):
     apart = np.abs(given[COORDINATES].to_numpy(float) - expected[COORDINATES].to_numpy(float)).max(initial=0.0)
     if not apart < AGREES:
         raise ValueError(
-            f"inputs: {path} holds the fixed points of other parameters, up to {apart:.2g} from those asked for; {HINT}"
+            f"inputs: {path} holds the fixed points of other parameters: a coordinate differs by {apart:.2g}; {HINT}"
         )
 
 

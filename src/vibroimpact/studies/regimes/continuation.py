@@ -26,7 +26,7 @@ _STEPS, _FEET = 12, 4
 # Newton steps that end the iteration, relative; the second once steps no longer shrink (rounding, singular Jacobian).
 _SETTLED, _STALLED = 1e-13, 1e-7
 _REFINED = 1e-10
-_STEEP = 0.2  # p is constant if the tangent has a larger component along p; a new p costs more than a new x
+_STEEP = 0.2  # if the tangent has a larger component along p, Newton's method keeps p fixed in a step, which is cheaper
 _TURN = 0.15  # radians by which the tangent may turn in one step
 _SHORTEST = 1e-7  # shortest step; the curve is lost where a shorter one is needed
 _RESOLVED = 1e-6  # arclength at which bisection ends; this far from a branch point Newton's method keeps 10 digits
