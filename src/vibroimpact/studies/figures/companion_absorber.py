@@ -279,7 +279,7 @@ def _response_ratios(system, response, band):
 
 
 def _decays(system, linear):
-    """Yield decay times in forcing periods after an impulse on box 1; with balls, after the impulse that decays fastest."""
+    """Yield decay times in forcing periods after an impulse on box 1; with balls, after the one that decays fastest."""
     times = [decay_time(system, impulse, fraction=ENERGY_FRACTION) for impulse in IMPULSES]
     found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=ENERGY_FRACTION)[1]}
     found |= {name: one.decay_time(1, ENERGY_FRACTION) for name, one in linear.items()}

@@ -367,7 +367,9 @@ def _draw_errors(axes, table):
 
 
 def _draw_asymmetry(axes, table):
-    table = table.reindex(columns=["series", "coupling", "v", "ends"])  # adds v and ends, which are missing without an asymmetric pattern
+    table = table.reindex(
+        columns=["series", "coupling", "v", "ends"]
+    )  # adds v and ends, which are missing without an asymmetric pattern
     for series, rows in table.groupby("series", sort=False):
         axes.plot(rows["coupling"], rows["v"], **STABLE | {"color": BLACK if series.startswith(IN_PHASE) else GREY})
     for end, marker in ENDS.items():

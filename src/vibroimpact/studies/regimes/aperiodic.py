@@ -18,7 +18,7 @@ RESONANT = (0.1, 0.9)
 DISCARDED = 1
 """Number of initial blocks to discard, in which the perturbation turns to the direction of largest growth."""
 SECOND_LENGTH_FACTOR = 10
-"""Length of the second estimate of an exponent, relative to the first; it is made unless the first is positive."""
+"""Length of the second estimate of an exponent, relative to the first. It is made only if the first is not positive."""
 
 POSITIVE, ZERO, OPEN = "positive", "zero", "open"
 NEVER, AT_TIMES, ALWAYS = "never", "at times", "always"
@@ -55,7 +55,7 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
 
 
 def sign(exponent: Measured) -> str:
-    """Return the sign of an exponent: POSITIVE, ZERO, or OPEN if the error allows neither.
+    """Return the sign of an exponent: POSITIVE, ZERO, or OPEN if the error leaves it open.
 
     A negative exponent is OPEN too: the motion still approaches a periodic one.
     """
@@ -83,7 +83,10 @@ def resonant_shares(run: Run) -> np.ndarray:
 
 
 def recurs(system, state, cycles: int) -> bool:
-    """Return True if a motion returns near its start in the second half of `cycles` cycles; decay gives False."""
+    """Return True if a motion returns near its start in the second half of `cycles` cycles.
+
+    A motion that decays does not return, so the result is False.
+    """
     states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
     extent = np.ptp(states, axis=0)
     away = np.abs(states[cycles // 2 :] - states[0]) / np.where(extent > 0, extent, 1.0)

@@ -96,7 +96,7 @@ def onset(stations) -> float:
 
 
 def distance_to_limit(station, point) -> Comparison:
-    """Compare the place and the multipliers of an orbit with those of a fixed point."""
+    """Compare the coordinates (`Station.place`) and multipliers of an orbit with those of a fixed point."""
     system = station.system
     exact = asymmetric_orbit(system, station.root).multipliers
     return paired(system, offset(station, point), exact, point.slow_eigenvalues, point.fast(system.kappa))

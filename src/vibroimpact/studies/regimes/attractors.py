@@ -16,11 +16,11 @@ from vibroimpact.system.state import NAMES, active_mask, states_array
 OPEN = -1
 """Label of an initial state that has not settled, as in Attractors.jl."""
 _SAME, _SAME_IDLE = 1e-6, 1e-4
-"""Largest difference of displacements between equal motions; the second value applies if a ball is at rest, where
-remaining decay limits accuracy."""
+"""Largest difference of displacements between equal motions. The second value applies if a ball is at rest: Newton's
+method does not refine such a motion, and part of the transient remains."""
 
 _COORDINATES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
-"""Indices in the state by name of a coordinate; for W_i = X_i - Y_i those of X_i and Y_i (ball i is moved)."""
+"""Indices in the state by name of a coordinate; for W_i = X_i - Y_i, those of X_i and Y_i, where Y_i is set."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,10 +103,10 @@ def attractors(system: System, states, observation: Observation | None = None, p
         Initial states at tau = 0, shape (n, 8). An inactive module (as in `PhysicalSystem.single`) is put at rest.
     observation : Observation, optional
         Length of the runs, see `Observation`: up to `rounds` times `cycles` forcing periods, until a motion repeats. At
-        equal forces most motions still change after 400 cycles, none after 2000. A ball at rest may never meet a wall
-        (docs/howto.md).
+        equal forces most motions still change after 400 cycles, none after 2000. A ball that starts at rest may never
+        reach a wall (docs/howto.md).
     progress : bool, default True
-        Count the initial states on standard error, if it is a terminal.
+        Show on standard error, if it is a terminal, how many initial states are done.
 
     Returns
     -------

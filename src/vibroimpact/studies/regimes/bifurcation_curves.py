@@ -60,9 +60,9 @@ class Plane:
 class BifurcationCurve(Representation):
     """A curve of special points of one family of responses.
 
-    family: family of the responses. kind: "fold" or "symmetry breaking", by the theory with the number of the module.
-    names: names of both parameters. points: (n, 2), values of the parameters in order along the curve. amplitudes:
-    (n, 2), C_1, C_2 at the points. x: (n, d), roots of the family's equations at the points.
+    family: family of the responses. kind: "fold" or "symmetry breaking", with the module for fixed points ("symmetry
+    breaking, module 1"). names: names of both parameters. points: (n, 2), values of the parameters in order along the
+    curve. amplitudes: (n, 2), C_1, C_2 at the points. x: (n, d), roots of the family's equations at the points.
     """
 
     family: object
@@ -172,7 +172,7 @@ def _curve(plane, family, kind):
 
 
 def _half(plane, family, curve, longest, report, start):
-    """Return points and places on one side of the start, up to the edge of the rectangle or a ball speed of 0."""
+    """Return points and places from the start in one direction, to the edge of the rectangle or a ball speed of 0."""
 
     def margin(z):
         return min(plane.margin(z), family.speed(z[:-2]))

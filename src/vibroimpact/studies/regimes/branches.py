@@ -22,7 +22,7 @@ from vibroimpact.studies.regimes.families import (
 )
 from vibroimpact.system.representation import Representation, brief
 
-_EQUAL = 1e-6  # a value of p this close to an end of the interval is the end
+_EQUAL = 1e-6  # a value of p this close to an end of the interval counts as the end
 _APART = 1e-3  # closer branch points count as the same
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
@@ -125,9 +125,9 @@ def branches(
     """Return the branches of a family in an interval of p that pass a seed (a value of p) or leave such a branch.
 
     A branch ends at the ends of the interval, where a ball speed vanishes, or where it is lost. It also ends where it
-    meets an image of itself: its mirror image, at a symmetric orbit, or a shift by forcing periods, at a motion that
-    repeats earlier. One of the images is followed. A branch that neither passes a seed nor leaves another branch is
-    missed. A seed at which the search for roots fails is skipped with a warning.
+    joins an image of itself: its mirror image, at a symmetric orbit, or itself shifted by forcing periods, at a motion
+    that repeats earlier. Only one of the images is followed. A branch that neither passes a seed nor leaves another
+    branch is missed. A seed at which the search for roots fails is skipped with a warning.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def _seeds(family, path, seeds, report):
 
 
 def _half(family, path, interval, curve, longest, report, start):
-    """Return the nodes and places of a branch on one side of the start."""
+    """Return the nodes and places of a branch from the start in one direction."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):

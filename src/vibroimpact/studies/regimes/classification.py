@@ -52,7 +52,10 @@ class Regime:
 
     @property
     def mean_amplitudes(self) -> np.ndarray:
-        """Amplitudes C_i from half of each ball's mean path per cycle, (2,); on a 1:1 response the saw-tooth's."""
+        """Amplitudes C_i, shape (2,), from half of each ball's mean path per cycle.
+
+        On a 1:1 response they are the amplitudes of the saw-tooth.
+        """
         path = np.array([self._path(ball) for ball in (1, 3)])
         return sawtooth_amplitude(self.run.system.epsilon, path / (2 * self.run.cycles))
 
@@ -136,7 +139,7 @@ def classify(run: Run) -> tuple[str, int | None]:
 
     A ball is idle if it is at rest throughout; a ball that drifts, however slowly, will meet a wall. If all balls are
     at rest and the boxes repeat, there are no impacts. A 1:1 response repeats every cycle, with one impact at each wall
-    of each module. It is symmetric if all displacements change sign after half a period. Only active modules count.
+    of each module. It is symmetric if all displacements change sign after half a period. Inactive modules are ignored.
     """
     displacements = run.samples[:, :4]
     repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)
@@ -203,7 +206,10 @@ def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
 
 
 def _two_impacts(run):
-    """Return True if all events are impacts, one per cycle at each wall (one more or one less in the window)."""
+    """Return True if all events are impacts, one per cycle at each wall.
+
+    At each wall, the window may have one impact more or one less, since it may cut off or include one at its ends.
+    """
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
     return len(impacts) == len(run.events) and bool(np.all(np.abs(np.array(counts) - run.cycles) <= 1))

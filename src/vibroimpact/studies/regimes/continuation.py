@@ -23,10 +23,13 @@ from scipy.optimize import brentq
 _DIFFERENCE = 1e-6  # step in p, relative to 1 + |p|; dF/dp is then accurate to about 1e-10
 _STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
 _STEPS, _FEET = 12, 4
-# Newton steps that end the iteration, relative; the second once steps no longer shrink (rounding, singular Jacobian).
+# Relative size of the Newton step that ends the iteration; the second applies once steps no longer shrink, because of
+# rounding or a singular Jacobian.
 _SETTLED, _STALLED = 1e-13, 1e-7
 _REFINED = 1e-10
-_STEEP = 0.2  # if the tangent has a larger component along p, Newton's method keeps p fixed in a step, which is cheaper
+# Newton's method keeps p fixed within a step if the tangent has a larger component along p: F is costlier at a new p
+# than at a new x.
+_STEEP = 0.2
 _TURN = 0.15  # radians by which the tangent may turn in one step
 _SHORTEST = 1e-7  # shortest step; the curve is lost where a shorter one is needed
 _RESOLVED = 1e-6  # arclength at which bisection ends; this far from a branch point Newton's method keeps 10 digits
@@ -76,7 +79,7 @@ class Curve:
     def singular(self, z: np.ndarray) -> bool:
         """Return True if dF/dz is singular at z within rounding, so that the tangent is not unique.
 
-        The largest singular value is no measure of rounding, since it is unbounded near grazing.
+        The smallest singular value is compared with the median, since the largest is unbounded near grazing.
         """
         sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
         return bool(sizes[-1] <= _SINGULAR * (1 + np.median(sizes)))
@@ -148,8 +151,8 @@ class Curve:
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
         """Return the points and places of the curve through a root z, in order; a closed curve is passed once.
 
-        half(start) returns the points and places on one side of a start. The root is refined first, since a multiple
-        root is known to half of the digits only.
+        half(start) returns the points and places from a start in the direction of its tangent. The root is refined
+        first, since a multiple root is known to half of the digits only.
         """
         for _ in range(_STEPS):
             change = np.linalg.lstsq(self._by_z(z), self.equations(z[:-1], z[-1])[0])[0]
@@ -225,7 +228,7 @@ class Curve:
         """Return the places of one step, the end of the step last; [] if the curve turns too much or is lost.
 
         If the step passes a branch point, the list also has that point, between a place just before and one just after.
-        If the determinant changes sign without a branch point, the step has met another curve, and the result is [].
+        If the determinant changes sign without a branch point, the step has jumped to another curve: the result is [].
         """
         after = self._next(place, length)
         if after is None or after.determinant * place.determinant > 0:
@@ -285,7 +288,9 @@ class Curve:
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
                 return None
-            steps = (self._next(place, part * length) for part in (0.5, 0.4, 0.6))  # one may meet a branch point
+            steps = (
+                self._next(place, part * length) for part in (0.5, 0.4, 0.6)
+            )  # Newton's method may fail near a branch point
             middle = next(filter(None, steps), None)
             if middle is None:
                 return (place, after) if self.singular(place.z) else None

@@ -129,9 +129,9 @@ def _end(orbit):
 def splitting(system, root) -> np.ndarray:
     """Return the difference of the patterns to leading order: root (6,) minus the root with ball 2 mirrored.
 
-    Only even harmonics of the coupling contribute, since they change sign if one module is mirrored. Both roots have
-    the phases of ball 2 after mirroring (`mirrored`). The result is twice the inverse Jacobian of the exact conditions
-    times the even harmonics that cross the coupling.
+    Only even harmonics of the coupling contribute, since they change sign if one module is mirrored. Both roots are
+    written with the phases of ball 2 after mirroring (`mirrored`). The result is twice the inverse Jacobian of the
+    exact conditions times the even harmonics that the coupling transmits.
     """
     conditions = AsymmetricConditions(system)
     times, strengths = root[:4].reshape(2, 2), root[4:]

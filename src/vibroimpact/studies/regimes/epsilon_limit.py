@@ -64,7 +64,7 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
     """Compare the exact multipliers with slow eigenvalues (for half of them) and fast multipliers (for the rest)."""
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
-    # Errors are of second order in epsilon for slow multipliers, of first for fast ones; weights make them comparable.
+    # Errors are of order epsilon^2 for slow multipliers and epsilon for fast ones; the weights make them comparable.
     weights = np.repeat([1 / slow_time, 1.0], len(slow))
     pairs = linear_sum_assignment(weights[:, None] * np.abs(np.log(predicted[:, None] / exact)))[1]
     return Comparison(

@@ -13,7 +13,7 @@ from vibroimpact.studies.regimes.families import AsymmetricOrbits
 SEARCHED = (0.25, 0.5, 0.75)
 """Positions in the list of values at which orbits are searched, as fractions of its length."""
 LARGEST_CHANGE = 0.1
-"""Largest change of a root from one value to the next on the same branch, for steps as short as those of a slider."""
+"""Largest change of a root from one value to the next on the same branch; the values of a slider are close enough."""
 SAME = 1e-6
 
 
@@ -28,7 +28,7 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
     Parameters
     ----------
     systems : dict
-        Value of the parameter (ascending) -> system.
+        System by value of the parameter, in ascending order.
     """
     values, found = list(systems), {value: [] for value in systems}
     for part in SEARCHED:

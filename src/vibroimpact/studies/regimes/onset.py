@@ -45,7 +45,7 @@ def longest_range(values, flags) -> tuple[float, float]:
 
 
 def onsets(path, values, p, names) -> list[tuple]:
-    """Return the range of modulated responses along a path, by slow flow and simulation, and the share of agreement.
+    """Return the range of modulated responses along a path, by slow flow and by simulation, and how often both agree.
 
     Parameters
     ----------

@@ -85,12 +85,12 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     observation : Observation
         Lengths of the runs.
     progress : bool, default False
-        Count the initial states on standard error, if it is a terminal.
+        Show on standard error, if it is a terminal, how many initial states are done.
     """
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        now = first if name in CHAOS else regimes  # the latter include motions that chaos has turned into
+        now = first if name in CHAOS else regimes  # `regimes` includes motions no longer named chaotic
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
             _test_classification(system, regimes, members, observation, progress)
