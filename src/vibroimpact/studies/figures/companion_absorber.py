@@ -114,7 +114,7 @@ STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgew
 MARGIN_FACTOR = 1.25
 """Factor that defines the margin of a clearance, in which the peak is at most MARGIN_FACTOR times the lowest peak."""
 PLATEAU_FACTOR = 1.2
-"""Factor that defines the plateau, from the least kappa: lowest peaks up to PLATEAU_FACTOR times the lowest of all."""
+"""Factor that defines the plateau: the lowest peaks are at most PLATEAU_FACTOR times the lowest of all."""
 FROM, TO = "plateau from", "plateau to"
 REMEASURED_PEAKS = 2
 """Number of the lowest peaks of a sweep that are measured again."""
@@ -135,7 +135,7 @@ def compute(
 
     The lowest peak of a sweep is biased: the lowest of many values with random errors is too low. So the
     REMEASURED_PEAKS lowest peaks are measured again (`absorbers.peaks`), from rest and other starts, at the
-    frequencies of the band and half-way between them. The lowest of the new values counts, with its standard error. A
+    frequencies of the band and half-way between them. The lowest new value is reported, with its standard error. A
     motion that no start reaches may still move the boxes further.
 
     Parameters
@@ -252,8 +252,8 @@ def _of_restitution(places):
 def plateau(places):
     """Return the largest kappa on the plateau, and the least and the greatest of the lowest peaks on it.
 
-    Up to this kappa each lowest peak is at most PLATEAU_FACTOR times the lowest of all. All are nan if the first is
-    higher.
+    Up to this kappa each lowest peak is at most PLATEAU_FACTOR times the lowest of all. If the peak at the least kappa
+    is already higher, all three results are nan.
     """
     level = PLATEAU_FACTOR * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))
@@ -279,7 +279,10 @@ def _response_ratios(system, response, band):
 
 
 def _decays(system, linear):
-    """Yield decay times in forcing periods after an impulse on box 1; with balls, after the one that decays fastest."""
+    """Yield rows with the decay time, in forcing periods, after an impulse on box 1.
+
+    With balls, the impulse is the one with the quickest decay; in a linear system every impulse has the same decay.
+    """
     times = [decay_time(system, impulse, fraction=ENERGY_FRACTION) for impulse in IMPULSES]
     found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=ENERGY_FRACTION)[1]}
     found |= {name: one.decay_time(1, ENERGY_FRACTION) for name, one in linear.items()}

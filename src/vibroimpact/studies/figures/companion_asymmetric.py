@@ -164,7 +164,8 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fi
     kappa
         Restitution coefficient of the manifold; cases with another one are left out.
     epsilon, values
-        Range and number of values of epsilon, evenly on a log scale. Pairs are followed to those below their case's.
+        Range and number of values of epsilon, evenly on a log scale. Pairs are followed to the
+        values below the epsilon of their case.
     fit_below : float
         Largest epsilon in the fit of the order with which the distance falls.
     C_max : float

@@ -88,7 +88,7 @@ SPEC = {
 }  # fmt: skip
 
 STRONG = ("equal", "unequal")
-"""Cases that have points called stable."""
+"""Cases with fixed points that the theory calls stable."""
 WEAK = "weak"
 COUPLINGS = (0.0, 0.3, 1.0, 1.4, 1.5, 1.6, 1.7, 2.0, 3.0, 5.0, 10.0, 16.0, 25.0, 35.0, 40.0, 43.0, 50.0, 70.0, 100.0)
 PROPORTION, HELD = "damper in proportion", "damper held"
@@ -111,7 +111,7 @@ NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 """Couplings at which the second term of (10.7) is computed."""
 ERRORS = ["panel", "series", "case", "coupling", "error", "own_error", "predicted", "orbits", "stable"]
 WELL = 5.0
-"""Least coupling at which errors and missing motions are reported separately."""
+"""Coupling from which on errors and missing motions are also reported separately."""
 ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", VANISHES: "v"}
 """Marks of how a stable range ends."""
 _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
@@ -152,10 +152,10 @@ def compute(systems: dict) -> dict:
 def errors(system) -> list[dict]:
     """Return a row per fixed point: relative error of C, verdicts of the theory and of the exact orbit.
 
-    error: the largest difference of C_1 or C_2 from that of the exact orbit, over the larger of its C; nan where there
-    is none that is a motion. own_error: the same with each difference over its own C. predicted, stable: True if called
-    stable on both time scales, and if all multipliers are inside the unit circle. orbits: how many symmetric motions
-    there are, the same in all rows.
+    error: larger difference in C_1 or C_2 between the point and its exact orbit, over the larger C_i of the orbit; nan
+    if the point has no orbit that is a motion. own_error: larger difference, each over the C_i of the same module.
+    predicted: True if the theory calls the point stable on both time scales. stable: True if all multipliers of the
+    orbit are inside the unit circle. orbits: number of symmetric motions of the system, the same in all rows.
     """
     points = fixed_points(system)
     found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
@@ -367,9 +367,8 @@ def _draw_errors(axes, table):
 
 
 def _draw_asymmetry(axes, table):
-    table = table.reindex(
-        columns=["series", "coupling", "v", "ends"]
-    )  # adds v and ends, which are missing without an asymmetric pattern
+    # Add the columns v and ends, which are missing if no pattern is asymmetric.
+    table = table.reindex(columns=["series", "coupling", "v", "ends"])
     for series, rows in table.groupby("series", sort=False):
         axes.plot(rows["coupling"], rows["v"], **STABLE | {"color": BLACK if series.startswith(IN_PHASE) else GREY})
     for end, marker in ENDS.items():

@@ -145,7 +145,7 @@ def _border(system, cells, series):
 
 
 def _squares(cells, square):
-    """For each square of four cells without gaps, yield their centres and counts, in order round the square."""
+    """For each square of four cells with known counts, yield their centres and counts, in order around the square."""
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
         around = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]

@@ -288,9 +288,8 @@ class Curve:
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
                 return None
-            steps = (
-                self._next(place, part * length) for part in (0.5, 0.4, 0.6)
-            )  # Newton's method may fail near a branch point
+            # One of the fractions may lead to a branch point, where Newton's method fails.
+            steps = (self._next(place, part * length) for part in (0.5, 0.4, 0.6))
             middle = next(filter(None, steps), None)
             if middle is None:
                 return (place, after) if self.singular(place.z) else None

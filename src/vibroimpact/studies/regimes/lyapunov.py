@@ -228,9 +228,7 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
         rates = np.log(factors)
-    rates[
-        np.arange(size) >= size - 2 * stuck[:, None]
-    ] = -np.inf  # the computed factors are rounding errors instead of 0
+    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # computed factors are of rounding size, not 0
     return Spectrum(_largest_first(rates), contraction(system, impacts, stuck), stuck)
 
 
