@@ -62,7 +62,9 @@ class Grid:
     Parameters
     ----------
     system
-        System with the values of all other parameters. axes: one or two.
+        System with the values of all other parameters.
+    axes : sequence of Axis
+        One or two axes.
     """
 
     def __init__(self, system: System, axes: Sequence[Axis]):

@@ -43,7 +43,7 @@ class BranchPath(Section):
 
 
 class Attractors(Section):
-    """Attractors that are found from random initial states along the paths of `branches`."""
+    """Attractors that are found from evenly spread initial states along the paths of `branches`."""
 
     values: fields.count("Number of values along each path", 2, fields.MAX_VALUES)
     starts: fields.Starts
