@@ -54,7 +54,9 @@ ENDS = {*PERIODIC, IDLE, NO_IMPACTS}
     ],
 )
 def test_the_sign_of_an_exponent_is_said_where_its_error_allows(mean, error, expected):
-    assert sign(Measured(mean, error, error)) == expected
+    found = Measured(mean, error)
+    found.scatter = error
+    assert sign(found) == expected
 
 
 def test_growth_with_time_is_neither_chaos_nor_quasi_periodic(chapter):

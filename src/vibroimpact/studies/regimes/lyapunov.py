@@ -32,17 +32,21 @@ _MOST = 10_000_000
 _MOST_RESAMPLES = 1_000_000
 
 
-class Measured(NamedTuple):
+class Exponent(NamedTuple):
     """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
     The error is the root of the sum of squares of the standard error from block means and of ln(t1 / t0) / (t1 - t0).
     The latter is the apparent rate, over the blocks from t0 to t1, of a perturbation that grows linearly in time. The
-    true exponent of such a perturbation, for example for a ball at rest, is 0. `scatter` is the standard error from
-    block means alone.
+    true exponent of such a perturbation, for example for a ball at rest, is 0.
     """
 
     mean: float
     error: float
+
+
+class Measured(Exponent):
+    """An exponent with its `scatter`, the standard error from block means alone."""
+
     scatter: float
 
 
@@ -106,7 +110,9 @@ def largest_lyapunov(
     mean, scatter = rates.mean(), rates.std(ddof=1) / np.sqrt(blocks)
     first, last = max(discarded * block, 1), discarded * block + cycles
     with_time = np.log(last / first) / cycles
-    return Measured(float(mean), float(np.hypot(scatter, with_time)), float(scatter))
+    found = Measured(float(mean), float(np.hypot(scatter, with_time)))
+    found.scatter = float(scatter)
+    return found
 
 
 @dataclass(frozen=True, eq=False)
