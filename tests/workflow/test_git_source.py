@@ -89,7 +89,7 @@ def test_figures_are_those_of_the_checkout_and_are_made_once(outer, built):
 
 
 def test_rules_of_another_commit_than_the_installed_package_are_refused(tree, outer):
-    tree.edit("workflow/scripts/notebook.py", '"""Write the pages', '"""Write all pages')
+    tree.edit("workflow/scripts/notebook.py", '"""Write one page', '"""Write a page')
     commit(tree.path)
     status, said = outer("--dry-run", f"chapter_{FIGURE}")
     assert status == 1

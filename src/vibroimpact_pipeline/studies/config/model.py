@@ -99,7 +99,7 @@ class Whole(Config, Studies):
         yield from (("report", "animations", name) for name in self.report.animations)
         yield from (("machines", name) for name in self.machines)
 
-    def moves(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
+    def varied_parameters(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
         """Yield varied parameters to check, as tuples (key path of the entry, case or None for all, parameters)."""
         branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
         for number, path in enumerate(branches.paths):

@@ -150,7 +150,7 @@ def explain(app, tree, equations: dict) -> None:
     """Link the chapter's equation numbers on a page to their explanations, and add them to the search index."""
     named, page = set(), app.builder.get_relative_uri(app.env.docname, "numbers")
     for text in list(tree.findall(nodes.Text)):
-        if not isinstance(text.parent, NAMES) and EQUATION.search(text):
+        if EQUATION.search(text) and not any(isinstance(node, NAMES) for node in _ancestors(text)):
             parts = EQUATION.split(text)
             named |= set(parts[1::2])
             links = [
@@ -159,6 +159,12 @@ def explain(app, tree, equations: dict) -> None:
             ]
             text.parent.replace(text, [links[n // 2] if n % 2 else nodes.Text(part) for n, part in enumerate(parts)])
     tree.append(addnodes.index(entries=[("single", f"({part})", "", "", None) for part in sorted(named)]))
+
+
+def _ancestors(node):
+    """Yield the nodes that contain a node, from the inside out."""
+    while node := node.parent:
+        yield node
 
 
 def write_article(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
