@@ -72,6 +72,7 @@ def results(folder: Path) -> Path:
         "accuracy/work_precision.csv": [
             run | {"outcome": outcome, "reason": HOSTILE} for outcome in ("finished", HOSTILE)
         ],
+        "accuracy/choices.csv": [run | {"error": 1e-6, "choice": 1, "wrong": 0}],
         "accuracy/stress_tests.csv": [run | {"group": HOSTILE, "test": HOSTILE, "verdict": "right"}],
         "sweeps/regime_map.csv": [{"f10_hat": 0.5, "f20_hat": 0.5, "note": HOSTILE} | dict.fromkeys(REGIMES, 0.1)],
         "force_sweep/force_sweep.csv": [{"value": 0.4, "theory": HOSTILE}, {"value": 0.5, "theory": "stable"}],
