@@ -386,7 +386,7 @@ def test_a_motion_without_impacts_is_followed_until_the_box_reaches_the_ball():
     assert branch.nodes[-1].p == pytest.approx(0.1 / still.amplitudes[0], rel=1e-6)
 
 
-def test_a_branch_of_a_given_motion_ends_at_the_symmetric_motion_and_where_a_ball_grazes():
+def test_a_branch_of_a_given_motion_ends_at_the_symmetric_motion():
     """The asymmetric orbits of the same parameters, by impulse responses, end at the same symmetry breaking."""
     system = MACHINE.with_(f10_hat=1.5)
     motion = next(one for one in vi.orbits(system) if not one.symmetric and one.admissible)

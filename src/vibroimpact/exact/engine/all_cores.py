@@ -8,7 +8,7 @@ from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-THREAD_LIMIT = ContextVar("allowed", default=sys.maxsize)
+THREAD_LIMIT = ContextVar("thread_limit", default=sys.maxsize)
 WORKER = threading.local()
 
 
@@ -37,7 +37,7 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
             raise
 
 
-def stop_if_given_up():
+def stop_if_cancelled():
     """Raise CancelledError in this thread if another piece of the work failed or was interrupted.
 
     Work that takes long calls this function from time to time.

@@ -43,7 +43,7 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 """Gauss's rule with four nodes; over one spacing of the flow table its error is below rounding."""
 
 
-class Potentials(NamedTuple):
+class Squares(NamedTuple):
     """Potentials S (4, k, 6, 6) and drifts c (4, k) for k integrals in each of the 4 contact states.
 
     An integral over a flight is the difference of z S z + c t (see the module docstring), not of a potential energy.
@@ -54,7 +54,7 @@ class Potentials(NamedTuple):
     drifts: np.ndarray
 
 
-NO_POTENTIALS = Potentials(np.empty((4, 0, SIZE, SIZE)), np.empty((4, 0)))
+NO_POTENTIALS = Squares(np.empty((4, 0, SIZE, SIZE)), np.empty((4, 0)))
 
 
 def _kernels():
@@ -123,11 +123,11 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 @lru_cache(maxsize=64)
-def squares_of(system) -> Potentials:
+def squares_of(system) -> Squares:
     """Return the potentials for the forms OBSERVED, or NO_POTENTIALS if differences of potentials lose digits."""
     _, rates = numbers_of([system], 2)
     potentials, drifts, sound = potentials_of(rates[:, 0], OBSERVED)
-    return Potentials(potentials[0], drifts[0]) if sound[0] else NO_POTENTIALS
+    return Squares(potentials[0], drifts[0]) if sound[0] else NO_POTENTIALS
 
 
 @dataclass(frozen=True, eq=False, repr=False)

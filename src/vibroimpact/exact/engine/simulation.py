@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from vibroimpact import frames
 from vibroimpact.exact.engine import contact, event_loop
-from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_given_up
+from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_cancelled
 from vibroimpact.exact.engine.certificate import HORIZON_ERROR, Certificate, errors_at
 from vibroimpact.exact.engine.energy import Energy
 from vibroimpact.exact.engine.flow import TWO_PI, Instant, continues, exactly, flow_of, phase_at, tables_of
@@ -456,6 +456,6 @@ def attempt(system, state, cycles, begin, times, clock):
             pieces.append(rows[: int(counters[contact.EVENTS])])
             event_loop.empty_rows(run, counters)
             rows = np.empty((event_loop.ROWS_PER_PIECE, contact.ROW))
-        stop_if_given_up()
+        stop_if_cancelled()
     pieces.append(rows[: int(counters[contact.EVENTS])])
     return status, Run(system, state, begin, cycles, samples, run[:8].copy(), pieces, counters)

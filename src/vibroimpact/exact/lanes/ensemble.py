@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vibroimpact.exact.engine import energy as energy_balance
-from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_given_up
+from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_cancelled
 from vibroimpact.exact.engine.energy import ENERGY, OBSERVED, energies
 from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED
 from vibroimpact.exact.engine.flow import OMEGA, RATE, Instant, continues, numbers_of, phase_at
@@ -196,7 +196,7 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
     runs = owners, starts, stages, status, final, statistics, continues(begins[0])
     piece, memory = loop.Piece(scalars, rates, phases, potentials, drifts, *runs), loop.memory()
     while not loop.run_lanes(piece, memory):
-        stop_if_given_up()
+        stop_if_cancelled()
     for n in single:
         status[n] = _single_run(systems[owners[n]], starts[n], begins[owners[n]], stages, final[n], statistics[n])
     failed = status != FINISHED
@@ -217,7 +217,7 @@ def _single_run(system, state, begin, stages, final, statistics):
     """Compute a run outside the lanes; return its status, and write final states (k, 8) and statistics (k, STATISTICS).
 
     This is for systems whose flights would take many steps in a lane, since the frequencies of boxes and forcing differ
-    much, and for systems whose integrals would lose digits as differences of potentials (`energy.Potentials`).
+    much, and for systems whose integrals would lose digits as differences of potentials (`energy.Squares`).
     """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]

@@ -8,7 +8,7 @@ import numpy as np
 from vibroimpact.exact.engine import event_loop
 from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
 from vibroimpact.exact.engine.contact import ENTRIES, EVENTS, ROW, Log, Motion
-from vibroimpact.exact.engine.energy import Potentials
+from vibroimpact.exact.engine.energy import Squares
 from vibroimpact.exact.engine.event_loop import FINISHED, PAUSED, Progress, Sampling, Span, run_until
 from vibroimpact.exact.engine.flow import TWO_PI, mode_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
@@ -204,7 +204,7 @@ def _system_of(piece, lane, m):
     """Return the flow tables and the potentials for the system of the run in a lane."""
     owner, slot = piece.owners[m.members[lane]], m.slots[lane]
     flow = unpacked(piece.numbers[owner], m.series[slot], m.rotations[slot])
-    return flow, Potentials(piece.potentials[owner], piece.drifts[owner])
+    return flow, Squares(piece.potentials[owner], piece.drifts[owner])
 
 
 @inlined

@@ -55,8 +55,8 @@ BEND, BEND_FORCE: BEND times the root of twice the energy, plus BEND_FORCE, is a
 ROUNDING, LEAST_ROUNDING: the same for a bound on rounding errors, without the part due to ball velocities
 LOSS: energy loss of an impact divided by its squared relative velocity
 FIRST, FIRST_TAIL: phase at the start of the run, and its remainder
-DRIFTS: drift c of each integral (`energy.Potentials`)
-DROPS: for each integral, the two rows of its matrix S (`energy.Potentials`) for the velocities of the boxes
+DRIFTS: drift c of each integral (`energy.Squares`)
+DROPS: for each integral, the two rows of its matrix S (`energy.Squares`) for the velocities of the boxes
 """
 
 LONGEST_STEP = 0.52  # longest step, times the largest rate of boxes and forcing

@@ -1,7 +1,7 @@
 """Compute the statistics of runs in an ensemble: impacts, displacements of boxes, speeds of balls, integrals.
 
 In the lanes, statistics are added up flight by flight (`observe`); in the event loop, event by event
-(`accumulate_statistics`). Integrals are differences of potentials (`energy.Potentials`).
+(`accumulate_statistics`). Integrals are differences of potentials (`energy.Squares`).
 
 A turn is a point at which a box reverses. If the hull of a step shows that a turn may be the largest displacement of
 the box so far, the turn is stored, but not yet computed. Stored turns are computed later for all lanes together

@@ -122,10 +122,8 @@ REMEASURED_STARTS = 8
 """Number of starts, rest among them, in the second measurement of a lowest peak."""
 IMPULSES, ENERGY_FRACTION = np.geomspace(0.5, 50.0, 81), 0.1
 """Impulses on box 1 (as velocities, in units of L omega_10), and the fraction of the energy left after a decay."""
-SUMMARY_COLUMNS = [
-    *("quantity", "who", "value", "spread", "largest", "swept", "kappa", *FORCES, "sigma_e_hat"),
-    *("clearance", "narrowest", "widest", "regime"),
-]
+PLACE = "kappa", *FORCES, "sigma_e_hat", "clearance"
+SUMMARY_COLUMNS = ["quantity", "who", "value", "spread", "largest", "swept", *PLACE, "narrowest", "widest", "regime"]
 
 
 def compute(

@@ -68,7 +68,7 @@ class SymmetricOrbits(_OwnImage):
     @classmethod
     def roots(cls, system) -> np.ndarray:
         """Return all roots, shape (n, 4)."""
-        return np.where(_idle(cls, system), cls.rest, symmetric_solutions(system))
+        return np.where(_inactive(cls, system), cls.rest, symmetric_solutions(system))
 
     @classmethod
     def equations(cls, system, x):
@@ -81,7 +81,7 @@ class SymmetricOrbits(_OwnImage):
         """
         _require_both_modules(cls, system, x)
         residual, jacobian = cls._conditions(system)(x[None])
-        return np.where(_idle(cls, system), x - cls.rest, residual[0]), jacobian[0]
+        return np.where(_inactive(cls, system), x - cls.rest, residual[0]), jacobian[0]
 
     @classmethod
     def speed(cls, x) -> float:
@@ -131,13 +131,13 @@ class AsymmetricOrbits(SymmetricOrbits):
     @classmethod
     def roots(cls, system) -> np.ndarray:
         """Return the roots found, shape (n, 6); some may be missed."""
-        return np.where(_idle(cls, system), cls.rest, asymmetric_solutions(system)[0])
+        return np.where(_inactive(cls, system), cls.rest, asymmetric_solutions(system)[0])
 
     @classmethod
     def images(cls, system, x) -> list[np.ndarray]:
         """Return the roots of the same motion and of its mirror image."""
         image = np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])
-        return [x, np.where(_idle(cls, system), x, image)]
+        return [x, np.where(_inactive(cls, system), x, image)]
 
     @staticmethod
     def merging(system, x) -> str:
@@ -166,7 +166,7 @@ class PeriodicOrbits(AsymmetricOrbits):
 
     def __init__(self, orbit):
         self.orbit, self.name = orbit, f"motion of period {orbit.periods}"
-        self._free = ~determined(orbit.run)
+        self._determined = determined(orbit.run)
         self._own = self._equal_images(orbit.system, orbit.run.start)
 
     def roots(self, system) -> np.ndarray:
@@ -196,10 +196,10 @@ class PeriodicOrbits(AsymmetricOrbits):
             If a module becomes active or inactive, or a ball begins or ceases to impact.
         """
         run = self._run(system, x)
-        if (self._free == determined(run)).any():
+        if (determined(run) != self._determined).any():
             raise Lost("other balls impact")
-        residual = np.where(self._free, x - self.orbit.run.start, run.final - x)
-        return residual, np.where(self._free[:, None], np.eye(8), run.jacobian - np.eye(8))
+        residual = np.where(self._determined, run.final - x, x - self.orbit.run.start)
+        return residual, np.where(self._determined[:, None], run.jacobian - np.eye(8), np.eye(8))
 
     @staticmethod
     def speed(x) -> float:
@@ -247,7 +247,7 @@ class FixedPoints(_OwnImage):
     def roots(cls, system) -> np.ndarray:
         """Return all fixed points with C_1, C_2 >= 0, shape (n, 4)."""
         found = [np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]
-        return np.where(_idle(cls, system), cls.rest, np.reshape(found, (-1, 4)))
+        return np.where(_inactive(cls, system), cls.rest, np.reshape(found, (-1, 4)))
 
     @classmethod
     def equations(cls, system, x):
@@ -259,7 +259,7 @@ class FixedPoints(_OwnImage):
             If both modules are active, and x is a response of one module.
         """
         _require_both_modules(cls, system, x)
-        residual, jacobian, part = x - cls.rest, np.eye(4), ~_idle(cls, system)
+        residual, jacobian, part = x - cls.rest, np.eye(4), ~_inactive(cls, system)
         residual[part], jacobian[np.ix_(part, part)] = slow_flow.equations(system, x[1::2], x[0::2])
         return residual, jacobian
 
@@ -326,7 +326,7 @@ def flight_fractions(system, x) -> np.ndarray:
     return np.where(np.isin([1, 2], system.modules), u, 0.5)
 
 
-def _idle(family, system):
+def _inactive(family, system):
     """Return True for each unknown of an inactive module, shape (d,)."""
     part = system.modules
     return np.array([module not in part for module in family.modules])
@@ -354,7 +354,7 @@ def asymmetric_root(system, x) -> np.ndarray:
     """Convert the root (tau_1, tau_2, C_1, C_2) of a symmetric orbit to a root (6,) of the asymmetric equations."""
     times = np.stack([x[:2], x[:2] + system.period / 2], axis=1).ravel()
     root = np.append(times, 4 * path_of(system.epsilon, x[2:]) / system.period)
-    return np.where(_idle(AsymmetricOrbits, system), AsymmetricOrbits.rest, root)
+    return np.where(_inactive(AsymmetricOrbits, system), AsymmetricOrbits.rest, root)
 
 
 def _tests(mu, at_minus_one):
