@@ -176,13 +176,6 @@ def test_a_set_up_works_in_its_own_folder_and_without_paths_of_others(tree, reco
     assert [line for line in told if line.endswith(("=/nowhere", "=1"))] == []
 
 
-def test_every_script_of_the_shell_that_changes_folders_ignores_cdpath():
-    scripts = [ROOT / ".ci/run", *(ROOT / "workflow").glob("*.sh")]
-    assert [
-        path for path in scripts if not re.search(r"unset .*\n(?:.*\n)*cd |CDPATH; do(?:.*\n)+cd ", path.read_text())
-    ] == []
-
-
 PIP_CONF = """
 [global]
 user = true
@@ -272,21 +265,6 @@ def test_uv_takes_packages_from_where_pip_is_told_to_and_checks_their_hashes(tre
     assert (packages / "tiny-1.dist-info").is_dir()
 
 
-def test_one_script_calls_pip():
-    files = [ROOT / name for name in ("Makefile", "Dockerfile", ".ci/run", "workflow/set_up.sh", "workflow/pip.sh")]
-    assert [path.name for path in files if "-m pip" in path.read_text()] == ["pip.sh"]
-
-
-@pytest.mark.thorough
-def test_packages_are_checked_by_hash(tree):
-    (tree / "wheels").mkdir()
-    with zipfile.ZipFile(tree / "wheels/setuptools-1-py3-none-any.whl", "w") as wheel:
-        wheel.writestr("setuptools-1.dist-info/METADATA", "Metadata-Version: 2.1\nName: setuptools\nVersion: 1\n")
-    (tree / "environment.lock").write_text("setuptools==1 \\\n    --hash=sha256:" + 64 * "0" + "\n")
-    assert "THESE PACKAGES DO NOT MATCH THE HASHES" in set_up(tree, expected=1, WHEELS="wheels")
-    assert not (tree / ".venv/.complete").exists()
-
-
 LOCKS = "environment", "development", "cluster"
 
 
@@ -306,13 +284,6 @@ def test_the_locks_are_whole():
     assert "://" not in text
     [heyoka] = [line for line in text.splitlines() if line.startswith("heyoka==")]
     assert "sys_platform == 'linux'" in heyoka
-
-
-def test_the_lock_says_what_reads_it():
-    """`make lock`, which rewrites the lock, writes the same line."""
-    (head,) = re.findall(r"sed -i '1i (#.*)' environment\.lock", (ROOT / "Makefile").read_text())
-    assert (ROOT / "environment.lock").read_text().startswith(f"{head}\n")
-    assert "pip and uv" in head
 
 
 def requirements(*extras):

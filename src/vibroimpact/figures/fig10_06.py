@@ -6,6 +6,7 @@ from types import MappingProxyType
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from vibroimpact.accuracy.model_choice import motions
 from vibroimpact.figures.plotting.manifold import branches, draw_branches
@@ -55,7 +56,8 @@ NAME = {"fontsize": 10, "color": BLACK}
 ZOOM = {"xlim": (0.85, 1.25), "ylim": (0.0, 0.34)}
 """Part of a plane around the fold; if it contains several points, it is drawn enlarged in INSET."""
 INSET = (0.13, 0.5, 0.44, 0.46)
-ROW_HEIGHT, MARGINS = 38.0, 11.0
+KEY = {"P": "fixed point $P_i$", "S": "singular point $S_i$"}
+ROW_HEIGHT, MARGINS = 38.0, 18.0
 """Height in mm of one row of planes, and of all headings and labels together."""
 MARKERS = {
     "S": {"marker": "s", "color": "0.3", "markersize": 4.6, "markerfacecolor": "0.75", "markeredgewidth": 0.7},
@@ -137,6 +139,8 @@ def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({}))
         axes.set_title(f"module {module}\n", pad=4)  # one line above the heading of the row
     for axes, module in zip(grid[-1], MODULES, strict=True):
         axes.set_xlabel(f"$C_{module}$")
+    handles = [Line2D([], [], linestyle="none", **MARKERS[kind]) for kind in KEY]
+    figure.legend(handles, KEY.values(), loc="outside lower center", ncols=2)
     name_curves(figure, names, **NAME)
     return figure
 

@@ -45,7 +45,13 @@ COORDINATES = {
     "W": {"color": BLACK, "linestyle": "-", "linewidth": 1.2},
     "Y": {"color": BLACK, "linestyle": (0, (5, 2)), "linewidth": 1.0},
 }
-"""U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style distinguishes curves of one colour."""
+WORDS = {
+    "U": r"$U_i = X_i + \varepsilon Y_i$",
+    "X": "box $X_i$",
+    "W": "$W_i = X_i - Y_i$",
+    "Y": "ball $Y_i$",
+}
+"""COORDINATES: U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style distinguishes curves of one colour. WORDS: names in the key."""
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, model: str = "slow_flow") -> pd.DataFrame:
@@ -93,7 +99,7 @@ def _times(first: float, period: float, end: float, points: int = 401) -> np.nda
 @styled
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`, with the first module above the second."""
-    figure = new_figure(SINGLE_COLUMN, 92.0)
+    figure = new_figure(SINGLE_COLUMN, 97.0)
     grid = figure.subplots(len(MODULES), 1, sharex=True, sharey=True)
     for axes, module, letter in zip(grid, MODULES, "ab", strict=True):
         draw_response(axes, table, module)
@@ -113,5 +119,5 @@ def draw_response(axes, table: pd.DataFrame, module: int) -> None:
 
 def key(figure) -> None:
     """Draw a legend of the coordinates below the panels, since the curves are too close for direct labels."""
-    handles = [Line2D([], [], **look, label=f"${name}_i$") for name, look in COORDINATES.items()]
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), handlelength=2.4)
+    handles = [Line2D([], [], **look, label=WORDS[name]) for name, look in COORDINATES.items()]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, handlelength=2.4)

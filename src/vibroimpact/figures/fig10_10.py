@@ -53,7 +53,7 @@ def compute(
 @styled
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: both planes side by side, and below them the responses of both modules."""
-    figure = new_figure(SINGLE_COLUMN, 132.0)
+    figure = new_figure(SINGLE_COLUMN, 137.0)
     panels = figure.subplot_mosaic([[1, 2], ["module 1"] * 2, ["module 2"] * 2], height_ratios=(1, 1, 1))
     label, names = table["panel"].iloc[0][:-1], {}
     for module in fig10_06.MODULES:
@@ -61,7 +61,7 @@ def draw(table: pd.DataFrame) -> Figure:
         panels[module].set_xlabel(f"$C_{module}$")
         heading(panels[module], words=f"fixed point ({label}), module {module}")
         fig10_07.draw_response(panels[f"module {module}"], table, module)
-        heading(panels[f"module {module}"], words=f"its response, module {module}")
+        heading(panels[f"module {module}"], words=f"response, module {module}")
     panels["module 1"].sharex(panels["module 2"])
     panels["module 1"].sharey(panels["module 2"])
     panels["module 1"].tick_params(labelbottom=False)

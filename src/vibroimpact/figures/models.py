@@ -6,6 +6,8 @@ from string import ascii_lowercase
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from vibroimpact.accuracy.model_choice import CHOICES
 from vibroimpact.accuracy.timing import interleaved
@@ -64,6 +66,8 @@ ERROR_MIN, ERROR_MAX = 1e-3, 100.0
 """Smallest and largest error [percent] that is drawn to scale."""
 AXIS_MIN, LANE_ERROR = 1e-4, 3e-4
 """Lower end of the axis, and place on it for errors below ERROR_MIN, such as the error 0 of the reference."""
+MARK = {"color": BLACK, "marker": "o", "markersize": 5}
+KEY = "model in use", "other model", "tolerance", "less than 0.001 %"
 
 
 def compute(scenes: dict, seconds: float) -> pd.DataFrame:
@@ -175,7 +179,7 @@ def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: one panel per figure, filled markers for the models in use, the tolerance dotted."""
     scenes = list(dict.fromkeys(table["figure"]))
     columns, rows = side_by_side(len(scenes))
-    figure = new_figure(DOUBLE_COLUMN, 44.0 * rows + 8.0)
+    figure = new_figure(DOUBLE_COLUMN, 44.0 * rows + 14.0)
     grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
     ends = table["seconds"].min() / 3, table["seconds"].max() * 3
     for axes, scene, letter in zip(grid, scenes, ascii_lowercase * len(scenes), strict=False):
@@ -184,7 +188,7 @@ def draw(table: pd.DataFrame) -> Figure:
         axes.axhline(here["tolerance"].iloc[0], **LEVEL)
         for row in here.itertuples():
             place = row.seconds, LANE_ERROR if row.error < ERROR_MIN else min(row.error, ERROR_MAX)
-            axes.plot(*place, color=BLACK, marker="o", markersize=5, markerfacecolor=BLACK if row.in_use else "white")
+            axes.plot(*place, **MARK | {"markerfacecolor": BLACK if row.in_use else "white"})
             left = row.seconds > np.sqrt(ends[0] * ends[1])
             aside = {"xytext": (-5, -2), "ha": "right"} if left else {"xytext": (5, -2)}
             axes.annotate(row.model.replace("_", " "), place, textcoords="offset points", va="center", **aside)
@@ -199,6 +203,9 @@ def draw(table: pd.DataFrame) -> Figure:
         axes.tick_params(labelbottom=True)
     for axes in grid[::columns]:
         axes.set_ylabel("error [% of the axis]")
+    handles = [Line2D([], [], linestyle="none", **MARK | {"markerfacecolor": face}) for face in (BLACK, "white")]
+    handles += [Line2D([], [], **LEVEL), Patch(color=LIGHT_GREY)]
+    figure.legend(handles, KEY, loc="outside lower center", ncols=len(KEY))
     return figure
 
 

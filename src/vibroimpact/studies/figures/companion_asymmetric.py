@@ -1,6 +1,6 @@
 """Companion: the manifold with its asymmetric branch, and exact pairs of mirror images followed to small epsilon."""
 
-from itertools import pairwise, product
+from itertools import chain, pairwise, product, repeat
 from string import ascii_lowercase
 
 import numpy as np
@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
 from vibroimpact.figures.plotting.names import name_curves
-from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, STABLE, UNSTABLE, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, UNSTABLE, heading, new_figure, styled
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
 from vibroimpact.studies.regimes import asymmetric_limit
 from vibroimpact.studies.regimes.classification import ASYMMETRIC
@@ -25,14 +25,15 @@ SPEC = {
     "title": "The asymmetric branch of the manifold",
     "caption": "Motions whose balls take unequal times for their two flights. a: the manifold. At :math:`C_i = "
         r"\pi^2/(\pi^2-4)`, symmetry breaks, and the stable part continues as an asymmetric branch. Circles: fixed "
-        r"points of the slow flow on this branch; diamonds: exact asymmetric orbits at the :math:`\varepsilon` of the "
-        "cases. Other panels, one per case: asymmetry of the flights of each exact pair of mirror images (:math:`v`: "
-        r"difference of the flight times over the period) as :math:`\varepsilon` decreases, down to the fixed point "
-        r"that is its limit. Labels: verdict at the :math:`\varepsilon` of the case. The stable pair of the equal "
-        "case, A3 in `orbits.csv`, is the response of Fig. 10.8.",
+        r"points of the slow flow; filled marks: exact asymmetric orbits at the :math:`\varepsilon` of the cases, each "
+        "joined to the fixed point that is its limit, if there is one. Other panels, one per case: asymmetry of the "
+        "flights of each exact pair of mirror images (:math:`v`: difference of the flight times over the period) as "
+        r":math:`\varepsilon` decreases, down to that fixed point. Labels: verdict at the :math:`\varepsilon` of the "
+        "case. The stable pair of the equal case, A3 in `orbits.csv`, is the response of Fig. 10.8.",
     "alt": "First panel: a V-shaped curve of B against C, bold where stable. A green curve rises steeply from its "
-        "right arm, with circles and diamonds next to it. Other panels: lines of v squared against epsilon from "
-        "diamonds, labelled stable or unstable, to circles at epsilon 0; the lowest line crosses zero just before.",
+        "right arm, with circles on it and diamonds and triangles beside it. Other panels: lines of v squared "
+        "against epsilon from these marks, labelled stable or unstable, to circles at epsilon 0; the lowest line "
+        "crosses zero just before.",
     "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
         r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
     "method": "closed form, fixed points, and exact asymmetric responses continued to small epsilon",
@@ -134,11 +135,11 @@ PIECES = {
     "asymmetric, right": UNSTABLE | _COLOUR,
 }
 POINT, ORBIT = "fixed point", "exact orbit"
-MARKS = {
-    POINT: {"marker": "o", "markerfacecolor": "white", "markersize": 4.6, "color": BLACK, "linestyle": "none"},
-    ORBIT: {"marker": "D", "markersize": 3.6, "color": BLACK, "linestyle": "none"},
-}
-C_MARGIN = 0.2
+_MARK = {"color": BLACK, "linestyle": "none", "zorder": 3}
+POINT_MARK = _MARK | {"marker": "o", "markerfacecolor": "white", "markersize": 4.6}
+ORBIT_MARKS = [_MARK | {"marker": marker, "markersize": size} for marker, size in (("D", 3.6), ("^", 5.0), ("s", 4.0))]
+"""Marks of the exact orbits of the first, second and further cases."""
+C_MARGIN = 0.1
 """Margin, in C, of the panel of the manifold around the asymmetric branch and the markers."""
 UNEQUAL_FROM = 1e-3
 """Value of v^2 above which the two flights of a ball count as unequal."""
@@ -262,33 +263,51 @@ def _row(system, case, name, point, label, way, fit_below):
 def draw(tables: dict) -> Figure:
     """Draw the tables of `compute`: the manifold with both branches, and v^2 of the pairs against epsilon by case."""
     pairs = tables["pairs"]
-    cases = list(dict.fromkeys(pairs["case"]))
+    marks = dict(zip(dict.fromkeys(pairs["case"]), chain(ORBIT_MARKS, repeat(ORBIT_MARKS[-1])), strict=False))
     figure = new_figure(DOUBLE_COLUMN, 84.0)
-    left, *others = figure.subplots(1, 1 + len(cases), squeeze=False, width_ratios=[1.5, *[1] * len(cases)])[0]
+    left, *others = figure.subplots(1, 1 + len(marks), squeeze=False, width_ratios=[1.5, *[1] * len(marks)])[0]
     for axes in others[1:]:
         axes.sharey(others[0])
         axes.tick_params(labelleft=False)
     heading(left, "a", "both branches of the manifold")
-    names = {left: _draw_manifold(left, tables["csv"], tables["modules"])}
-    for axes, letter, case in zip(others, ascii_lowercase[1:], cases, strict=False):
-        heading(axes, letter, f"exact pairs, {case} forces" if case in CASES else f"exact pairs, case {case}")
-        _draw_case(axes, pairs[pairs["case"] == case])
-    if cases:
+    names = {left: _draw_manifold(left, tables, marks)}
+    for axes, letter, (case, mark) in zip(others, ascii_lowercase[1:], marks.items(), strict=False):
+        heading(axes, letter, f"exact pairs, {_title(case)}")
+        _draw_case(axes, pairs[pairs["case"] == case], mark)
+    if marks:
         others[0].set_ylabel("inequality of flights, $v^2$")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     name_curves(figure, names)
     return figure
 
 
-def _draw_manifold(axes, pieces, modules):
-    """Draw the manifold around its asymmetric branch; return the name and line of each branch."""
-    lines = {}
+def _title(case):
+    return f"{case} forces" if case in CASES else f"case {case}"
+
+
+def _draw_manifold(axes, tables, marks):
+    """Draw the manifold around its asymmetric branch; return the name and line of each branch.
+
+    A thin line leads from each fixed point to the exact orbit that approaches it as epsilon falls.
+    """
+    pieces, modules, lines = tables["csv"], tables["modules"], {}
     for series, style in PIECES.items():
         piece = pieces[pieces["series"] == series]
         lines[series] = axes.plot(piece["C"], piece["B"], **style)
-    for series, style in MARKS.items():
-        rows = modules[modules["series"] == series]
-        axes.plot(rows["C"], rows["B"], label=f"{series}s", zorder=3, **style)
+    orbits = modules[modules["series"] == ORBIT]
+    reached = orbits.merge(_by_module(tables["points"]), on=["case", "label", "module"], suffixes=("", "_of_point"))
+    for _, row in reached.iterrows():
+        axes.plot([row["C"], row["C_of_point"]], [row["B"], row["B_of_point"]], color=GREY, linewidth=0.7)
+    points = pd.concat(
+        [
+            modules[modules["series"] == POINT],
+            reached.drop(columns=["C", "B"]).rename(columns={"C_of_point": "C", "B_of_point": "B"}),
+        ]
+    )
+    axes.plot(points["C"], points["B"], label="fixed points", **POINT_MARK)
+    for case, mark in marks.items():
+        here = orbits[orbits["case"] == case]
+        axes.plot(here["C"], here["B"], label=f"exact orbits, {_title(case)}", **mark)
     # Figure 10.4 shows the rest of the manifold.
     near = pd.concat([modules["C"], pieces["C"][pieces["series"].str.startswith("asymmetric")]])
     axes.set(xlim=(near.min() - C_MARGIN, near.max() + C_MARGIN), xlabel="$C_i$", ylabel="$B_i$")
@@ -297,14 +316,20 @@ def _draw_manifold(axes, pieces, modules):
     return [("asymmetric", lines["asymmetric, right"]), ("symmetric", lines["symmetric, right"])]
 
 
-def _draw_case(axes, pairs):
+def _by_module(points):
+    """Return C and B of the fixed points, a row per module, by the label of the exact orbit that leads to the point."""
+    rows = [points[["case", "orbit", f"C{module}", f"B{module}"]].assign(module=module) for module in (1, 2)]
+    return pd.concat(one.set_axis(["case", "label", "C", "B", "module"], axis=1) for one in rows)
+
+
+def _draw_case(axes, pairs, mark):
     for (_, verdict), way in pairs.groupby(["label", "exact"], sort=False):
         axes.plot(way["epsilon"], way["squared"], color=BLACK, linewidth=0.8)
         start = way.iloc[0][["epsilon", "squared"]]
-        axes.plot(*start, clip_on=False, zorder=3, **MARKS[ORBIT])
+        axes.plot(*start, clip_on=False, **mark)
         axes.annotate(verdict, start, (-5, 4), textcoords="offset points", ha="right")
     ends = pairs.drop_duplicates("label")["limit"]
-    axes.plot(np.zeros(len(ends)), ends, clip_on=False, zorder=3, **MARKS[POINT])
+    axes.plot(np.zeros(len(ends)), ends, clip_on=False, **POINT_MARK)
     axes.axhline(0, color=BLACK, linewidth=0.6)
     axes.set(xlabel=r"$\varepsilon$", xlim=(0, None))
     axes.margins(y=0.08)

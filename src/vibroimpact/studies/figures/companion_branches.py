@@ -275,7 +275,10 @@ def _cases(theory, exact, cases):
 def _branches(axes, nodes):
     """Draw all pieces and marks; return each name with the line of its longest piece, a stable one if there is any."""
     named = {}
-    for (family, stable, *_), piece in nodes.groupby(["series", "stable", "branch", "piece"], sort=False):
+    # Successive pieces of the same stability are one line: dashes that begin anew at each piece would look solid.
+    begins = nodes[["series", "stable", "branch"]].ne(nodes[["series", "stable", "branch"]].shift()).any(axis=1)
+    begins |= nodes.index.to_series().diff().ne(1)
+    for (family, stable, _), piece in nodes.groupby(["series", "stable", begins.cumsum()], sort=False):
         line = axes.plot(piece["p"], piece["C2"], **(STABLE if stable else UNSTABLE) | {"color": HUES[family]})
         name, length = NAMES.get(family, "stable" if stable else "unstable"), np.ptp(piece["p"].clip(*axes.get_xlim()))
         named.setdefault(name, []).append((stable, length, line))

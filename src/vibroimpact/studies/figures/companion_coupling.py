@@ -3,13 +3,22 @@
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from vibroimpact.accuracy.second_term import first_order
 from vibroimpact.accuracy.verdict_table import partners
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LEVEL, STABLE, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LEVEL,
+    LIGHT_GREY,
+    STABLE,
+    heading,
+    new_figure,
+    styled,
+)
 from vibroimpact.studies.absorbers.references import tuned
 from vibroimpact.studies.absorbers.tuning import textbook_tuning
 from vibroimpact.studies.claims.verdict_grid import exact_orbits
@@ -36,15 +45,16 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 SPEC = {
     "title": "From weak to strong coupling",
     "caption": "a: largest error of leading order in :math:`C`, compared with exact orbits, over the fixed points of "
-        "the cases equal and unequal, with the coupling damper in proportion to the spring or held constant; crosses: "
-        "couplings at which a fixed point has no exact motion (upper row: damper in proportion). b: difference of the "
+        "the cases equal and unequal, with the coupling damper in proportion to the spring or held constant; marks "
+        "in the grey band: couplings at which a fixed point has no exact motion. b: difference of the "
         "flight times of ball 1 over the period, on stable orbits with two asymmetric balls, in phase or in antiphase; "
         "marks: ends of stability. Modules with equal tuning, forces 1.52 and 1.54. c: mean power of all impacts over "
         "the square of both forces, for exact symmetric orbits, for the stable asymmetric orbit, and as mean and "
         "standard deviation over starts; dotted: dampers of linear absorbers of the same mass.",
-    "alt": "Three panels. First: errors near six per cent except for couplings from 1.4 to 2, with crosses there and "
-        "near 40. Second: antiphase rises from 0.76 to 4.7 and falls next to 14; in phase is level, up to 5.9 and from "
-        "14 on. Third: the mean over starts falls from above the dotted level to the diamonds of the asymmetric orbit.",
+    "alt": "Three panels. First: errors near six per cent except for couplings from 1.4 to 2, with marks of missing "
+        "motions there and near 40. Second: antiphase rises from 0.76 to 4.7 and falls next to 14; in phase is level, "
+        "up to 5.9 and from 14 on. Third: the mean over starts falls from above the dotted level to the diamonds of "
+        "the asymmetric orbit.",
     "method": "fixed points, exact responses continued along the coupling, simulations from many starts",
     "columns": {
         "panel": {"meaning": "quantity of the panel", "values": ["error", "asymmetry", "power"]},
@@ -115,6 +125,12 @@ WELL = 5.0
 ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", VANISHES: "v"}
 """Marks of how a stable range ends."""
 _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
+BAND = (14.0, 16.5)
+"""Lower and upper edge of the band above the errors that marks couplings with missing orbits, in %."""
+_BELOW = {"ha": "right", "va": "top", "fontsize": 8.5}
+_KEY = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.18), "fontsize": 8}
+_KEY |= {"handlelength": 1.3, "handletextpad": 0.4, "columnspacing": 0.6}
+"""Place of the key of a panel, below its axis label."""
 
 
 def compute(systems: dict) -> dict:
@@ -337,7 +353,7 @@ def _of_power(table):
 def draw(tables: dict) -> Figure:
     """Draw the table "csv" of `compute`: errors, asymmetric patterns, power."""
     table = tables["csv"]
-    figure = new_figure(DOUBLE_COLUMN, 78.0)
+    figure = new_figure(DOUBLE_COLUMN, 88.0)
     grid = figure.subplots(1, 3)
     heads = "error of leading order", "both balls asymmetric", "power at the impacts"
     for axes, letter, words in zip(grid, "abc", heads, strict=True):
@@ -349,21 +365,21 @@ def draw(tables: dict) -> Figure:
 
 
 def _draw_errors(axes, table):
-    looks = {PROPORTION: ("o", BLACK, 3.2, "-", 15.2), HELD: ("s", "white", 3.8, (0, (3, 1.5)), 14.4)}
-    look = {"color": BLACK, "markeredgewidth": 0.7}
-    for name, (marker, face, size, style, row) in looks.items():
+    axes.axhspan(*BAND, color=LIGHT_GREY, linewidth=0)
+    axes.text(0.98, BAND[0] - 0.15, "grey: a point has no exact motion", transform=axes.get_yaxis_transform(), **_BELOW)
+    looks = {PROPORTION: ("o", BLACK, 3.2, "-"), HELD: ("s", "white", 3.8, (0, (3, 1.5)))}
+    for (name, (marker, face, size, style)), row in zip(looks.items(), np.linspace(*BAND, 4)[2:0:-1], strict=True):
+        look = {"marker": marker, "markerfacecolor": face, "markersize": size, "color": BLACK, "markeredgewidth": 0.7}
         rows = select(table, "error", name)
         largest = 100 * rows.groupby("coupling")["error"].max()
-        line = {"markerfacecolor": face, "markersize": size, "label": name, "linestyle": style, "linewidth": 0.8}
-        axes.plot(largest.index, largest, marker=marker, **look, **line)
+        axes.plot(largest.index, largest, label=name, linestyle=style, linewidth=0.8, **look)
         missing = rows[rows["error"].isna()]["coupling"].unique()
-        axes.plot(missing, np.full(len(missing), row), marker="x", markersize=5, linestyle="none", **look)
-    handles, named = axes.get_legend_handles_labels()
-    cross = Line2D([], [], marker="x", markersize=5, linestyle="none", **look)
-    axes.legend([*handles, cross], [*named, "a point has no exact motion"], loc="lower left", fontsize=8)
-    axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel="largest error of $C$ in %", ylim=(0, 16))
+        axes.plot(missing, np.full(len(missing), row), linestyle="none", **look)
+    axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel="largest error of $C$ in %", ylim=(0, BAND[1]))
+    axes.set_yticks(np.arange(0, BAND[0], 2))
     axes.set_xscale("symlog", linthresh=1.0, linscale=0.4)
     axes.set_xlim(-0.15, 150)
+    axes.legend(**_KEY)
 
 
 def _draw_asymmetry(axes, table):
@@ -385,9 +401,9 @@ def _draw_asymmetry(axes, table):
             place = rows.iloc[(rows["coupling"] - near).abs().argmin()]
             axes.annotate(name, place[["coupling", "v"]], **beside, **look)
     axes.set(xscale="log", xlabel=r"coupling $\hat\alpha_{12}$", xlim=LIMITS)
-    axes.set(ylabel="flight asymmetry, $|v_1|$", ylim=(0, 0.6))
+    axes.set(ylabel="flight asymmetry, $|v_1|$", ylim=(0, None))
     if table["ends"].notna().any():
-        axes.legend(loc="upper left", fontsize=8, handlelength=0.8)
+        axes.legend(**_KEY | {"ncols": 2})
 
 
 def _draw_power(axes, table):
@@ -407,7 +423,7 @@ def _draw_power(axes, table):
     axes.set(
         xlabel=r"force $\hat f_{10} = \hat f_{20}$",
         ylabel=r"power / $\hat f_{10}^2$, in $10^{-2}$",
-        ylim=(1, 6),
+        ylim=(0, None),
         xlim=(FORCES[0] - 0.05, FORCES[-1] + 0.05),
     )
-    axes.legend(fontsize=8)
+    axes.legend(**_KEY | {"ncols": 2})

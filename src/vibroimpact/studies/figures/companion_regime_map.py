@@ -190,7 +190,7 @@ def draw(tables: dict) -> Figure:
     axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20), xlabel=r"$\hat f_{10}$", ylabel=r"$\hat f_{20}$")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(TICKS))
-    heading(axes, words="where most starts end")
+    heading(axes, words="attractor that most starts reach")
     handles = {"others coexist": Line2D([], [], **_STROKES), "inside: stable by theory": Line2D([], [], **_BORDER)}
     handles |= {fill(name, 26): handle for name, handle in key(unnamed).items()}
     figure.legend(handles.values(), handles, loc="outside lower center", ncols=2, fontsize=9)
