@@ -40,16 +40,17 @@ CHOICES = {
 }
 """Models for a figure, keyed by the name of its notebook, in order of ascending cost."""
 SAMPLES = 400
-"""Samples per period from which the first harmonic of U is computed; the n-th harmonic of U falls like 1/n^3."""
+"""Samples per period from which the first harmonic of U is computed. The n-th harmonic of U falls like 1/n^3, so that
+aliasing is negligible."""
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
     """Symmetric motion that one model gives for a fixed point.
 
-    point: label, C, B and psi of the motion. impacts: time tau >= 0 at which each ball meets the wall W = +1, (2,),
-    half a period before the wall -1; NaN for an inactive module (one not in `System.modules`). response: function that
-    returns U, X, W, Y at times tau (n,).
+    point: label, C, B and psi of the motion. impacts: time tau >= 0 at which each ball hits the wall W = +1, (2,),
+    half a period before it hits the wall -1; NaN for an inactive module (one not in `System.modules`). response:
+    function that returns U, X, W, Y at times tau (n,).
     """
 
     point: LabelledPoint

@@ -35,8 +35,9 @@ CHAPTER = PARAMETERS | CASES["equal"]
 class StressTest:
     """A test problem: group (kind of difficulty), name, system, initial state (8,) at tau = 0, forcing cycles.
 
-    faint: impacts with at most this rebound speed need not be found (0: every impact counts). reference_cycles: smaller
-    number of cycles for the reference, if the motion settles by then. quick: True if the test is in the reduced set.
+    faint: impacts with at most this rebound speed need not be found (0: all impacts must be found). reference_cycles:
+    smaller number of cycles for the reference, if the motion settles by then. quick: True if the test is in the reduced
+    set.
     """
 
     group: str
@@ -107,7 +108,7 @@ def reference_of(test: StressTest):
     before = test.reference_cycles - 1
     period = test.system.period
     times = [before * period]
-    # an attracting motion loses no digits, so that the doubling can start from few digits
+    # an attracting motion loses no digits, so that `proven_run` can start with few digits
     run = proven_run(
         test.system, test.state, test.reference_cycles, digits=40, sample_times=times, exact_floats=False
     ).run
@@ -140,9 +141,10 @@ def _row(test, method, reference):
 
 
 def grazing(system: System, side: int, digits: int) -> StressTest:
-    """Return the test in which ball 1 misses a wall by 10^-digits (side 1), or would pass it by as much (side -1).
+    """Return the test in which ball 1 barely misses or barely hits a wall, by 10^-digits.
 
-    A method must find even the slowest impact.
+    If `side` is 1, it misses the wall by this distance; if `side` is -1, it would pass the wall by this distance. A
+    method must find even the slowest impact.
     """
     start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
     name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"
@@ -150,7 +152,7 @@ def grazing(system: System, side: int, digits: int) -> StressTest:
 
 
 def _crossing(system, periods):
-    """Return a state from which ball 1 meets a wall after `periods` forcing periods, up to rounding.
+    """Return a state from which ball 1 reaches a wall after `periods` forcing periods, up to rounding.
 
     Both boxes are at rest, and ball 2 rests in the middle of its box.
     """

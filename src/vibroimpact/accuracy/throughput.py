@@ -21,7 +21,8 @@ from vibroimpact.system.state import BALLS, BOXES, IMPACT
 LONG = 4000
 """Cycles of the single long run, whose time per impact is the unit of all times."""
 SAMPLE, SHORT = 8, 10
-"""Number of runs per scene with which single runs are timed, and their cycles; errors are also taken after SHORT."""
+"""Number of runs per scene with which single runs are timed, and their cycles. Errors are also measured after SHORT
+cycles."""
 CHECKED = 64
 """Number of runs of a scene whose events and final states are compared with single runs."""
 TOLERANCES = 1e-6, 1e-12

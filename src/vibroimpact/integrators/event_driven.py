@@ -24,7 +24,7 @@ class Engine(Method):
 
 
 class CertifiedEngine(Engine):
-    """The engine, with the time for the certificate of the run; the other methods have no certificate."""
+    """The engine, timed together with the certificate of the run; the other methods have no certificate."""
 
     name = "this engine, certified"
 

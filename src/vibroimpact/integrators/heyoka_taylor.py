@@ -115,7 +115,7 @@ class _Integrator:
 
     def _events(self, i, gap, acceleration):
         rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
-        if self.stuck[i]:  # at either wall the force changes its sign
+        if self.stuck[i]:  # the event is a sign change of the contact force, at either wall
             return [heyoka.t_event(acceleration, callback=self._stop(i))]
         return [
             heyoka.t_event(gap - 1.0, callback=self._impact(i, 1), direction=rising),

@@ -1,7 +1,8 @@
-"""Integrate with compliant walls of springs and dampers (contact_laws); contact forces join the right-hand side.
+"""Integrate with compliant walls of springs and dampers (contact_laws); contact forces are part of the equations.
 
-The method of Dormand and Prince (1980) is used. It is explicit, since a contact is an oscillation that must be
-resolved. It is compiled, since a general solver would spend most of its time outside the evaluation of the force.
+The method of Dormand and Prince (1980) is used. It is explicit: an implicit method could not take longer steps, since
+they must resolve the oscillation of a contact. It is compiled, since a general solver would spend most of its time
+outside the evaluation of the force.
 """
 
 import math

@@ -14,7 +14,7 @@ NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon"
 inlined = partial(disk_cached, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
 """Decorator for functions that run at every step; Numba inlines cached code only if this is requested."""
 inlined_source = partial(disk_cached, inline="always")
-"""Decorator for functions that round like their caller; called by SciPy's integrators, they contract no products."""
+"""Decorator for functions that round like their caller. In SciPy's integrators they use no fused multiply-add."""
 
 
 def coefficients(system) -> np.ndarray:

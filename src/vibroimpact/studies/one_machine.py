@@ -231,7 +231,7 @@ def design(
         First and last frequency of the force [Hz].
     clearances : sequence of float, optional
         Candidates [m]. By default 8 values from 1/4 to 4 times (F / k) (M / m), none above the amplitude without ball
-        (a box that moves less than its clearance never meets a ball at rest); then further values near the best ones.
+        (a box that moves less than its clearance never hits a ball at rest); then further values near the best ones.
     restitutions : sequence of float, default RESTITUTIONS
         Candidates, each between 0 and 1.
     progress : bool, default True
@@ -266,7 +266,7 @@ def design(
 
 
 def _choices(name, values, end) -> list[float]:
-    """Return the values in ascending order, each above 0 and below an upper limit."""
+    """Return the values in ascending order, after a check that each is above 0 and below `end`."""
     given = np.unique(reals(name, values)).tolist()
     if not given or not 0 < given[0] <= given[-1] < end:
         upper = f" and below {end:g}" if end < math.inf else ""
@@ -367,7 +367,7 @@ class _Study:
         if not machine.c1 or not machine.F10:
             raise ValueError("machine: needs a damper c above 0 and a force F, base or unbalance other than 0")
         natural = {"omega1": machine.omega10, "omega2": machine.omega10}
-        # With -F all motions are mirrored, and the same initial states would lead to other ones; so |F| is used.
+        # Only |F| is used: with -F, the same results would need mirrored initial states.
         self.given, self.machine = machine, replace(machine, F10=abs(machine.F10), L=1.0, **natural)
         self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
@@ -452,7 +452,10 @@ def _impacts(machine, run) -> dict:
 
 
 def _at_rest(events, run):
-    """Return the total time tau that the ball rests on a wall: from a stick, or the start, to release, or the end."""
+    """Return the total time tau during which the ball rests on a wall.
+
+    It rests from a stick (or the start of the run) to the next release (or the end of the run).
+    """
     changes = events[np.isin(events["kind"], (STICK, RELEASE))]
     times, sticks = changes["tau"], changes["kind"] == STICK
     ends = np.append(times[1:], run.tau0 + run.cycles * run.system.period)

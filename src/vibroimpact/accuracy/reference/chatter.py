@@ -28,7 +28,7 @@ class Chatter:
 
     @property
     def limit(self):
-        """Extrapolated state at the end of the chatter, with the coordinates that are passed to add()."""
+        """Extrapolated state at the end of the chatter, in the coordinates that are passed to add()."""
         return self._row[-1]
 
     def add(self, coordinates) -> bool:

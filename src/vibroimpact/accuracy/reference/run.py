@@ -159,7 +159,8 @@ def proven_run(
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
     """Return the event times of the fine run (n,), and the difference between two runs at each event (n,).
 
-    It is the largest one in time and coordinates; inf from the first event with another module, wall or kind.
+    The difference is the largest in time and coordinates; it is inf from the first event with another module, wall or
+    kind.
     """
     error = np.full(len(fine.events), np.inf)
     for i, (one, other) in enumerate(zip(coarse.events, fine.events, strict=False)):

@@ -19,7 +19,7 @@ SEARCH_BITS = 96  # sufficient to exclude and bracket most events; otherwise the
 
 @dataclass
 class _Ball:
-    """Motion of one ball relative to its box: gap W, rate W', and the wall that the ball touches, or 0.
+    """Motion of one ball relative to its box: W (`gap`), W' (`rate`), and the wall that the ball touches, or 0.
 
     order: number of leading Taylor coefficients that vanish. They are coefficients of the contact force of a stuck ball
     (None: the force is always zero), or of 1 - wall W for a ball that leaves its wall (1 after an impact, else more).
@@ -34,7 +34,7 @@ class _Ball:
     def walls_ahead(self):
         """Return the walls at which the next event of this module may occur.
 
-        A ball in flight may meet both walls. A stuck ball may leave its wall, unless its contact force is always zero.
+        A ball in flight may hit either wall. A stuck ball may leave its wall, unless its contact force is always zero.
         """
         if not self.stuck:
             return (1, -1)

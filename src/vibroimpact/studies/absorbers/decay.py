@@ -1,4 +1,4 @@
-"""Compute the decay time of an impulse with balls, and the impulse with the shortest decay."""
+"""Compute the decay time after an impulse on a system with balls, and the impulse with the shortest decay."""
 
 import math
 
@@ -17,8 +17,8 @@ from vibroimpact.system.stored_energy import stored
 CYCLES_PER_RUN = 50
 """Number of cycles in each simulation, after which the energy is checked."""
 SEARCH_FACTOR, SUBDIVISIONS, REFINED_MINIMA = 1.2, 48, 8
-"""Search for the shortest decay: impulses with times up to SEARCH_FACTOR times the shortest are spaced SUBDIVISIONS
-times more closely; then the REFINED_MINIMA lowest minima are located."""
+"""Search for the shortest decay: impulses whose decay times are up to SEARCH_FACTOR times the shortest are spaced
+SUBDIVISIONS times more closely; then the REFINED_MINIMA lowest minima are located."""
 
 
 def decay_time(system: System, impulse: float, module: int = 1, fraction: float = 0.1, cycles: int = 10_000) -> float:

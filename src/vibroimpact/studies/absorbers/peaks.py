@@ -72,7 +72,7 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
 
 
 def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> CycleMaxima:
-    """Run each system from all states (n, 8) and observe single cycles; the arguments are those of `peak`.
+    """Run each system from all states (n, 8) and measure cycle by cycle; the arguments are those of `peak`.
 
     An uncoupled module without force (not in `System.modules`) starts at rest.
 

@@ -84,7 +84,10 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
 
 
 def _attached(matrix, links):
-    """Return the matrix (4, 4) of boxes and absorbers, given the matrix of the boxes (2, 2) and their links (2,)."""
+    """Return the matrix (4, 4) of boxes and absorbers.
+
+    matrix: of the boxes alone, (2, 2). links: stiffness or damping between each box and its absorber, (2,).
+    """
     link = np.diag(links)
     return np.block([[matrix + link, -link], [-link, link]])
 

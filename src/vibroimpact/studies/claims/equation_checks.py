@@ -13,7 +13,7 @@ from vibroimpact.theory.manifold import B_min, B_of_C, C_min, C_of_B, impact_pha
 ROUNDING = 1e-12
 KAPPAS = (0.05, 0.3, 0.65, 0.95)
 _TERMS = {"one term": "distance", "two terms": "two terms"}
-"""Number of terms of (10.7) -> panel in the table of orders with the remaining distance."""
+"""Number of terms of (10.7) -> panel of the table `epsilon_orders` with the distance that remains after these terms."""
 
 
 def small_balls(evidence):
@@ -33,7 +33,7 @@ def weak_coupling(evidence):
 def own_frequency(evidence):
     """Check the frequency of the first force in (10.1) against (10.5).
 
-    (10.1) prints the natural frequency omega_10 there, so that the dimensionless frequency Omega_1 would be 1.
+    As printed, the first force in (10.1) has the natural frequency omega_10, so that its dimensionless frequency is 1.
     """
     system = evidence.system
     corrected = abs(system.Omega - (1 + system.epsilon * system.sigma_e_hat)) < ROUNDING
@@ -133,8 +133,8 @@ def manifold_from_impact_conditions(evidence):
     for kappa in KAPPAS:
         r = rho(kappa)
         for C in np.random.default_rng(3).uniform(0.05, 2.5, 50):
-            sine = 1 - C  # times B, by (10.12)
-            cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # times B, by (10.14)
+            sine = 1 - C  # B sin(phase), by (10.12)
+            cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # B cos(phase), by (10.14)
             B = np.hypot(sine, cosine)
             residuals = {"(10.16)": B**2 - (1 - 2 * C + (1 + r**2) * C**2)}
             # Close to the fold the square root in (10.15) loses half of the digits.

@@ -96,7 +96,8 @@ def _limits_of_the_captions(evidence):
 
     For such a limit every caption on a point holds, and a part of the left arm is stable.
 
-    A point is unstable if one C_i is below the limit. The interval does not depend on which point has which letter.
+    A point is unstable if one C_i is below the limit, so that only the numbers of stable and unstable points matter:
+    with other letters the interval would be the same, or empty.
     """
     smallest = {True: [], False: []}
     for case, captions in CAPTIONS.items():

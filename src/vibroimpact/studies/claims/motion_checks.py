@@ -15,18 +15,18 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import stays_within_walls
 
 SIMILAR = 0.1
-"""Largest relative difference of amplitudes that count as similar, about the least that a figure can show."""
+"""Largest relative difference between similar amplitudes; a smaller one is hardly visible in a figure."""
 BEAT_VARIATION = 0.5 / np.sqrt(2)
 """Standard deviation / mean of the amplitude 1 + d cos(...) of a beat with d = 1/2 (largest 3 times the smallest)."""
 PER_CYCLE = 2
 SMALL = 2e-4, 1e-4
-"""Two values of epsilon that are small enough for an error of the theory proportional to epsilon."""
+"""Two values of epsilon, so small that the error of the theory is proportional to epsilon."""
 VERDICT_LABELS = [STABLE, UNSTABLE]
 DISPLACEMENTS = ["X1", "Y1", "X2", "Y2"]
 
 
 def steady_two_impacts(evidence, case):
-    """Check that the simulated window repeats every cycle with one impact of each ball at each wall."""
+    """Check that the simulated motion repeats every cycle, with one impact of each ball at each wall."""
     simulation = evidence.simulations[case]
     cycles = simulation.summary["settings"]["window_cycles"]
     change = simulation.summary["largest_change_after_cycles"]["1"]
@@ -61,7 +61,7 @@ def numerical_results_are_similar(evidence, case, label):
 
 
 def transients_are_long(evidence, case):
-    """Count the cycles in which the slowest perturbation of the attracting orbit shrinks to a tenth."""
+    """Check that the slowest perturbation of a stable orbit needs more than 10 cycles to shrink to a tenth."""
     motions = evidence.motions(case)
     stable = motions[motions["exact"] == STABLE]
     cycles = (np.log(0.1) / np.log(stable["modulus_1"])).max()
@@ -73,7 +73,8 @@ def only_possible_behaviour(evidence, case):
 
     Initial states are spread evenly; one more start is from rest.
 
-    A motion with an idle ball counts as "one ball idle", however strong its modulation; the numbers include both.
+    A motion with an idle ball has the regime "one ball idle", however strong its modulation. For the start from rest,
+    the numbers give the regime and measures of the modulation.
     """
     shares = evidence.shares(case)
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
@@ -100,7 +101,7 @@ def no_practical_importance(evidence, case, label):
 
 
 def resonant_intervals(evidence, case):
-    """Check for bursts of resonance with shorter gaps between them, and for a positive Lyapunov exponent."""
+    """Check for bursts of resonance with shorter pauses between them, and for a positive Lyapunov exponent."""
     share, burst = (
         evidence.measured(case, "spread", quantity).set_index("module")["mean"].loc[[1, 2]].to_numpy()
         for quantity in ("resonant share", "burst length")
@@ -125,7 +126,7 @@ def beating(evidence, case):
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
-    """Count the stable fixed points of each case in a sequence, and find the modulated share of the last case."""
+    """Check that the first of several cases has stable fixed points, and the last only unstable ones and modulation."""
     points = [evidence.points(case) for case in sequence]
     in_theory = [int((rows["theory"] == STABLE).sum()) for rows in points]
     exactly = [int((rows["exact"] == STABLE).sum()) for rows in points]
@@ -148,7 +149,7 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
 def unstable_means_modulated(evidence, case):
     """Check that the exact orbits of a case are unstable and that all its spread starts end strongly modulated.
 
-    The chapter claims this for one case. The numbers give the modulated share of all cases with unstable orbits only.
+    The chapter claims this for one case. The numbers give the modulated share of each case without a stable orbit.
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
@@ -163,7 +164,8 @@ def unstable_means_modulated(evidence, case):
 def periodic_solutions(evidence, f10_hat, f20_hat):
     """Check that every fixed point has an admissible exact orbit.
 
-    The fixed points are those of the cases and of a grid of forces. The numbers also count both at the given forces.
+    The fixed points are those of the cases and of a grid of forces. The numbers also give how many fixed points and
+    exact orbits exist at the given forces.
     """
     both = evidence.fixed_points.merge(
         evidence.orbits, left_on=["case", "orbit"], right_on=["case", "label"], suffixes=("", "_exact")

@@ -62,8 +62,8 @@ def label_of_a_point(evidence, case, label, says):
 def stable_points(evidence, case, number):
     """Count the stable fixed points of a case by each criterion of the theory, and by their exact orbits.
 
-    The chapter means the fast criterion as derived: stability of the impacts at constant B and phase. This criterion
-    is also compared with the captions.
+    By "stable" the chapter means the fast criterion as derived: stability of the impacts at constant B and phase. This
+    criterion is also compared with the captions.
     """
     points = evidence.points(case)
     counts = {

@@ -45,7 +45,8 @@ class Proof:
     """Proof of the list of fixed points of a system with exactly these float64 hatted parameters.
 
     isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point; for asymmetric
-        points, pairs of charts and boxes of the chart parameters. For a single machine both have one entry, not two.
+        points, pairs of charts and boxes of the chart parameters. For a single machine a box has one interval, and one
+        chart takes the place of a pair.
     undecided: boxes in which nothing is proved. Elsewhere, for any real C_i and v^2 in [-1, 1], no point exists.
     motions: number of isolated points that are motions at leading order, C_i > 0 and v_i^2 > 0; a box that contains 0
         is not counted. On the asymmetric branch C is always positive.
@@ -61,8 +62,8 @@ class Proof:
 def certify(system) -> Proof:
     """Prove the number of fixed points of a system, with C_i of either sign.
 
-    A system without forces has none: since the balls dissipate mu rho C_i^2, only C_i = 0 remains, and the search
-    refuses this free motion.
+    A system without forces has none: the balls dissipate mu rho C_i^2, so that only a free motion with C_i = 0 could
+    remain, for which the search raises an error.
 
     Raises
     ------

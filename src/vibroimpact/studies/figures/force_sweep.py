@@ -50,7 +50,8 @@ MARKS = {
 }
 PAIRS = {"asymmetric orbits, stable": COLOURS[ASYMMETRIC], "asymmetric orbits, unstable": "#a9d8d2"}
 MARKER_SPACING = 6
-"""Distance between values with a marker, filled if both time scales are stable, in a ring if the exact orbit is."""
+"""Number of values from one marker to the next. A marker is filled if both time scales are stable, and has a ring if
+the exact orbit is stable."""
 ASYMMETRIC_TRACK = 0
 """Track number of the asymmetric orbits, which belong to no fixed point."""
 VERDICTS = (*CRITERIA, EXACT)
@@ -71,10 +72,10 @@ def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]
         The manifold is shown for 0 <= C <= C_max, or further if a fixed point lies beyond.
 
     Returns three tables. "csv": columns value, track (number from 1; nearest neighbours in the plane (C1, C2) share a
-    track), C1, B1, C2, B2, label (as in the chapter, see `theory.fixed_points.labels`), and VERDICTS, by each criterion
-    of the theory and by the exact orbit ("no orbit" without one). "orbits", a row per multiplier of each exact orbit:
-    columns value, track (as its fixed point; ASYMMETRIC_TRACK for the branches of stable asymmetric orbits), C1, C2,
-    exact, real, imag. "manifold": columns series, C, B as in figure 10.4.
+    track), C1, B1, C2, B2, label (as in the chapter, see `theory.fixed_points.labels`), and one column for each of
+    VERDICTS, the criteria of the theory and the exact orbit ("no orbit" if there is none). "orbits", with a row per
+    multiplier of each exact orbit: columns value, track (that of its fixed point; ASYMMETRIC_TRACK for the branches of
+    stable asymmetric orbits), C1, C2, exact, real, imag. "manifold": columns series, C, B as in figure 10.4.
     """
     rows, last, tracks = [], np.empty((0, 2)), 0
     names, multipliers = [], []
@@ -128,7 +129,10 @@ def _multipliers(value, track, orbit):
 
 
 def _continued(names, last, now, tracks):
-    """Return each point's track, continued from the nearest previous point or new, and the number of tracks so far."""
+    """Return the track of each point, and the number of tracks so far.
+
+    A point has the track of the nearest previous point, or a new one.
+    """
     gaps = np.linalg.norm(np.nan_to_num(last[:, None] - now[None]), axis=2)
     found = {new: names[old] for old, new in zip(*linear_sum_assignment(gaps), strict=True)}
     fresh = [new for new in range(len(now)) if new not in found]
@@ -161,7 +165,7 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
 
 
 def _letters(points):
-    """Return a letter per track: the label of its point nearest to the value of the force with most fixed points."""
+    """Return a letter per track: the label of its point at the force nearest to that with the most fixed points."""
     counts = points["value"].value_counts().sort_index()
     most = counts.index[counts == counts.max()]
     here = points.assign(apart=(points["value"] - most[len(most) // 2]).abs() if len(most) else 0.0)

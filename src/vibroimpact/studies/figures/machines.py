@@ -102,9 +102,10 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
         `L` [m], `frequency` [Hz] and `cycles` of the motion.
 
     Returns "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz],
-    swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (the ball meets a wall); "summary",
-    a row per clearance: L [m], worst frequency [Hz], power [W], share of it lost in impacts, swing [mm] there, and
-    the force F10 [N] for which L is as good as the best L for the plant's force: only the ratio L / F10 matters.
+    swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (True at an impact); "summary", a row
+    per clearance: L [m], the frequency [Hz] with the largest swing, and there the power [W], the share of it lost in
+    impacts, and the swing [mm]; force, the F10 [N] at which L is the best of the clearances. Only the ratio L / F10
+    matters, so that this force is proportional to L.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]

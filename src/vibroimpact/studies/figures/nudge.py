@@ -30,7 +30,7 @@ SPEC = {
 }  # fmt: skip
 
 PERTURBATION, CYCLES, PER_CYCLE = 1e-6, 40, 40
-"""Initial displacement of ball 2 in units of L, length of the run in forcing periods, samples per period."""
+"""Initial shift of ball 2 from the orbit in units of L, length of the run in forcing periods, samples per period."""
 BALL = "Y2"
 COLUMNS = {
     "motion": ["t", *animation.COORDINATES],
@@ -42,7 +42,7 @@ COLUMNS = {
 
 
 def compute(system) -> dict:
-    """Perturb the most unstable of the exact orbits of fixed points that (10.26) calls stable, and follow the motion.
+    """Perturb the most unstable exact orbit of the fixed points that (10.26) calls stable, and simulate the motion.
 
     Returns "motion", "impacts" (see `animation.compute`); "distance": columns t, distance (Euclidean, between state and
     orbit, once a period); "flights": columns t (end of a flight of ball 2), length (forcing periods); "orbit": label,
@@ -107,7 +107,7 @@ def _called_stable(system):
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw the tables of `compute`: distance on a logarithmic axis with the growth by the multiplier, and flights."""
+    """Draw the tables of `compute`: distance on a logarithmic axis, with its growth by the multiplier, and flights."""
     figure = new_figure(DOUBLE_COLUMN, 62.0)
     left, right = figure.subplots(1, 2)
     distance, flights = tables["distance"], tables["flights"]

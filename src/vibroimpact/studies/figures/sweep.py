@@ -47,7 +47,7 @@ HEIGHT = 48.0
 
 
 def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
-    """Return the columns of a sweep's table that are drawn, one below the other.
+    """Return the columns of a sweep's table that are drawn, in long form (one row per value).
 
     Parameters
     ----------

@@ -14,7 +14,8 @@ RESOLVED = 0.02
 RECURRENT = 0.1
 """A motion recurs if it returns to its start within this fraction of its extent, in every coordinate."""
 RESONANT = (0.1, 0.9)
-"""Shares of time in bursts: below the first a module is never in resonance, above the second it is always."""
+"""Limits of the share of time in bursts: a module below the first counts as never in resonance, above the second as
+always in resonance."""
 DISCARDED = 1
 """Number of initial blocks to discard, in which the perturbation turns to the direction of largest growth."""
 SECOND_LENGTH_FACTOR = 10

@@ -20,7 +20,7 @@ _SAME, _SAME_IDLE = 1e-6, 1e-4
 method does not refine such a motion, and part of the transient remains."""
 
 _COORDINATES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
-"""Indices in the state by name of a coordinate; for W_i = X_i - Y_i, those of X_i and Y_i, where Y_i is set."""
+"""Name of a coordinate -> its index in the state; for W_i = X_i - Y_i, the indices of X_i and of Y_i, which is set."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -121,9 +121,9 @@ def bifurcation_curves(
 def symmetry_breaking(system, x) -> float:
     """Return the determinant that vanishes where the symmetry of an orbit breaks.
 
-    `x` is the root (tau_1, tau_2, C_1, C_2) of the orbit. An antisymmetric change moves the impacts of a module at its
-    two walls in opposite directions. It changes only the sum of the conditions of restitution at both walls. The
-    result is the determinant of the derivatives of these sums.
+    `x` is the root (tau_1, tau_2, C_1, C_2) of the orbit. An antisymmetric change shifts the impact times of a
+    module at its two walls by opposite amounts. Of the conditions of restitution at both walls, it changes only the
+    sum. The result is the determinant of the derivatives of these sums.
     """
     jacobian = AsymmetricConditions(system)(asymmetric_root(system, x)[None])[1][0]
     opposite = np.array([[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0]]) @ jacobian[:, :4] @ _OPPOSITE
@@ -172,7 +172,10 @@ def _curve(plane, family, kind):
 
 
 def _half(plane, family, curve, longest, report, start):
-    """Return points and places from the start in one direction, to the edge of the rectangle or a ball speed of 0."""
+    """Return the points (x, p, q) and the Places of a curve from the start in one direction.
+
+    The curve ends at the edge of the rectangle, or where a ball speed vanishes.
+    """
 
     def margin(z):
         return min(plane.margin(z), family.speed(z[:-2]))

@@ -58,7 +58,9 @@ class Node:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch(Representation):
-    """A piece of a solution curve, with its nodes in order along the curve; if it is closed, the first is also last.
+    """A piece of a solution curve, with its nodes in order along the curve.
+
+    If the curve is closed, the first node is also the last.
 
     places: points of the curve with tangents, at all nodes that are not special and at some ends.
     """
@@ -122,12 +124,12 @@ def branches(
     report: Callable = lambda p: None,
     symmetric: Iterable[Branch] = (),
 ) -> list[Branch]:
-    """Return the branches of a family in an interval of p that pass a seed (a value of p) or leave such a branch.
+    """Return the branches of a family that pass a seed (a value of p), and those that emanate from them.
 
     A branch ends at the ends of the interval, where a ball speed vanishes, or where it is lost. It also ends where it
     joins an image of itself: its mirror image, at a symmetric orbit, or itself shifted by forcing periods, at a motion
-    that repeats earlier. Only one of the images is followed. A branch that neither passes a seed nor leaves another
-    branch is missed. A seed at which the search for roots fails is skipped with a warning.
+    that repeats earlier. Only one of the images is followed. A branch that neither passes a seed nor emanates
+    from another branch is missed. A seed at which the search for roots fails is skipped with a warning.
 
     Parameters
     ----------
@@ -210,7 +212,7 @@ def _seeds(family, path, seeds, report):
 
 
 def _half(family, path, interval, curve, longest, report, start):
-    """Return the nodes and places of a branch from the start in one direction."""
+    """Return the nodes and the Places of a branch from the start in one direction."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):

@@ -61,7 +61,7 @@ class Regime:
 
     @property
     def flight_asymmetry(self) -> float:
-        """Mean flight time from wall +1 minus mean flight time from wall -1, over the period, summed over balls.
+        """Share of time in flights from wall +1 minus share of time in flights from wall -1, summed over both balls.
 
         Its sign distinguishes the mirror images of an asymmetric response.
         """
@@ -137,7 +137,7 @@ def classify(run: Run) -> tuple[str, int | None]:
 
     run: has samples every half period, both ends included.
 
-    A ball is idle if it is at rest throughout; a ball that drifts, however slowly, will meet a wall. If all balls are
+    A ball is idle if it is at rest throughout; a ball that drifts, however slowly, will hit a wall. If all balls are
     at rest and the boxes repeat, there are no impacts. A 1:1 response repeats every cycle, with one impact at each wall
     of each module. It is symmetric if all displacements change sign after half a period. Inactive modules are ignored.
     """

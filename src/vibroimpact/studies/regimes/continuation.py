@@ -254,7 +254,7 @@ class Curve:
         return after if place.tangent @ after.tangent > np.cos(_TURN) else None
 
     def _place_at(self, place, z):
-        """Return a list of the place on the curve that coincides with z, or [] if z is not on the curve.
+        """Return the place on the curve that coincides with z, as a list of one entry, or [] if z is not on the curve.
 
         Every step along the tangent goes to the foot of the perpendicular from z.
         """
@@ -267,7 +267,7 @@ class Curve:
         return []
 
     def _past_corner(self, place):
-        """Return a list of one place beyond a corner of the curve just ahead, or [] if there is no corner.
+        """Return the place beyond a corner of the curve just ahead, as a list of one entry, or [] without a corner.
 
         At a corner dF/dz jumps, as for orbits where the impacts of both modules change their order.
         """
@@ -283,12 +283,12 @@ class Curve:
 
         The result is None if the curve does not join the two places.
 
-        before(place): True on the side of the first place.
+        before(place): True if a place between both belongs to the side of the first one.
         """
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
                 return None
-            # One of the fractions may lead to a branch point, where Newton's method fails.
+            # If a fraction leads to a branch point, where Newton's method fails, the next one is tried.
             steps = (self._next(place, part * length) for part in (0.5, 0.4, 0.6))
             middle = next(filter(None, steps), None)
             if middle is None:

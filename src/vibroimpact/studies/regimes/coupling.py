@@ -1,7 +1,7 @@
 """Patterns of asymmetric flights of both balls, from weak to strong coupling, and the power dissipated by impacts.
 
-The flight asymmetry v of a ball is the difference of its two flight times over the period. The balls may be asymmetric
-in phase (IN_PHASE) or in antiphase (ANTIPHASE), each with a mirror image (docs/derivation.md, section 14).
+The flight asymmetry v of a ball is the difference of its two flight times, divided by the period. The balls may be
+asymmetric in phase (IN_PHASE) or in antiphase (ANTIPHASE), each with a mirror image (docs/derivation.md, section 14).
 """
 
 from collections.abc import Iterator
@@ -46,7 +46,7 @@ def coupled(system, alpha12_hat: float, held: bool = False):
 def flight_asymmetry(orbit) -> np.ndarray:
     """Return the flight asymmetry (v_1, v_2) of an orbit, shape (2,).
 
-    v is the time from wall -1 to +1 minus that from +1 to -1, over the period.
+    v is the time from wall -1 to +1 minus that from +1 to -1, divided by the period.
     """
     plus, minus = orbit.ball_speeds.T
     return (plus - minus) / (plus + minus)
@@ -82,8 +82,8 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
     limits
         Smallest and largest alpha12_hat.
 
-    Yields (pattern, where it was found, [(alpha12_hat, Orbit), ...] ascending, how it ends below and above): a fold,
-    Neimark-Sacker, a period doubling, grazing, VANISHES; "" at a limit.
+    Yields (pattern, coupling at which it was found, [(alpha12_hat, Orbit), ...] ascending, (end below, end above)). An
+    end is a fold, Neimark-Sacker, a period doubling, grazing or VANISHES, or "" at a limit.
     """
     seen = []
     for start in SOUGHT:
@@ -99,7 +99,7 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
 
 
 def _followed(system, root, value, name, limit):
-    """Yield the couplings towards a limit, each with its Orbit, while the pattern stays and is stable."""
+    """Yield the couplings towards a limit, each with its Orbit, while the pattern remains the same and stable."""
     way, step = np.sign(limit - value), STEP
     while step > SHARP and value != limit:
         reached = value * np.exp(way * step)
@@ -115,7 +115,7 @@ def _followed(system, root, value, name, limit):
 
 
 def _end(orbit):
-    """Return the way in which a pattern ends, from its last stable orbit."""
+    """Return the reason why a pattern ends, from its last stable orbit."""
     mu = orbit.multipliers[0]
     if np.abs(flight_asymmetry(orbit)).min() < LEAST_ASYMMETRY + _AT_THE_END:
         return VANISHES
@@ -127,11 +127,11 @@ def _end(orbit):
 
 
 def splitting(system, root) -> np.ndarray:
-    """Return the difference of the patterns to leading order: root (6,) minus the root with ball 2 mirrored.
+    """Return the difference of both patterns to leading order: `root` (6,) minus the root of the other pattern.
 
-    Only even harmonics of the coupling contribute, since they change sign if one module is mirrored. Both roots are
-    written with the phases of ball 2 after mirroring (`mirrored`). The result is twice the inverse Jacobian of the
-    exact conditions times the even harmonics that the coupling transmits.
+    The root of the other pattern is compared after ball 2 is mirrored back (`mirrored`). Only even harmonics of the
+    coupling contribute, since they change sign if one module is mirrored. The result is twice the inverse Jacobian of
+    the exact conditions times the even harmonics that the coupling transmits.
     """
     conditions = AsymmetricConditions(system)
     times, strengths = root[:4].reshape(2, 2), root[4:]

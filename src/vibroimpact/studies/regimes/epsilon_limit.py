@@ -17,8 +17,8 @@ class Comparison:
 
     offset: coordinates of the orbit minus those of the fixed point; for a symmetric orbit C and impact phases [rad] of
     both modules, (4,). distance: norm of the offset.
-    multipliers, predicted_multipliers: (8,) complex, exact, and predicted by slow flow (first four) and impact map
-    (last four). Exact and predicted multipliers are paired to be as close as possible.
+    multipliers, predicted_multipliers: (8,) complex; the exact ones, and those predicted by slow flow (first four) and
+    impact map (last four). Exact and predicted multipliers are paired to be as close as possible.
     rates, predicted: log(mu) / (epsilon 2 pi / Omega) of the first four multipliers, exact and by the slow flow.
 
     For a single machine all arrays have half as many entries.

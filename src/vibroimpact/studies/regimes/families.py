@@ -1,10 +1,10 @@
 """Families of motions for continuation: equations, members, and test functions that vanish at special points.
 
 The test functions are symmetric polynomials in the multipliers mu of a monodromy matrix, so that they change sign at
-their zeros. prod (1 + mu) vanishes at a period doubling, and prod (1 - mu_i mu_j), i < j, where a pair meets the unit
-circle (Neimark-Sacker if the pair is complex). For a symmetric orbit mu are the multipliers over half a period followed
-by mirroring, and mu = -1 breaks the symmetry. A symmetric orbit cannot double its period otherwise (Swift and
-Wiesenfeld 1984). Folds and branch points (mu = 1) are found by the continuation instead.
+their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j, vanishes where a pair reaches the
+unit circle (Neimark-Sacker if the pair is complex). For a symmetric orbit mu are the multipliers over half a period
+followed by mirroring, and mu = -1 breaks the symmetry. A symmetric orbit cannot double its period before its symmetry
+breaks (Swift and Wiesenfeld 1984). Folds and branch points (mu = 1) are found by the continuation instead.
 
 The unknowns of an inactive module (not in `System.modules`) are held at the constants `rest`: angles at 0; sizes, C_i
 or I_i, at 1, so that a size of 0 always means a ball without speed. The amplitude of such a module is NaN.
@@ -159,7 +159,7 @@ class AsymmetricOrbits(SymmetricOrbits):
 class PeriodicOrbits(AsymmetricOrbits):
     """Motions of any period near a PeriodicOrbit: x = state (8,) at its stroboscopic instant, between events.
 
-    Coordinates of inactive modules and of balls that meet no wall keep their values.
+    Coordinates of inactive modules and of balls that hit no wall keep their values.
     """
 
     angles, modules, rest = slice(0, 0), MODULES, np.zeros(8)
@@ -174,7 +174,7 @@ class PeriodicOrbits(AsymmetricOrbits):
         return self.orbit.run.start[None]
 
     def images(self, system, x) -> list[np.ndarray]:
-        """Return the states of the motion and of its mirror image, each from every forcing period."""
+        """Return the states of the motion and of its mirror image at the stroboscopic instant of every period."""
         begin, halves = self._begin(system), np.arange(2 * self.orbit.periods)
         states = simulate(system, x, self.orbit.periods, begin, begin + halves * system.period / 2).samples
         return list(states * (-1.0) ** halves[:, None])
@@ -318,7 +318,7 @@ FAMILIES = {family.name: family for family in (SymmetricOrbits, AsymmetricOrbits
 
 
 def flight_fractions(system, x) -> np.ndarray:
-    """Return the time from wall +1 to wall -1 over the period, for each module, shape (2,).
+    """Return the flight time from wall +1 to wall -1 as a fraction of the period, for each module, shape (2,).
 
     x is a root (6,) of the asymmetric equations. The fraction of an inactive module is 1/2.
     """

@@ -72,10 +72,10 @@ class Observation:
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
     """Return the regime that each initial state ends in, in order.
 
-    Classifications of motions that do not repeat are tested for one name after another. One motion with this name, the
-    witness, continues for `retest` cycles. If any other motion is periodic, up to MOST_WITNESSES continue, since chaos
-    may be transient. If all witnesses keep a name of the same kind, all motions with the old name get the new name of
-    the last witness. Otherwise all continue for `retest` cycles, and those that are still of this kind are unsettled.
+    The regimes of motions that do not repeat are tested one after another. One motion in the regime, the witness,
+    continues for `retest` cycles. If any other motion is periodic, up to MOST_WITNESSES continue, since chaos may be
+    transient. If all witnesses keep a regime of the same kind, all motions in the old regime get the new regime of the
+    last witness. Otherwise all continue for `retest` cycles, and those that are still of this kind are unsettled.
     Motions that cannot be classified also continue for `retest` cycles.
 
     Parameters

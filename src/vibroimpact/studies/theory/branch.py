@@ -9,9 +9,9 @@ c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v) are entire functions of v^2 (
     large C       1 / C  x - (1 + i rho)            mu         x                               1
     asymmetric    v^2    -(4 c / pi^2 + i rho s)    mu c^2 s   ((1 - x) s - 4 c / pi^2) c      (1 - x) s c
 
-On the asymmetric branch the flight from wall +1 takes the fraction u of the cycle, the flight back 1 - u; v = 1 - 2 u
-is the difference. All quantities except the impact phases are functions of v^2, since a motion and its mirror image
-have opposite v. Stability on the branch is for constant B and phi.
+On the asymmetric branch the flight from wall +1 takes the fraction (1 - v) / 2 of the cycle, and the flight back the
+fraction (1 + v) / 2; v is the difference. All quantities except the impact phases are functions of v^2, since a motion
+and its mirror image have opposite v. Stability on the branch is for constant B and phi.
 """
 
 import functools

@@ -29,7 +29,7 @@ _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 class Relaxation:
     """Statistics of both modules in a relaxation oscillation, each (..., 2).
 
-    bursts: mean length of the intervals in resonance, from begin to end, in forcing periods, or nan without any.
+    bursts: mean length of the complete intervals in resonance, in forcing periods; nan if there are none.
     share: share of time that each ball is in resonance.
     largest: largest box amplitude B.
     """

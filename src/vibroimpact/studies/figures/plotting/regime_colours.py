@@ -1,4 +1,4 @@
-"""Colours and marks of the regimes in all figures; neighbours in a map also differ in grey print."""
+"""Colours and marks of the regimes in all figures; regimes next to each other in a map also differ in grey."""
 
 import numpy as np
 import pandas as pd
