@@ -1,4 +1,4 @@
-"""Compare all methods on the same motion: time per impact, its ratio to this engine, and errors."""
+"""Compare all methods on the same motion: time per impact, its ratio to the time of this engine, and errors."""
 
 from fractions import Fraction
 

@@ -23,4 +23,4 @@ METHODS = [
 ]
 """All methods, in the order of tables and legends."""
 TIMED = [METHODS[0], CertifiedEngine(), *METHODS[1:]]
-"""METHODS and, after the first of them, the certified engine, in the order of tables."""
+"""METHODS with the certified engine as the second one, in the order of tables."""

@@ -75,7 +75,7 @@ def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
 
 @inlined()
 def _turn(rates, count, t, turns):
-    """Write the factors by which the amplitudes change over a time t into `turns`, real and imaginary parts (2, 5)."""
+    """Write into `turns`, (2, 5), real and imaginary parts of the factors by which amplitudes change over a time t."""
     for k in range(count):
         size, angle = math.exp(rates[0, k] * t) if rates[0, k] != 0.0 else 1.0, rates[1, k] * t
         turns[0, k], turns[1, k] = size * math.cos(angle), size * math.sin(angle)
@@ -106,7 +106,7 @@ def _amplitudes(s, tau, omega, count, inverse, shape, amplitudes):
 
 @inlined()
 def _state(s, walls, count, shape, amplitudes, t, there):
-    """Write the state (8,) at a time t after the start s of a flight into `there`, from the amplitudes at that time."""
+    """Write into `there` the state (8,) at a time t after the start s of a flight, from the amplitudes at that time."""
     for j in range(4):
         total = 0.0
         for k in range(count):

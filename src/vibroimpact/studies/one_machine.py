@@ -47,7 +47,8 @@ SHORT, LONG = 100, 600
 WINDOW = 300
 """Forcing periods of the window for each of the best few."""
 NEAR, FRAGILE = 0.02, 1.1
-"""Relative change of clearance to a neighbour; a design is fragile if a neighbour's peak is FRAGILE times as high."""
+"""Relative difference in clearance between a design and its two neighbours; a design is fragile if the peak of one of
+them is more than FRAGILE times as high."""
 LATER = 1000
 """Forcing periods for which the largest motion at a frequency continues, to show if it is a transient."""
 CURVES = {
@@ -360,7 +361,7 @@ class _Measured:
 
 
 class _Study:
-    """Simulations of one machine over a band, with their frequencies, lengths and initial states."""
+    """Simulations of one machine over a band, with their frequencies, numbers of cycles and initial states."""
 
     def __init__(self, machine, band):
         low, high = checked_band(band)

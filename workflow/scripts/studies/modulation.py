@@ -1,4 +1,4 @@
-"""Write three CSV files for all cases: measures of modulation, the same by window, and Lyapunov spectra."""
+"""Write CSV files for all cases: measures of modulation, the same for several windows, and Lyapunov spectra."""
 
 from vibroimpact_pipeline.jobs import running
 

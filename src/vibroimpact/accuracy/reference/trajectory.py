@@ -367,7 +367,7 @@ def _force(ball, motion):
 
 
 def _parabola_hint(distance, longest):
-    """Return twice the root of the linear part of the distance, or None unless it is far below the longest step.
+    """Return twice the root of the linear part of the distance if this is far below the longest step, else None.
 
     A search that is first split at this time finds the short flights of a chatter in one split.
     """

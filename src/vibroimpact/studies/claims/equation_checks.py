@@ -100,7 +100,7 @@ def equations_in_U_and_W(evidence):
 
 
 def _errors_of_jumps(system):
-    """Return the largest errors of the jumps at random impacts: U' jumps by 0, W' by -(1 + kappa) W'."""
+    """Return the largest errors at random impacts of the printed jumps, 0 for U' and -(1 + kappa) W' for W'."""
     box, ball = np.random.default_rng(2).uniform(-1, 1, (2, 100))
     X, Y = after_impact(system.epsilon, system.kappa, box, ball)
     U = np.abs(X + system.epsilon * Y - box - system.epsilon * ball).max()

@@ -20,7 +20,7 @@ CAPTIONS = {
 }
 """Stability of each fixed point according to the captions of Figs. 10.6, 10.9 and 10.10."""
 CONTINUATION_VALUES = 111
-"""Number of values of the second amplitude along which a fixed point is followed between cases."""
+"""Number of values of the second forcing amplitude at which a fixed point is followed from case to case."""
 
 
 def number_of_fixed_points(evidence, case, number):

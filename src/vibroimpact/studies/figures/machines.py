@@ -199,7 +199,7 @@ def _name_linear(axes, without, best):
 
 
 def _name_peaks(axes, with_balls):
-    """Write each clearance next to the peak of its curve, on the free side; coinciding peaks share a label."""
+    """Write each clearance next to the peak of its curve, where there is space; coinciding peaks share a label."""
     peaks = {}
     for name, line in with_balls.items():
         at = line.loc[line["swing"].idxmax()]

@@ -89,7 +89,7 @@ class BifurcationCurve(Representation):
 def bifurcation_curves(
     plane: Plane, branches: list[tuple[float, Branch]], longest: float, report: Callable = lambda p, q: None
 ) -> list[BifurcationCurve]:
-    """Return the curves in the rectangle through the folds and symmetry breakings of the given branches.
+    """Return the curves that pass through folds and symmetry breakings of the given branches, inside the rectangle.
 
     Parameters
     ----------

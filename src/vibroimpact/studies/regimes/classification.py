@@ -29,8 +29,8 @@ _SHRUNK, _LONGEST = 1e-6, 10_000
 """A run near a periodic motion is continued until the largest multiplier predicts that the distance has shrunk by the
 factor _SHRUNK, for at most _LONGEST cycles."""
 _REPEATED, _MIRRORED = 1e-8, 1e-6
-"""Tolerances for the repetition and for the symmetry of a periodic motion that is known to rounding. Near symmetry
-breaking the asymmetry grows like the square root of the distance in a parameter."""
+"""Tolerances for the repetition and for the symmetry of a periodic motion that is known to rounding. The
+second one is larger: near symmetry breaking the asymmetry grows like the square root of the distance in a parameter."""
 
 
 @dataclass(frozen=True, eq=False)
