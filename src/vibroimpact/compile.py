@@ -18,7 +18,7 @@ def main() -> None:
 
 
 def beforehand() -> None:
-    """Prepare a process that only compiles: omit the hint in its notices and disable garbage collection."""
+    """Prepare a process that only compiles: omit the hint to compile in advance, and disable garbage collection."""
     from vibroimpact.exact.engine.compiled import NOTICE
 
     NOTICE.beforehand()

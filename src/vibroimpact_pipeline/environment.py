@@ -47,5 +47,5 @@ def set_environment(checkout: Path | None) -> None:
     except (
         KeyError,
         OSError,
-    ):  # in a container without a user name, for example, where Snakemake fails with a traceback
+    ):  # there is no user name, as in some containers, where Snakemake would fail with a traceback
         os.environ["LOGNAME"] = str(os.getuid())

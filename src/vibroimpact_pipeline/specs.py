@@ -11,7 +11,7 @@ workflow/rules/.
   table, if not the default. on_demand: command that makes the table, if the default build does not.
 - tables: for each further table that `compute` returns, file, description and columns.
 
-Instead of equations, columns or own, a SPEC may contain the name of the figure that has this entry. The key "C1, C2"
+For equations, columns or own, a SPEC may give the name of another figure, whose entry is then used. The key "C1, C2"
 describes both columns.
 """
 

@@ -45,16 +45,16 @@ def test_files_of_other_parameters_are_refused_in_one_line(made, others):
         case_points.fixed_points("equal", system, made)
     with pytest.raises(ValueError, match=r"\Ainputs: [^\n]*summary.json was made with (kappa|f[12]0_hat) = [^\n]*\Z"):
         case_motion.simulated("equal", others, RUN, made)
-    with pytest.raises(ValueError, match=r"points.csv holds"):
+    with pytest.raises(ValueError, match=r"points.csv contains"):
         case_points.verdicts("equal", system, case_points.fixed_points("equal", system, {}), made)
 
 
 def test_files_of_another_case_or_length_are_refused(made):
     with pytest.raises(ValueError, match="of case equal"):
         case_points.fixed_points("unequal", System(**EQUAL), made)
-    with pytest.raises(ValueError, match="was made with case = equal, asked for is unequal"):
+    with pytest.raises(ValueError, match="was made with case = equal, the notebook has unequal"):
         case_motion.simulated("unequal", EQUAL, RUN, made)
-    with pytest.raises(ValueError, match="was made with window_cycles = 3, asked for is 4"):
+    with pytest.raises(ValueError, match="was made with window_cycles = 3, the notebook has 4"):
         case_motion.simulated("equal", EQUAL, RUN | {"window_cycles": 4}, made)
 
 

@@ -210,7 +210,7 @@ NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "n
 
 
 def by_notebook(figures):
-    """Return, for each notebook, those of the given figures that it has a page for."""
+    """Return, for each notebook, the given figures for which it makes a page."""
     found = {}
     for figure in figures:
         if notebook := spec(figure).get("notebook"):
@@ -231,7 +231,7 @@ def read_by(notebook, figures):
 
 
 def pages(figures):
-    """Return two mappings by figure for such a job: path of the page; config entry and parameters of the notebook."""
+    """Return two mappings by figure for a job that executes a notebook: its page; its config entry and parameters."""
     outputs = {figure: f"results/notebooks/{figure}.html" for figure in figures}
     given = {}
     for figure in figures:
@@ -248,7 +248,7 @@ def titled(figure):
 
 
 def modelled(figure, entry):
-    """Return notebook, model, module, system and settings of a figure; for a simulation, the settings are of the run."""
+    """Return notebook, model, module, system and settings (for a simulation, those of the run) of a figure."""
     known = {"notebook": spec(figure)["notebook"], "model": entry["model"], "module": spec(figure)["module"]}
     settings = {name: value for name, value in entry.items() if name not in ("like", "model", "case")}
     if known["notebook"] == "simulation":

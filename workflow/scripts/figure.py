@@ -1,6 +1,6 @@
 """Compute and write the tables of one figure, and draw the figure from the written tables.
 
-For a figure of an interactive page, the data of the page are also written as JSON; for an animated figure, a GIF.
+For an interactive page, the data of the page are also written as JSON. For an animated figure, a GIF is written.
 """
 
 import json

@@ -1,6 +1,6 @@
 """Write one page for each figure of a notebook: execute the notebook with the parameters and files of the figure.
 
-Each executed notebook is saved next to the log after every cell, so that it shows where a cell failed.
+Each executed notebook is saved next to the log after every cell, so that it shows which cell failed.
 """
 
 from pathlib import Path

@@ -117,6 +117,6 @@ def _draw(table, options):
         from vibroimpact.figures.plotting.style import save, styled
 
         save(styled(table.plot)(), {options.plot.suffix.removeprefix("."): options.plot})
-    except Exception as error:  # drawing runs other programs and reads fonts; the result is safe
+    except Exception as error:  # of any kind, since drawing reads fonts and may run other programs
         reason = f"{error}".strip().partition("\n")[0]
         options.parser.exit(1, f"{options.parser.prog}: plot: {options.plot} cannot be saved: {reason}\n")

@@ -98,7 +98,7 @@ class PeriodicOrbit(Representation):
 
     @property
     def grazing(self) -> bool:
-        """True if a ball touches a wall without relative speed; a multiplier diverges where it becomes an impact."""
+        """True if a ball touches a wall without relative speed; where this becomes an impact, a multiplier diverges."""
         return _grazes(self.run)
 
     @property

@@ -47,7 +47,7 @@ def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
     first = math.ceil(-theta / math.pi)
     last = math.floor((tau0_max - theta) / math.pi)
     if not tau0_max > 0 or last < first:
-        raise ValueError(f"tau0_max: the window 0 .. {tau0_max} holds no impact at theta + j pi, theta = {theta}")
+        raise ValueError(f"tau0_max: the window 0 .. {tau0_max} contains no impact at theta + j pi, theta = {theta}")
     impacts = theta + math.pi * np.arange(first, last + 1)
     tau0 = np.union1d(np.linspace(0.0, tau0_max, 201), impacts)
     return join(
@@ -57,7 +57,7 @@ def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per impact: tau0, Z, and the time since the previous impact (column after)."""
+    """Return one row per impact, with the columns tau0, Z and `after`, the time since the previous impact."""
     impacts = select(table, "Z", "impacts")[["tau0", "Z"]]
     return impacts.assign(after=impacts["tau0"].diff()).reset_index(drop=True)
 

@@ -58,7 +58,7 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(kappa: float, C_max: float) -> str:
-    """Return a sentence on the exact impact map at the printed border, in Markdown; arguments as in `compute`."""
+    """Return a sentence in Markdown on the exact impact map at the border of (10.26); arguments as in `compute`."""
     border, low, high = printed_limit(rho(kappa)), lower_limit(kappa), upper_limit(kappa)
     growth = abs(impact_multipliers(border, kappa)).max()
     return (

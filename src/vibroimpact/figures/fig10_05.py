@@ -46,7 +46,7 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
     kappa = np.linspace(0.0, 1.0, 201)
     limit = printed_limit(rho(kappa))
     if not (lowest < limit.min() and limit.max() < highest):
-        raise ValueError(f"C_range: {C_range} does not hold the border {limit.min()} .. {limit.max()}")
+        raise ValueError(f"C_range: {C_range} does not contain the border {limit.min()} .. {limit.max()}")
     around = np.append(kappa, [1.0, 0.0])
     return join(
         [
@@ -67,7 +67,7 @@ def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
 
 
 def exact(C_range: tuple[float, float]) -> str:
-    """Return a sentence on the exact impact map in the regions, in Markdown; arguments as in `compute`."""
+    """Return a sentence in Markdown on the exact impact map at the border of (10.26); arguments as in `compute`."""
     kappa = np.linspace(0.0, 1.0, 201)
     growth = max(abs(impact_multipliers(printed_limit(rho(k)), k)).max() for k in kappa)
     return (

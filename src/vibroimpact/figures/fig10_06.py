@@ -157,11 +157,11 @@ def verdict(table: pd.DataFrame, label: str) -> str:
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
-    """Draw the plane (C_i, B_i) of one panel; return the pairs of name and lines for `name_curves`, by axes."""
+    """Draw the plane (C_i, B_i) of one panel; return, for each axes, pairs of name and lines for `name_curves`."""
     module = panel[-1]
     stable = select(table, panel, "SIM stable")
     end, top = stable.iloc[-1], max(stable["B"].iloc[-1], select(table, panel, "SIM unstable")["B"].iloc[0])
-    # Round the limit, since Matplotlib's ticks depend on the last digit of an end such as 2.
+    # Round the limit, since a rounding error in it can change Matplotlib's ticks.
     axes.set(xlim=(0.0, round(end["C"], 9)), ylim=(0.0, 1.08 * top), ylabel=f"$B_{module}$")
     axes.locator_params(nbins=4, steps=[1, 2, 5, 10])
     points = [

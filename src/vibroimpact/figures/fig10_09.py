@@ -26,7 +26,7 @@ SPEC = {
 __all__ = ["compute", "draw"]
 
 CHAPTER = {"a": "unstable", "b": "unstable", "c": "stable"}
-"""Verdicts in the caption of the chapter."""
+"""Verdicts by label, from the chapter's caption of Fig. 10.9."""
 PLACE_OF_B = {"b1": 0.957, "b2": 1.665}
 """C of point b in the planes of both modules, at the chapter's parameters, to which the verdicts of CHAPTER apply."""
 

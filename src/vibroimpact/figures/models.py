@@ -57,15 +57,15 @@ SPEC = {
 }  # fmt: skip
 
 TOLERANCE = {"fixed_points": 10.0, "theoretical_response": 10.0, "simulation": 0.5}
-"""Largest error of a figure [percent of the axis], keyed by its notebook: for the theory epsilon = 0.1, the order of
-its error; for a simulation about the width of a line. In a chaotic window, rounding alone changes the statistics by
-more, by 4 % in figure 10.11, so that two processors would draw two figures."""
+"""Largest error allowed in a figure [percent of the axis], keyed by its notebook. For the theory it is epsilon = 10 %,
+the order of magnitude of the theory's error; for a simulation it is about the width of a line. In a chaotic window,
+rounding alone changes the statistics by more (4 % in figure 10.11), so that two processors would draw two figures."""
 COMPARED = 120
 """Largest number of forcing periods over which simulations are compared."""
 ERROR_MIN, ERROR_MAX = 1e-3, 100.0
 """Smallest and largest error [percent] that is drawn to scale."""
 AXIS_MIN, LANE_ERROR = 1e-4, 3e-4
-"""Lower end of the axis, and place on it for errors below ERROR_MIN, such as the error 0 of the reference."""
+"""Lower end of the axis, and position of errors below ERROR_MIN, such as the error 0 of the reference."""
 MARK = {"color": BLACK, "marker": "o", "markersize": 5}
 KEY = "model in use", "other model", "tolerance", "less than 0.001 %"
 
@@ -113,8 +113,9 @@ def _motions(module, system, settings, models, seconds):
 def _simulations(module, system, settings, models, seconds):
     """Return, for each model of a simulated motion, its name, the reference, the error and the cost [s].
 
-    Both arithmetics start where the transient in float64 ends, since the transient takes the reference a minute. The
-    cost of the transient is estimated from the cost of a window with few samples, in proportion to the periods.
+    The runs in float64 and in arbitrary precision both start where the transient in float64 ends, since the transient
+    takes a minute in arbitrary precision. This time is estimated from the time of a window with few samples, in
+    proportion to the number of periods, and added to the cost.
     """
     whole = window(system, settings | {"model": "float64"})
     part = settings | {"initial_state": whole.samples[list(NAMES)].iloc[0].tolist(), "transient_cycles": 0}

@@ -83,7 +83,7 @@ def draw(table: pd.DataFrame) -> Figure:
         axes.vlines(GOALS, 0, 1, transform=axes.get_xaxis_transform(), **GUIDE)
         measured = drawn[(drawn["problem"] == problem) & drawn["seconds_per_cycle"].notna()]
         by_method = measured.groupby("method", sort=False)
-        # Methods without a result come first, since their names have little room.
+        # Methods without a result are named first, since in the lane at the right their names have little room.
         by_room = sorted(by_method, key=lambda one: one[1]["outcome"].eq("finished").any())
         curves[axes] = [(method, _method(axes, method, rows)) for method, rows in by_room]
         axes.set_xticks(10.0 ** np.arange(-15, 1, 3))

@@ -17,7 +17,7 @@ from vibroimpact_pipeline.specs import specs
 MIN_FREQUENCY = 1e-3
 """Lowest forcing frequency; the cost to simulate one cycle is inversely proportional to the frequency."""
 PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "pages_"
-"""Reserved prefixes: names of rules for companions, sweeps and pages, and of the chapter's figures."""
+"""Reserved prefixes; names of rules for companions, sweeps and pages, and of the chapter's figures, begin with them."""
 RULES = {
     name
     for path in (ROOT / "workflow").rglob("*.smk")

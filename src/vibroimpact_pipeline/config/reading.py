@@ -158,7 +158,7 @@ def _refusal(error, sources):
 
 
 def _source(place, sources):
-    """Return the last source with a key path, or else the first source with the longest part of the path."""
+    """Return the name of the last source that contains a key path, or else of the first with the longest part of it."""
 
     def depth(source):
         value = source[1]

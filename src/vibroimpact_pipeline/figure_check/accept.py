@@ -52,7 +52,7 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
         raise ValueError('reason: empty, expected why the reference set changes, for example REASON="longer axis"')
     new = [verdict["figure"] for verdict in verdicts if _is_new(verdict, reference)]
     if new and pictures_only:
-        raise ValueError(f"{', '.join(new)}: no reference tables to redraw; accept without PICTURES=1")
+        raise ValueError(f"{', '.join(new)}: no reference tables to draw from; accept without PICTURES=1")
     sums = reference_sums(reference)
     for verdict in verdicts:
         figure, files = verdict["figure"], verdict["files"]

@@ -111,7 +111,7 @@ def _compare_tables(verdict, spec, reference, build) -> tuple[dict, dict]:
 
 
 def _compare_with_print(verdict, printed, new):
-    """Add the distance between the new curves and points of the printed figure, if available, to a verdict."""
+    """Add to a verdict the distance of the new curves from points read from the printed figure, if there are any."""
     if printed.is_file():
         with _errors_as_reasons(verdict["reasons"], f"published/{printed.name}: unreadable"):
             _add(verdict, f"published/{printed.name}", printed_distances(read(printed), new["csv"]))

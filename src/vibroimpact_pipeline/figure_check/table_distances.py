@@ -20,7 +20,7 @@ LOG_FLOOR = 1e-17
 EQUAL_WITHIN = 1e-6
 """Counts and shares that differ by less than this value are equal."""
 RARE_ROWS = 5
-"""A class with fewer rows may vanish, since rounding has changed all rows of a class of three rows."""
+"""A class with fewer rows may vanish, since in one case rounding changed all rows of a class of three."""
 MOVED_BY = 1e-3
 """A number counts as moved if its relative change is larger than this value."""
 
@@ -224,7 +224,9 @@ def _rows(old, new, limit):
 
 
 def _balance(old, new, limit):
-    """Compare the number of rows that join a class with the number that leave it, or rises with falls (sign test).
+    """Compare the number of rows that join a class with the number that leave it (sign test).
+
+    For a column of numbers, rows that rise and rows that fall are compared instead.
 
     Rounding moves rows in both directions equally often. The difference of both numbers is measured in standard
     deviations of a binomial distribution with one trial for each moved row. A class that vanishes exceeds the limit,

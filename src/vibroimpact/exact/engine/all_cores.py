@@ -40,7 +40,7 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
 def stop_if_cancelled():
     """Raise CancelledError in this thread if another piece of the work failed or was interrupted.
 
-    Work that takes long calls this function from time to time.
+    Long computations call this function from time to time.
     """
     if (cancelled := getattr(WORKER, "cancelled", None)) and cancelled.is_set():
         raise CancelledError

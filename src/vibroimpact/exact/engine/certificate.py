@@ -50,7 +50,7 @@ class Errors(NamedTuple):
 
 @compiled
 def errors_of(flow, flights, events, limit):
-    """Return estimated errors: (at the start and end of every flight, rows (m + 1, 2); of the final state).
+    """Return the estimated errors at the start and end of every flight, rows (m + 1, 2), and that of the final state.
 
     An error is the root of the sum of the mean squares over all components. If it exceeds the limit after an event (or
     at the end), all later errors are inf.
@@ -157,7 +157,7 @@ def _pass_event(q, flights, events, n, errors, matrix, product):
 
 @inlined
 def _end(q, flight, elapsed, errors, rate):
-    """At the end of a run or at a sample, add the effects of rounding the time and the state to errors."""
+    """Add to `errors` the effects of rounding the time and the state at the end of a run or at a sample."""
     _add_time_error(q, errors.independent, flight, elapsed, rate)
     _add_rounding(q, errors, flight[:AFTER], flight[AFTER:], (False, False))
 
@@ -252,7 +252,7 @@ def _add_table(q, state, sums):
 def _add_rounding(q, errors, flight, state, met):
     """Add a unit rounding error for a state (8,), [boxes, balls], at the end of a flight.
 
-    flight: row of the flight, of which only the start is used. met: for each module, True if its ball meets a wall now.
+    flight: row of the flight, of which only the start is used. met: for each module, True if its ball touches a wall.
 
     The effect of the force, F / Omega^2 on a position and F / Omega on a velocity, is part of the sums in a flight. Its
     rounding error remains even if the effect cancels later. The same holds for velocities due to a stiff spring. The
@@ -293,7 +293,7 @@ class Certificate(Representation):
     wall_residual : float
         Largest ||W| - 1| at an impact, before the ball was moved onto the wall.
     nearest_miss : float
-        Smallest gap at which a ball turned back before the nearer wall; inf if no ball did.
+        Smallest gap to the nearer wall at which a ball turned back without an impact; inf if no ball did.
     shallowest_hit : float
         Smallest depth beyond a wall that a ball would have reached without the impact.
     clearance : float

@@ -10,7 +10,8 @@ stick     the end of a chatter, infinitely many impacts in a finite time. A chat
           changes the state by less than rounding; from then on box and ball move as one body of mass 1 + epsilon;
 release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it negative.
 
-Time is the forcing phase, kept modulo one period without loss (flow.advance_phase), so that long runs lose no digits.
+Time is represented by the forcing phase, which is reduced to one turn without loss (flow.advance_phase), so that long
+runs lose no digits.
 """
 
 import math

@@ -152,7 +152,7 @@ def spread(c, remainder, t):
 
 
 RESOLUTION = 4.0 * np.finfo(float).eps
-ZERO_FACTOR = 2.0  # in units of the margin; a smaller constraint is taken as 0, or proofs would need ever smaller steps
+ZERO_FACTOR = 2.0  # in units of the margin; a smaller constraint is taken as 0, since proofs would need tiny steps
 DOUBT_FACTOR = 2.0 * ZERO_FACTOR
 """In units of the margin: below this distance, rounding decides whether a ball hits or misses a wall. If the same
 motion is computed with other steps, as in a lane of an ensemble, the decision may differ."""

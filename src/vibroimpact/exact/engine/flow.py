@@ -253,7 +253,7 @@ def advance(flow, mode, boxes, sine, cosine, t):
 
 @dataclass(frozen=True)
 class Instant:
-    """Exact time offset + 2 pi turns, with rational numbers offset and turns, such as the end time of a run.
+    """Exact time offset + 2 pi turns, for example the end of a run; offset and turns are rational numbers.
 
     float(instant) is the nearest float.
 

@@ -85,7 +85,7 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
         name, tau = ("cycles", end) if abs(start) < LARGEST_TIME else ("tau0", start)
         raise ValueError(
             f"{name}: the run reaches tau = {tau}; times must stay below 2**43, where floats are 1e-3 apart. "
-            "The motion is the same if tau0 is some whole forcing periods smaller"
+            "The motion stays the same if whole forcing periods are subtracted from tau0"
         )
     return begin, cycles
 
@@ -306,7 +306,7 @@ class Run(Representation):
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
-        """Return the states at given times since the start, which keep their digits even if tau0 is large."""
+        """Return the states at given times since the start; such times keep their digits even if tau0 is large."""
         start = self.start.copy()  # a read-only array would trigger another compilation
         return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
 

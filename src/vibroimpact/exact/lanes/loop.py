@@ -216,7 +216,7 @@ def _motion_of(runs, lane):
 
 @inlined_source
 def _handle_outcome(piece, lane, m):
-    """Continue the run in a lane that a pass has stopped; return PAUSED, or the status of a run that has ended."""
+    """Continue the run in a lane after `step_to_event` stopped it; return PAUSED, or the status of an ended run."""
     flow, squares = _system_of(piece, lane, m)
     if m.runs[rows.OUTCOME, lane] == steps.DOUBTFUL:
         return _run_by_events(piece, flow, squares, lane, m)

@@ -30,7 +30,7 @@ TOUCH1, TOUCH2: wall that each ball leaves, or 0; DUE: index of the module whose
 PHASE, TAIL, REVOLUTIONS: forcing phase at the start of the flight, its remainder, and the number of full turns
 STOP: number of full turns at which the run stops; ALIVE: 1 if the lane has a run; WATCHED: 1 if it is observed
 EVENTS, STALLED: numbers of events, and of flights without progress in time
-OUTCOME: result of a pass; STATISTICS_AT: first row of the statistics
+OUTCOME: state of the lane after a pass (`steps.step_to_event`); STATISTICS_AT: first row of the statistics
 
 From TURNS_AT on, TURN rows for each box describe a turn that may be its largest displacement (`find_turns`): boxes and
 forcing at a time near the turn (6 rows); SINCE: approximate time from there to the turn; HIGHEST: bound on the

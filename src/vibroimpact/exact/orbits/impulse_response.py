@@ -123,7 +123,7 @@ def powers(matrix: np.ndarray, count: int) -> np.ndarray:
 
 
 def impulse_response(system, sign: int) -> ImpulseResponse:
-    """Return the ImpulseResponse of a system, from a cache that systems with other forces share."""
+    """Return the ImpulseResponse of a system, from a cache; systems that differ only in their forces share it."""
     return _kept(system.with_inactive_damped().with_(f10_hat=0.0, f20_hat=0.0), sign)
 
 

@@ -104,5 +104,5 @@ def _expect_same_settings(made, asked, path):
     for name in made | asked:
         if made.get(name) != asked.get(name):
             raise ValueError(
-                f"inputs: {path} was made with {name} = {made.get(name)}, asked for is {asked.get(name)}; {HINT}"
+                f"inputs: {path} was made with {name} = {made.get(name)}, the notebook has {asked.get(name)}; {HINT}"
             )

@@ -13,7 +13,8 @@ from vibroimpact.figures.plotting.markdown import EXACTLY, plain
 from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 
 AGREES = 1e-8
-"""Two tables contain the same fixed points if all coordinates differ by less than this; the same code computes both."""
+"""Two tables contain the same fixed points if all coordinates differ by less than this. The limit is small because the
+same code computes both."""
 COORDINATES = ["C1", "C2", "B1", "B2", "psi1", "psi2"]
 HINT = "with inputs = {} the notebook computes from its own parameters"
 
@@ -38,7 +39,7 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
     """Return the verdicts of all criteria on each fixed point, read from files of a build if `inputs` is given.
 
     Columns label, orbit (label of the exact orbit next to the point), exact (verdict by the multipliers of the orbit),
-    largest multiplier (largest modulus of these multipliers), and the others of `fixed_point_rows`.
+    largest multiplier (largest modulus of these multipliers), and the other columns of `fixed_point_rows`.
 
     Raises
     ------
@@ -90,11 +91,11 @@ def exact(verdicts: pd.DataFrame) -> str:
 
 def _expect_same_points(given, expected, path):
     if list(given["case"]) + list(given["label"]) != list(expected["case"]) + list(expected["label"]):
-        raise ValueError(f"inputs: {path} holds {_named(given)}, the parameters have {_named(expected)}; {HINT}")
+        raise ValueError(f"inputs: {path} contains {_named(given)}, but the parameters give {_named(expected)}; {HINT}")
     apart = np.abs(given[COORDINATES].to_numpy(float) - expected[COORDINATES].to_numpy(float)).max(initial=0.0)
     if not apart < AGREES:
         raise ValueError(
-            f"inputs: {path} holds the fixed points of other parameters: a coordinate differs by {apart:.2g}; {HINT}"
+            f"inputs: {path} contains the fixed points of other parameters: a coordinate differs by {apart:.2g}; {HINT}"
         )
 
 

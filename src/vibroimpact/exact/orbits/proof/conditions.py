@@ -1,9 +1,9 @@
 """Evaluate the equations of asymmetric.py in interval arithmetic.
 
-The six equations for p_1, q_1, p_2, q_2, I_1, I_2 are smooth as long as the order of the impacts stays the same. Both
-kinds of orbit are roots; a symmetric orbit is its own mirror image. The motion of the boxes is the steady response to
-the forcing and to trains of impulses. An inactive module has p_i = q_i = I_i = 0. Impacts are numbered from 0 to 3:
-those of module 1 at wall +1 and -1, then those of module 2.
+The six equations for p_1, q_1, p_2, q_2, I_1, I_2 are smooth as long as the order of the impacts stays the same.
+Symmetric orbits are roots too; a symmetric orbit is its own mirror image. The motion of the boxes is the steady
+response to the forcing and to trains of impulses. An inactive module has p_i = q_i = I_i = 0. Impacts are numbered from
+0 to 3: those of module 1 at wall +1 and -1, then those of module 2.
 """
 
 import itertools
@@ -20,7 +20,7 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 
 
 class SteadyBoxes:
-    """Steady motion [X1, X2, X1', X2'] of the boxes of a system, whose float64 matrices and forcing count as exact.
+    """Steady motion [X1, X2, X1', X2'] of the boxes of a system; its float64 matrices and forcing are taken as exact.
 
     omega, period: of the forcing. rate (4, 4): rate matrix of free motion. start (4, 2): state just after an impulse;
     column j is for a train of impulses on box j (sign +1: equal impulses, one per period; -1: impulses of alternating
@@ -60,7 +60,7 @@ def identity(size: int) -> arb_mat:
 
 
 class EnclosedConditions:
-    """The six equations of asymmetric.py for one system, whose float64 matrices and forcing count as exact.
+    """The six equations of asymmetric.py for one system; its float64 matrices and forcing are taken as exact.
 
     Raises
     ------

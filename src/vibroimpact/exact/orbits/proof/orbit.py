@@ -30,7 +30,7 @@ _STEPS = 20  # largest number of steps to narrow a box; convergence soon becomes
 
 @dataclass(frozen=True)
 class OrbitProof:
-    """Proof of an orbit of a system, whose float64 matrices and forcing count as exact.
+    """Proof of an orbit of a system; the float64 matrices and forcing of the system are taken as exact.
 
     Attributes
     ----------

@@ -28,7 +28,7 @@ class EnclosedPassage:
     """The motion at a root of `EnclosedConditions`, which is given by intervals for the six unknowns.
 
     rate (10, 10): rate matrix of free flight. phases: times of the impacts in forcing periods. speeds: ball speeds on
-    the flights after the impacts. Both are dictionaries by the number of the impact.
+    the flights after the impacts. Both are dictionaries with the number of the impact as key.
     """
 
     def __init__(self, system, conditions, unknowns):
