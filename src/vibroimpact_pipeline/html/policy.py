@@ -13,7 +13,7 @@ HEAD = re.compile(r"<head>\n?")
 
 
 def policy(*scripts: str) -> str:
-    """Return the policy as a meta element; with inline `scripts` it allows these and script files, otherwise no script."""
+    """Return the policy as a meta element. With inline `scripts`, it allows these and script files, else no script."""
     digests = (base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in scripts)
     allowed = " ".join([FILES, *(f"'sha256-{digest}'" for digest in digests)]) if scripts else "'none'"
     rules = (
