@@ -1,4 +1,4 @@
-"""Compile simulations, results of runs, and ensembles in advance: `python -m vibroimpact.compile`.
+"""Compile the code of simulations, results of runs and ensembles in advance: `python -m vibroimpact.compile`.
 
 Numba caches the code in NUMBA_CACHE_DIR if this is set. Otherwise it uses the first of these folders that is writable:
 the folder of the library, the user's cache, a temporary folder.

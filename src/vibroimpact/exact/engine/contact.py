@@ -199,7 +199,7 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
 
 @inlined_source
 def _ends_soon(flow, motion, remaining, i, wall):
-    """Return True if the chatter of ball i after an impact would end soon, within one proof and within the run."""
+    """Return True if the chatter of ball i after an impact would end within the run and the time of one proof."""
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     a = wall * box_accelerations(q, motion.walls, boxes, motion.sine)[i]
     u = -wall * (boxes[2 + i] - balls[2 + i])

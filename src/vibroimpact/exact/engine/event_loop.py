@@ -150,8 +150,9 @@ MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """Terms of the limit on the number of exclusions in a run; the unit of time is `Flow.unit`."""
 ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages
 EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
-"""Indices in the array of a run, (RUN_LENGTH,). It holds the state in public order, the other fields of `Progress`, the
-number of events in earlier rows (EARLIER_EVENTS), the `Span` and the time on the sample clock at the start (CLOCK)."""
+"""Indices in the array of a run, (RUN_LENGTH,). It contains the state in public order, the other fields of
+`Progress`, the number of events in earlier rows (EARLIER_EVENTS), the `Span`, and the time on the sample clock at the
+start (CLOCK)."""
 
 
 class Progress(NamedTuple):
@@ -192,7 +193,7 @@ class Sampling(NamedTuple):
 def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """Continue a run to its end or to a pause; return the status.
 
-    numbers, series, rotations: `flow.tables_of` the system. times (n,): ascending sample times on the clock of the run.
+    numbers, series, rotations: from `flow.tables_of`. times (n,): ascending sample times on the clock of the run.
     samples (n, 8): filled; at an event with the state after it. run, rows, counters: as from `memory`; updated. run[:8]
     is then the state reached.
 

@@ -246,7 +246,7 @@ def _safe_time(c, bound, margin, horizon):
     """Return (time over which a constraint certainly holds, True if an event is due at once).
 
     An event is due at once if the constraint is zero within rounding and decreases. If it is zero within rounding but
-    does not decrease, it holds for the `_time_from_zero`.
+    does not decrease, it holds for the time from `_time_from_zero`.
     """
     if c[0] > ZERO_FACTOR * margin:
         return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False

@@ -232,7 +232,7 @@ def margins_of(q, flights, turns, hits, events, start_phase, duration):
 
 @inlined
 def _lower(margins, margin):
-    """Lower both margins (2,) of a flight to a margin that applies to its start and its end."""
+    """Lower each of the two margins of a flight, at its start and its end, to `margin` if it is larger."""
     for k in range(2):
         margins[k] = np.minimum(margins[k], margin)
 

@@ -22,9 +22,9 @@ def samples_per_cycle(tau, period: float) -> int:
     number = round(period / step) if step > 0 else 0
     slack = 1e-6 * step
     if np.any(np.abs(np.diff(tau) - step) > slack) or abs(number * step - period) > number * slack:
-        raise ValueError(f"tau: samples {step} apart do not divide the period {period} evenly")
+        raise ValueError(f"tau: needs evenly spaced times that divide the period {period}, got a mean spacing of {step}")
     if len(tau) <= number:
-        raise ValueError(f"tau: {len(tau)} samples span less than one period of {number}")
+        raise ValueError(f"tau: {len(tau)} samples span less than one period, which has {number} samples")
     return number
 
 
@@ -45,7 +45,7 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
     """
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
-        raise ValueError(f"cycles: {cycles} periods exceed the window of {len(displacements) / per_cycle:g}")
+        raise ValueError(f"cycles: {cycles} periods exceed the window of {len(displacements) / per_cycle:g} periods")
     return float(np.max(np.abs(displacements[lag:] - displacements[:-lag])))
 
 
@@ -80,7 +80,7 @@ def mirror_distance(displacements, per_cycle: int) -> float:
         If per_cycle is odd, so that half a period is not a whole number of samples.
     """
     if per_cycle % 2:
-        raise ValueError(f"per_cycle: {per_cycle} is odd, half a period lies between samples")
+        raise ValueError(f"per_cycle: {per_cycle} is odd, so that half a period ends between two samples")
     displacements, half = np.asarray(displacements), per_cycle // 2
     return float(np.max(np.abs(displacements[half:] + displacements[:-half])))
 

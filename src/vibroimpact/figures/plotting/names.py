@@ -11,7 +11,7 @@ STEP, GAP = 4.0, 1.6
 LEADER = 5.0
 """Distance in points between a name and its curve above which a leader line connects them."""
 CLEAR_DISTANCE = 50.0
-"""A name may have a place where its curve is not obvious if no better place is within this distance, in points."""
+"""A place where the curve of a name is not obvious is used if no good place is within this distance, in points."""
 LEAD_MARGIN = 3.0
 """Points by which a name without a leader line must be nearer to its own curve than to other named curves."""
 

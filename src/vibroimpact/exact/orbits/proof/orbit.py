@@ -21,7 +21,7 @@ _BITS = 128
 _WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths to try
 _TIGHT = 2.0**-90
 _SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
-"""Tolerances for the difference between listed and proved states, and multipliers, relative to values larger than 1.
+"""Tolerances for differences between listed and proved states and between multipliers, relative for values above 1.
 
 A larger difference means that the listed values belong to another orbit. The tolerance for multipliers is larger,
 since rounding changes a double multiplier by the square root of the rounding error."""
