@@ -31,7 +31,7 @@ studies: set-up  ## build the studies (sweeps, maps, companion figures, claims, 
 	@$(BUILD) -- studies
 	@$(BUILD)
 
-check-figures: set-up  ## compare the chapter's figures with the reference set figures/ (STRICT=1: other library versions fail)
+check-figures: set-up  ## compare the chapter's figures with the reference set figures/ (STRICT=1: fail if other library versions drew it)
 	@$(BUILD) -- figure_check$(if $(STRICT),_strict)
 
 check-studies: set-up  ## compare the figures of the studies with the reference set figures/studies/
@@ -96,7 +96,7 @@ explore: development  ## run property-based tests with new random examples (SEED
 	.venv/bin/pytest --numprocesses 2 -m hypothesis --hypothesis-profile explore --hypothesis-seed $$seed \
 		|| { echo "To repeat these examples: $$again"; exit 1; }
 
-# Options to use the versions in environment.lock, but to leave out its packages, which are installed already.
+# Options that make uv use the versions in environment.lock but leave out its packages, which are already installed.
 BESIDE = --constraint environment.lock $$(sed -n 's/^\([a-z][^=]*\)==.*/--no-emit-package \1/p' environment.lock)
 lock: set-up  ## update all locks: environment.lock (builds), development.lock (report, tests), cluster.lock (Slurm)
 	$(PIN) --upgrade --extra pipeline --extra integrators --extra set-up pyproject.toml -o environment.lock

@@ -22,7 +22,7 @@ def samples_per_cycle(tau, period: float) -> int:
     number = round(period / step) if step > 0 else 0
     slack = 1e-6 * step
     if np.any(np.abs(np.diff(tau) - step) > slack) or abs(number * step - period) > number * slack:
-        raise ValueError(f"tau: needs evenly spaced times that divide the period {period}, got a mean spacing of {step}")
+        raise ValueError(f"tau: needs evenly spaced times dividing the period {period}, got a mean spacing of {step}")
     if len(tau) <= number:
         raise ValueError(f"tau: {len(tau)} samples span less than one period, which has {number} samples")
     return number
