@@ -105,16 +105,14 @@ def reference_of(test: StressTest):
     """
     if test.reference_cycles is None:
         return proven_run(test.system, test.state, test.cycles, exact_floats=False).run
-    before = test.reference_cycles - 1
-    period = test.system.period
-    times = [before * period]
+    times = [(test.reference_cycles - 1) * test.system.period]
     # an attracting motion loses no digits, so that `proven_run` can start with few digits
     run = proven_run(
         test.system, test.state, test.reference_cycles, digits=40, sample_times=times, exact_floats=False
     ).run
     change = abs(run.samples[0] - run.final).max()
     if change > SETTLED_CHANGE:
-        raise ArithmeticError(f"{test.name}: still changes by {change:.1e} in cycle {before}")
+        raise ArithmeticError(f"{test.name}: the motion still changes by {change:.1e} in cycle {test.reference_cycles}")
     return run
 
 

@@ -51,7 +51,8 @@ WORDS = {
     "W": "$W_i = X_i - Y_i$",
     "Y": "ball $Y_i$",
 }
-"""COORDINATES: U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style distinguishes curves of one colour. WORDS: names in the key."""
+"""COORDINATES: U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style separates curves
+of one colour. WORDS: names in the key."""
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, model: str = "slow_flow") -> pd.DataFrame:

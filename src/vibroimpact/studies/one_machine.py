@@ -48,7 +48,7 @@ WINDOW = 300
 """Forcing periods of the window for each of the best few."""
 NEAR, FRAGILE = 0.02, 1.1
 """Relative difference in clearance between a design and its two neighbours; a design is fragile if the peak of one of
-them is more than FRAGILE times as high."""
+them is more than FRAGILE times as high. A motion is settled if its later peak is at least its peak / FRAGILE."""
 LATER = 1000
 """Forcing periods for which the largest motion at a frequency continues, to show if it is a transient."""
 CURVES = {

@@ -37,14 +37,14 @@ def test_equal_forces_lead_to_the_stable_asymmetric_orbits(chapter, observation)
 
 
 def test_asymmetry_sums_both_modules_flights_from_either_wall(chapter):
-    """Against the phases of the exact orbit: the time from wall +1 to wall -1 less that back, of each module."""
+    """Against the phases of the exact orbit: the time from wall -1 to wall +1 less that back, of each module."""
     system, window = chapter(), 24
     for orbit in stable_orbits(system):
         regime, expected = classify_after(system, orbit.state, window, 0.02), 0.0
         for module, (plus, minus) in enumerate(orbit.impact_phases, start=1):
             walls = regime.impacts["wall"][regime.impacts["module"] == module][:-1]  # the last flight is not over
             flights = {1: (minus - plus) % 1.0, -1: (plus - minus) % 1.0}
-            expected += sum(wall * flights[wall] for wall in walls) / window
+            expected -= sum(wall * flights[wall] for wall in walls) / window
         assert regime.flight_asymmetry == pytest.approx(expected, abs=1e-9)
 
 

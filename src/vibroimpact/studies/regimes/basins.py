@@ -35,7 +35,7 @@ def plane(state, points: int) -> np.ndarray:
 def ends(system, states, observation: Observation) -> list[str]:
     """Return the regime that each initial state ends in.
 
-    The name is MIRRORED for an asymmetric response with negative flight asymmetry.
+    The name is MIRRORED for an asymmetric response with positive flight asymmetry.
     """
     regimes = settle(system, states, observation)
-    return [MIRRORED if one.name == ASYMMETRIC and one.flight_asymmetry < 0 else one.name for one in regimes]
+    return [MIRRORED if one.name == ASYMMETRIC and one.flight_asymmetry > 0 else one.name for one in regimes]

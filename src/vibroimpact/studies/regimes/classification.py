@@ -61,7 +61,7 @@ class Regime:
 
     @property
     def flight_asymmetry(self) -> float:
-        """Share of time in flights from wall +1 minus share of time in flights from wall -1, summed over both balls.
+        """Share of time in flights from wall -1 minus share of time in flights from wall +1, summed over both balls.
 
         Its sign distinguishes the mirror images of an asymmetric response.
         """
@@ -69,7 +69,7 @@ class Regime:
         for module in (1, 2):
             mine = self.impacts[self.impacts["module"] == module]
             flights, walls = np.diff(mine["tau"]), mine["wall"][:-1]
-            total += np.sum(flights * walls) / (self.run.cycles * self.run.system.period)
+            total -= np.sum(flights * walls) / (self.run.cycles * self.run.system.period)
         return float(total)
 
     def _path(self, ball):
