@@ -32,7 +32,7 @@ use rule grazing as stress_tests with:
         "results/benchmarks/accuracy/stress_tests.tsv"
 
 
-rule work_precision:
+use rule grazing as work_precision with:
     output:
         **files("work_precision", "Accuracy and speed", folder="accuracy"),
     params:
@@ -54,17 +54,13 @@ rule work_precision:
         "results/logs/accuracy/work_precision.log",
     benchmark:
         "results/benchmarks/accuracy/work_precision.tsv"
-    conda:
-        "../envs/vibroimpact.yaml"
-    script:
-        "../scripts/figure.py"
 
 
 # Figures whose config entry selects a model.
 MODELLED = {figure: entry for figure, entry in config["figures"].items() if "model" in entry}
 
 
-rule models:
+use rule grazing as models with:
     output:
         **files("models", "Accuracy and speed", folder="accuracy"),
     params:
@@ -82,10 +78,6 @@ rule models:
     threads: ALL_CORES
     log:
         "results/logs/accuracy/models.log",
-    conda:
-        "../envs/vibroimpact.yaml"
-    script:
-        "../scripts/figure.py"
 
 
 rule method_comparison:
