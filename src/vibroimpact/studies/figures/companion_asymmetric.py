@@ -52,6 +52,8 @@ SPEC = {
                 "label": {"meaning": "label in `asymmetric_fixed_points.csv` or `orbits.csv`", "unit": "text"},
                 "module": {"meaning": "module, 1 or 2", "unit": "number", "compared": "algebra"},
                 "C, B": {"compared": "roots"},
+                "C_limit, B_limit": {"meaning": "C and B of the fixed point to which an exact orbit leads as epsilon "
+                    "falls; blank if there is none and for fixed points", "unit": "dimensionless", "compared": "roots"},
             },
         },
         "pairs": {
@@ -146,6 +148,7 @@ UNEQUAL_FROM = 1e-3
 _PHASES, _SPEEDS = (
     [f"{what}{module}_{wall}" for module, wall in product((1, 2), ("plus", "minus"))] for what in ("phase", "speed")
 )
+MODULES = ["case", "series", "label", "module", "C", "B", "C_limit", "B_limit"]
 COLUMNS = ["case", "label", "squared1", "squared2", "C1", "C2", "B1", "B2", "psi1", "psi2"]
 JUDGED = ["real", "admissible", "impact_map", "slow_flow", "modulus"]
 RELAXATION_CYCLES = 400, 100
@@ -173,9 +176,9 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fi
         Largest C of the symmetric branch.
 
     Returns "csv", the manifold: columns series (a piece of a branch), C, B; "modules", those with unequal flights:
-    case, series (fixed point or exact orbit), label, module, C, B; "pairs": case, label, exact, epsilon, squared (the
-    larger v^2), limit (the larger v^2 of the fixed point to which the pair leads); "points", a row per fixed point;
-    and "relaxation", statistics of the modulated response by the slow flow, a row per module.
+    case, series (fixed point or exact orbit), label, module, C, B, C_limit, B_limit; "pairs": case, label, exact,
+    epsilon, squared (the larger v^2), limit (the larger v^2 of the fixed point to which the pair leads); "points", a
+    row per fixed point; and "relaxation", statistics of the modulated response by the slow flow, a row per module.
     """
     systems = {case: system for case, system in systems.items() if system.kappa == kappa}
     modules, pairs, rows, relaxed = [], [], [], []
@@ -190,17 +193,18 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fi
         for number, point in enumerate(points, start=1):
             label = next((name for name, end in ends.items() if end is point), "")
             rows.append(_row(system, case, f"U{number}", point, label, ways.get(label), fit_below))
-            modules += _in_plane(case, POINT, f"U{number}", point.C, point.B, point.squared)
+            modules += _in_plane(case, POINT, f"U{number}", None, point.C, point.B, point.squared)
         for label, way in ways.items():
             (verdict,) = here.loc[here["label"] == label, "exact"]
             limit = np.nan if ends[label] is None else ends[label].squared[ends[label].asymmetric].max()
             pairs += [(case, label, verdict, each.system.epsilon, each.place[2:4].max(), limit) for each in way]
-            modules += _in_plane(case, ORBIT, label, way[0].place[:2], way[0].box_amplitudes, way[0].place[2:4])
+            places = way[0].place[:2], way[0].box_amplitudes, way[0].place[2:4]
+            modules += _in_plane(case, ORBIT, label, ends[label], *places)
         found = relax(system, *RELAXATION_CYCLES)
         relaxed += [[case, i + 1, found.bursts[i], found.share[i], found.largest[i]] for i in (0, 1)]
     return {
         "csv": _manifold(kappa, C_max),
-        "modules": pd.DataFrame(modules, columns=["case", "series", "label", "module", "C", "B"]),
+        "modules": pd.DataFrame(modules, columns=MODULES),
         "pairs": pd.DataFrame(pairs, columns=["case", "label", "exact", "epsilon", "squared", "limit"]),
         "points": pd.DataFrame(rows, columns=[*COLUMNS, *JUDGED, *COMPARED]),
         "relaxation": pd.DataFrame(relaxed, columns=["case", "module", "burst", "share", "largest"]),
@@ -233,11 +237,15 @@ def _pairs(system, orbits):
         yield row["label"], np.nan_to_num(root)
 
 
-def _in_plane(case, series, label, *places):
-    """Yield the rows of the modules with unequal flights; `places` holds C, B and v^2 of both modules, each (2,)."""
-    for module, C, B, squared in zip((1, 2), *places, strict=True):
+def _in_plane(case, series, label, limit, *places):
+    """Yield the rows of the modules with unequal flights; `places` holds C, B and v^2 of both modules, each (2,).
+
+    limit: fixed point to which an orbit leads, or None.
+    """
+    ends = [[np.nan] * 2] * 2 if limit is None else np.transpose([limit.C, limit.B])
+    for module, C, B, squared, end in zip((1, 2), *places, ends, strict=True):
         if squared > UNEQUAL_FROM:
-            yield case, series, label, module, C, B
+            yield case, series, label, module, C, B, *end
 
 
 def _row(system, case, name, point, label, way, fit_below):
@@ -270,7 +278,7 @@ def draw(tables: dict) -> Figure:
         axes.sharey(others[0])
         axes.tick_params(labelleft=False)
     heading(left, "a", "both branches of the manifold")
-    names = {left: _draw_manifold(left, tables, marks)}
+    names = {left: _draw_manifold(left, tables["csv"], tables["modules"], marks)}
     for axes, letter, (case, mark) in zip(others, ascii_lowercase[1:], marks.items(), strict=False):
         heading(axes, letter, f"exact pairs, {_title(case)}")
         _draw_case(axes, pairs[pairs["case"] == case], mark)
@@ -285,26 +293,19 @@ def _title(case):
     return f"{case} forces" if case in CASES else f"case {case}"
 
 
-def _draw_manifold(axes, tables, marks):
+def _draw_manifold(axes, pieces, modules, marks):
     """Draw the manifold around its asymmetric branch; return the name and line of each branch.
 
     A thin line leads from each fixed point to the exact orbit that approaches it as epsilon falls.
     """
-    pieces, modules, lines = tables["csv"], tables["modules"], {}
+    lines = {}
     for series, style in PIECES.items():
         piece = pieces[pieces["series"] == series]
         lines[series] = axes.plot(piece["C"], piece["B"], **style)
-    orbits = modules[modules["series"] == ORBIT]
-    reached = orbits.merge(_by_module(tables["points"]), on=["case", "label", "module"], suffixes=("", "_of_point"))
-    for _, row in reached.iterrows():
-        axes.plot([row["C"], row["C_of_point"]], [row["B"], row["B_of_point"]], color=GREY, linewidth=0.7)
-    points = pd.concat(
-        [
-            modules[modules["series"] == POINT],
-            reached.drop(columns=["C", "B"]).rename(columns={"C_of_point": "C", "B_of_point": "B"}),
-        ]
-    )
-    axes.plot(points["C"], points["B"], label="fixed points", **POINT_MARK)
+    orbits, points = (modules[modules["series"] == series] for series in (ORBIT, POINT))
+    axes.plot(orbits[["C", "C_limit"]].T, orbits[["B", "B_limit"]].T, color=GREY, linewidth=0.7)
+    places = pd.concat([points[["C", "B"]], orbits[["C_limit", "B_limit"]].set_axis(["C", "B"], axis=1)])
+    axes.plot(places["C"], places["B"], label="fixed points", **POINT_MARK)
     for case, mark in marks.items():
         here = orbits[orbits["case"] == case]
         axes.plot(here["C"], here["B"], label=f"exact orbits, {_title(case)}", **mark)
@@ -314,12 +315,6 @@ def _draw_manifold(axes, tables, marks):
     seen = pd.concat([pieces["B"][pieces["C"].between(*axes.get_xlim())], modules["B"]])
     axes.set_ylim(seen.min() - 0.05, seen.max() + 0.1)
     return [("asymmetric", lines["asymmetric, right"]), ("symmetric", lines["symmetric, right"])]
-
-
-def _by_module(points):
-    """Return C and B of the fixed points, a row per module, by the label of the exact orbit that leads to the point."""
-    rows = [points[["case", "orbit", f"C{module}", f"B{module}"]].assign(module=module) for module in (1, 2)]
-    return pd.concat(one.set_axis(["case", "label", "C", "B", "module"], axis=1) for one in rows)
 
 
 def _draw_case(axes, pairs, mark):
