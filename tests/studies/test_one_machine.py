@@ -159,7 +159,7 @@ def test_a_transient_is_told_as_one(found, monkeypatch):
     worst = max(early.response, key=lambda row: row["with_m"])
     assert early.peak > 1.1 * worst["later_m"]
     (line,) = (line for line in str(early).splitlines() if "had not settled" in line)
-    assert f"at most {1000 * worst['later_m']:.3g} mm in the 1000 periods after them" in line
+    assert f"at most {1000 * worst['later_m']:.3g} mm in the 1000 periods that follow" in line
     assert "had not settled" not in str(found)
 
 

@@ -37,7 +37,7 @@ DIGITS = 3
 FEW = 3
 """Number of best candidates that are measured again."""
 PER_WIDTH, LEAST, MOST = 6, 41, 801
-"""Frequencies per half-power width of the resonance without ball; smallest and largest number of them in a band."""
+"""Frequencies per half-power width of the resonance without ball; smallest and largest number in a band."""
 FEW_STARTS, MORE_STARTS = 3, 6
 """Number of initial states for each candidate (at every other frequency), and for each of the best few."""
 SETTLED, LONGEST = 5, 2000
@@ -47,8 +47,8 @@ SHORT, LONG = 100, 600
 WINDOW = 300
 """Forcing periods of the window for each of the best few."""
 NEAR, FRAGILE = 0.02, 1.1
-"""Relative difference in clearance between a design and its two neighbours; a design is fragile if the peak of one of
-them is more than FRAGILE times as high. A motion is settled if its later peak is at least its peak / FRAGILE."""
+"""Relative difference in clearance between a design and its two neighbours; a design is fragile if the peak of a
+neighbour is more than FRAGILE times its peak. A motion is settled if its later peak is at least its peak / FRAGILE."""
 LATER = 1000
 """Forcing periods for which the largest motion at a frequency continues, to show if it is a transient."""
 CURVES = {
@@ -77,7 +77,7 @@ class Design:
     near : tuple of float
         Smallest and largest peak [m] among those with 2 % less, the same and 2 % more clearance.
     settling : float
-        Largest displacement before this window, from rest [m].
+        Largest displacement before the window, from rest [m].
     without, fixed : float
         Peak without ball [m], and with the ball fixed in the box [m].
     absorber, absorber_stroke : float
@@ -98,7 +98,8 @@ class Design:
         initial states), settling_m (before the window, from rest) and absorber_m. The rest is for the largest motion
         with the ball in the window: impacts_per_s; the mean impact_speed_m_s of the ball against the wall; the mean
         impulse_Ns of an impact; impulse_Ns_per_s; sticking, the share of time that the ball rests on a wall; later_m,
-        the displacement in the 1000 periods after the window, which is smaller if this motion is a transient.
+        the displacement in the 1000 periods after the window, which is smaller than with_m if this motion is a
+        transient.
     masses : list of dict
         One row per mass of the ball, if several were tried: mass_kg, clearance_m, restitution, peak_m, near_m,
         absorber_m.
@@ -201,8 +202,8 @@ class Design:
                 yield f"The {name.removesuffix('_m')} is the {end} of those tried; one beyond it may serve better."
         worst = max(self.response, key=lambda row: row["with_m"])
         if not self._settled(worst):
-            later = f"{_mm(worst['later_m'])} in the {LATER} periods after them"
-            yield f"At {worst['frequency_Hz']:.4g} Hz that motion had not settled: it is at most {later}."
+            later = f"{_mm(worst['later_m'])} in the {LATER} periods that follow"
+            yield f"At {worst['frequency_Hz']:.4g} Hz the largest motion had not settled: it is at most {later}."
         if self.near[1] > FRAGILE * self.peak:
             more = self.near[1] / self.peak - 1
             yield f"Fragile: with clearances within {NEAR:.0%} of it the peak is up to {more:.0%} higher."

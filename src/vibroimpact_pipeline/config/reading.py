@@ -158,7 +158,10 @@ def _refusal(error, sources):
 
 
 def _source(place, sources):
-    """Return the name of the last source that contains a key path, or else of the first with the longest part of it."""
+    """Return the name of the last source that contains a key path.
+
+    If no source contains the path, return the first source that contains the longest beginning of the path.
+    """
 
     def depth(source):
         value = source[1]

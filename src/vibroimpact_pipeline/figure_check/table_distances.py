@@ -20,7 +20,7 @@ LOG_FLOOR = 1e-17
 EQUAL_WITHIN = 1e-6
 """Counts and shares that differ by less than this value are equal."""
 RARE_ROWS = 5
-"""A class with fewer rows may vanish, since in one case rounding changed all rows of a class of three."""
+"""A class with fewer rows than this may vanish, since in one case rounding changed all rows of a class of three."""
 MOVED_BY = 1e-3
 """A number counts as moved if its relative change is larger than this value."""
 

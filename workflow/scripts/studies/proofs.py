@@ -25,7 +25,7 @@ CERTIFIED = {
 
 
 def proofs_of(system, table, search) -> dict:
-    """Return the proofs for one case, and for asymmetric orbits the effort of the search."""
+    """Return three proofs for one case, the effort of the search for asymmetric orbits, and counts of proved orbits."""
     proofs = {name: prove(system) for name, prove in CERTIFIED.items()}
     return {
         **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},

@@ -17,8 +17,8 @@ from vibroimpact.system.stored_energy import stored
 CYCLES_PER_RUN = 50
 """Number of cycles in each simulation, after which the energy is checked."""
 SEARCH_FACTOR, SUBDIVISIONS, REFINED_MINIMA = 1.2, 48, 8
-"""Search for the shortest decay: impulses whose decay times are up to SEARCH_FACTOR times the shortest are spaced
-SUBDIVISIONS times more closely; then the REFINED_MINIMA lowest minima are located."""
+"""Search for the shortest decay. In the range of impulses whose decay times are up to SEARCH_FACTOR times the shortest,
+the grid is made SUBDIVISIONS times finer. Then the REFINED_MINIMA lowest minima on the grid are refined."""
 
 
 def decay_time(system: System, impulse: float, module: int = 1, fraction: float = 0.1, cycles: int = 10_000) -> float:
@@ -138,6 +138,6 @@ def _time_within(system, flight, target):
 
     if _energies(system, flight[BEFORE:AFTER]) <= target:  # reached at the impact before the flight
         return 0.0
-    if excess(flight[LENGTH]) > 0:  # reached at the end, to rounding
+    if excess(flight[LENGTH]) > 0:  # reached at the end of the flight, within rounding
         return float(flight[LENGTH])
     return brentq(excess, 0.0, float(flight[LENGTH]))

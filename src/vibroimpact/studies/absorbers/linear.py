@@ -70,7 +70,7 @@ class Linear:
         return np.linalg.solve(impedance, self.scale(Omega) * self.force[:, None])[..., 0]
 
     def peak(self, band: tuple[float, float]) -> float:
-        """Return the largest |X_i| of both boxes in a band of frequencies; inf if it contains an undamped resonance.
+        """Return the largest |X_i| of both boxes in a band of frequencies; inf if the band has an undamped resonance.
 
         Raises
         ------

@@ -2,7 +2,7 @@
 
 The largest displacement of a chaotic motion grows with the length of the run. The peak is therefore a quantile of the
 largest displacements in single cycles, which does not grow. The lowest of many measured peaks is still too low, since
-its random error is likely to be negative. Therefore it is measured again, from other starts.
+its random error is likely to be negative. Therefore the lowest peaks are measured again, from other starts.
 """
 
 from collections.abc import Sequence
@@ -49,7 +49,9 @@ class CycleMaxima:
 
 
 def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Peak:
-    """Return the peak in a band of frequencies, for one system per frequency and starts from all states (n, 8).
+    """Return the peak displacement in a band of frequencies.
+
+    `systems` holds one system per frequency. Each system runs from every state of `states`, (n, 8).
 
     Parameters
     ----------
@@ -72,7 +74,7 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
 
 
 def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> CycleMaxima:
-    """Run each system from all states (n, 8) and measure cycle by cycle; the arguments are those of `peak`.
+    """Run each system from every state and return the maxima of each cycle; the arguments are those of `peak`.
 
     An uncoupled module without force (not in `System.modules`) starts at rest.
 

@@ -31,12 +31,12 @@ class Tuning:
 
 
 def without_balls(system, scale=np.ones_like) -> Linear:
-    """Return the linear system of the boxes without balls, each of mass 1; `scale` as in `Linear`."""
+    """Return the linear system of the boxes, each of mass 1, without balls; `scale` as in `Linear`."""
     return Linear(np.diag(masses(system)), damping_matrix(system), stiffness_matrix(system), system.forcing, scale)
 
 
 def fixed_balls(system, scale=np.ones_like) -> Linear:
-    """Return the linear system of the boxes with fixed balls, each of mass 1 + epsilon; `scale` as in `Linear`."""
+    """Return the linear system of the boxes, each of mass 1 + epsilon with its fixed ball; `scale` as in `Linear`."""
     stuck = np.diag(masses(system, (True, True)))
     return Linear(stuck, damping_matrix(system), stiffness_matrix(system), system.forcing, scale)
 

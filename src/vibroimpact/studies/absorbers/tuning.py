@@ -12,15 +12,15 @@ STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
 """Starting points of the optimisation, as multiples of the textbook frequencies."""
 BOUND_FACTOR = 100.0
 """Largest factor between optimised and textbook tuning, up and down. In a band that is narrow or contains no resonance,
-the optimum has the least damping or stiffness that this allows."""
+the optimum has the least damping or stiffness that this factor allows."""
 
 
 def textbook_tuning(system: System) -> Tuning:
     """Return the linear absorbers tuned by Den Hartog's rule, each with the mass of a ball.
 
     The response of a single undamped box passes through two points for every damping of its absorber. The rule makes
-    both equally high, sqrt(1 + 2 / epsilon) times the static deflection, and the peaks almost as low. It treats each
-    box separately, so that it is approximate for damped or coupled boxes.
+    both points equally high, sqrt(1 + 2 / epsilon) times the static deflection, and the peaks almost as low as the
+    points. It treats each box separately, so that it is approximate for damped or coupled boxes.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def textbook_tuning(system: System) -> Tuning:
     -----
     The textbook prints the damping as c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the natural
     frequency Omega_n of the box. `Tuning.damping` refers to the frequency of the absorber, Omega_n / (1 + epsilon).
-    Therefore it is sqrt(3 epsilon / (8 (1 + epsilon))).
+    Therefore `Tuning.damping` is sqrt(3 epsilon / (8 (1 + epsilon))).
 
     References
     ----------

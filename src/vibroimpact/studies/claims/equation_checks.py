@@ -13,7 +13,7 @@ from vibroimpact.theory.manifold import B_min, B_of_C, C_min, C_of_B, impact_pha
 ROUNDING = 1e-12
 KAPPAS = (0.05, 0.3, 0.65, 0.95)
 _TERMS = {"one term": "distance", "two terms": "two terms"}
-"""Number of terms of (10.7) -> panel of the table `epsilon_orders` with the distance that remains after these terms."""
+"""Number of terms of (10.7) -> panel of `epsilon_orders` with the distance between their sum and the exact orbit."""
 
 
 def small_balls(evidence):

@@ -1,9 +1,9 @@
 """Judge each claim of the chapter by a computed check; no verdict is written by hand.
 
-A claim is a mapping with id, place, statement, check (name of a function in `MODULES`), refuted_by (a result that would
-refute the claim) and optionally arguments (of the check), central (true for an important claim) and fact (the reason
-why it does not hold, the same text for claims that fail for the same reason). docs/studies/claims.yaml lists all
-claims. A check takes the Evidence and the arguments, and returns a Finding.
+docs/studies/claims.yaml lists all claims. A claim is a mapping with the keys id, place, statement, check (name of a
+function in `MODULES`) and refuted_by (a result that would refute the claim). Three keys are optional: arguments (of the
+check), central (true for an important claim) and fact (the reason why the claim does not hold). Claims that fail for
+the same reason have the same text as fact. A check takes the Evidence and the arguments, and returns a Finding.
 """
 
 from inspect import isfunction

@@ -53,8 +53,8 @@ def _furthest(C, kappa):
 def printed_condition(evidence):
     """Check (10.26) against the multipliers of the impact map, at the limit and above it.
 
-    (10.26) is a misprint if it holds with other exponents p and q in 4 / (4 + pi^p rho^q). The numbers also give the
-    limits that agree with the chapter's captions, and the exponents for such limits.
+    (10.26) is a misprint if it holds with other exponents p and q in 4 / (4 + pi^p rho^q). `numbers` also contains the
+    interval of lower limits of C for which all captions hold, and the exponents p, q whose limit lies in this interval.
     """
     kappa = evidence.system.kappa
     limit, squared = printed_limit(rho(kappa)), limit_with_squares(rho(kappa))
@@ -92,12 +92,13 @@ def printed_condition(evidence):
 
 
 def _limits_of_the_captions(evidence):
-    """Return the open interval of lower limits in C that agree with all captions.
+    """Return the open interval of lower limits of C for which all captions hold.
 
-    For such a limit every caption on a point holds, and a part of the left arm is stable.
+    If (10.26) had a limit in this interval, the verdict of every caption on a point would hold, and a part of the left
+    arm would be stable.
 
-    A point is unstable if one C_i is below the limit, so that only the numbers of stable and unstable points matter:
-    with other letters the interval would be the same, or empty.
+    A point is stable if both C_i are above the limit, so that the points with the largest min(C_1, C_2) are the stable
+    ones. If the letters in the captions were permuted, the interval would be the same, or empty.
     """
     smallest = {True: [], False: []}
     for case, captions in CAPTIONS.items():

@@ -15,9 +15,9 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import stays_within_walls
 
 SIMILAR = 0.1
-"""Largest relative difference between similar amplitudes; a smaller one is hardly visible in a figure."""
+"""Amplitudes count as similar up to this relative difference; smaller differences are hardly visible in a figure."""
 BEAT_VARIATION = 0.5 / np.sqrt(2)
-"""Standard deviation / mean of the amplitude 1 + d cos(...) of a beat with d = 1/2 (largest 3 times the smallest)."""
+"""Standard deviation / mean of the amplitude 1 + cos(...) / 2 of a beat, whose maximum is 3 times its minimum."""
 PER_CYCLE = 2
 SMALL = 2e-4, 1e-4
 """Two values of epsilon, so small that the error of the theory is proportional to epsilon."""
@@ -74,7 +74,7 @@ def only_possible_behaviour(evidence, case):
     Initial states are spread evenly; one more start is from rest.
 
     A motion with an idle ball has the regime "one ball idle", however strong its modulation. For the start from rest,
-    the numbers give the regime and measures of the modulation.
+    `numbers` contains the regime and measures of the modulation.
     """
     shares = evidence.shares(case)
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
@@ -118,7 +118,7 @@ def resonant_intervals(evidence, case):
 
 
 def beating(evidence, case):
-    """Check that the amplitude of each box varies more than in a beat with a ratio 3 of largest to smallest."""
+    """Check that the amplitude of each box varies more than in a beat whose maximum is 3 times its minimum."""
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
     found = rows["mean"].loc[[1, 2]]
     parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > BEAT_VARIATION for i in (1, 2)}
@@ -149,7 +149,7 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
 def unstable_means_modulated(evidence, case):
     """Check that the exact orbits of a case are unstable and that all its spread starts end strongly modulated.
 
-    The chapter claims this for one case. The numbers give the modulated share of each case without a stable orbit.
+    The chapter claims this for one case. `numbers` contains the modulated share of each case without a stable orbit.
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
@@ -164,8 +164,8 @@ def unstable_means_modulated(evidence, case):
 def periodic_solutions(evidence, f10_hat, f20_hat):
     """Check that every fixed point has an admissible exact orbit.
 
-    The fixed points are those of the cases and of a grid of forces. The numbers also give how many fixed points and
-    exact orbits exist at the given forces.
+    The fixed points are those of the cases and of a grid of forces. `numbers` also contains the numbers of fixed points
+    and of exact orbits at the given forces.
     """
     both = evidence.fixed_points.merge(
         evidence.orbits, left_on=["case", "orbit"], right_on=["case", "label"], suffixes=("", "_exact")
@@ -202,8 +202,9 @@ def assesses_stability(evidence):
 
     The multipliers of the exact orbits are the reference.
 
-    The numbers give a confusion matrix per criterion and epsilon: rows for the verdict of the criterion, columns for
-    the exact one, in the order stable, unstable. Points without an exact orbit are counted separately in this order.
+    `numbers` contains a confusion matrix per criterion and epsilon: rows for the verdict of the criterion, columns for
+    the exact verdict, in the order stable, unstable. Points without an exact orbit are counted separately, by the
+    verdict of the criterion, in the same order.
     """
     grid = evidence.verdict_grid
     parts, shares, numbers = {}, {}, {"without an orbit": int((_at_epsilon(evidence)["exact"] == NO_ORBIT).sum())}
@@ -231,8 +232,9 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
     The balls must also stay between the walls.
 
-    Each fixed point must have an orbit at a distance proportional to epsilon, and there must be no further orbits.
-    Forces without a fixed point are skipped, but each coefficient needs a fixed point at one of the forces at least.
+    Each fixed point must have a symmetric orbit at a distance proportional to epsilon, and every symmetric orbit must
+    belong to a fixed point. Forces without a fixed point are skipped, but each coefficient needs a fixed point at one
+    of the forces at least.
     """
     parts, numbers = {}, {}
     for kappa in kappas:

@@ -92,9 +92,9 @@ def on_the_left_arm(evidence, case, label, modules):
 
 
 def points_move_left(evidence, before, after):
-    """Check that each C_i of each fixed point falls from one case to the other, label by label.
+    """Check that each C_i of each fixed point falls from the case `before` to the case `after`, label by label.
 
-    The numbers also give the result for the pairing of points in which most C_i fall.
+    `numbers` also contains the result for the pairing of points in which most C_i fall.
     """
     first, last = (evidence.points(case)[list(NAMES)] for case in (before, after))
     parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
@@ -134,7 +134,7 @@ def _followed(evidence, before, after, C):
 
 
 def singular_and_bifurcating(evidence, case, f20_range):
-    """Check if a bifurcation occurs where P_i coincides with S_i.
+    """Check if a bifurcation occurs where a fixed point P_i coincides with a singular point S_i.
 
     The force at which a fixed point becomes singular is compared with the force at which two fixed points merge.
     """
@@ -173,9 +173,9 @@ def _nearest_singular(system, point):
 
 
 def places_of_singular_points(evidence, case, label):
-    """Compare the points S_1 of two different eliminations, each from (10.23) to equations in B_i and C_i.
+    """Compare the singular points S_1 for two ways to eliminate the phases from (10.23).
 
-    The chapter does not print (10.24) itself, so that either elimination may be meant.
+    The chapter does not print the functions h_1 and h_2 of (10.24), so that either way may be meant.
     """
     system = evidence.systems[case]
     point = next(point for point in fixed_points(system) if point.label == label)
@@ -189,7 +189,7 @@ def places_of_singular_points(evidence, case, label):
 
 
 def _other_determinant(system, C):
-    """Return |K|^4 - |a_1 a_2|^2 (docs/derivation.md, section 8), times |z_1 z_2|^2 to keep it finite."""
+    """Return |K|^4 - |a_1 a_2|^2 (docs/derivation.md, section 8), times |z_1 z_2|^2 to keep the value finite."""
     balance = Balance.of(system)
     z, q = balance.at(C)
     p = q + balance.K * z

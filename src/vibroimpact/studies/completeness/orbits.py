@@ -11,9 +11,10 @@ equation for delta alone,
     F(delta) = |P_k . N + i D|^2 - |a_k|^2 D^2 = 0.
 
 Where D is not 0 the roots of F are exactly the solutions, each with one C and one phase. F is smooth on [0, T/2] and on
-[T/2, T]. Both are bisected until on each interval F excludes 0, or both F' and D exclude 0. In the latter case the
-signs of F at the two ends show if there is one root or none. The domain is complete: any lag, any phase, any real C.
-Intervals that are undecided at the smallest width (a double root, a root at a kink) are reported.
+[T/2, T]. Both halves are bisected until, on each interval, the enclosure of F excludes 0, or the enclosures of F' and D
+both exclude 0. In the latter case F is monotonic, and its signs at the two ends of the interval show if there is one
+root or none. The domain is complete: any lag, any phase, any real C. Intervals that are undecided at the smallest width
+(a double root, a root at a kink) are reported.
 
 For a single machine, |P_kk C_k + i| = |a_k| is a quadratic equation for C_k.
 """

@@ -1,12 +1,14 @@
 """Prove in interval arithmetic (python-flint's arb) that the lists of fixed points are complete.
 
-The conditions are |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on each pair of charts, over the whole square |x_i| <= 1.
-It covers every real C_i, and v^2 from -1 to 1 (docs/derivation.md, section 11). The square is quartered until in each
-box a condition excludes 0, or a contraction proves the number of zeros: none, or exactly one in the box of twice the
-width (Krawczyk's test; Neumaier 1990). The functions of a chart are computed from the parameters in interval arithmetic
-and expanded to second order about the centre of a box, with a remainder that holds in the box of twice the width. Where
-Delta excludes 0 the phases are unique. Boxes that are undecided at the smallest width are reported. An inactive module
-has the condition x_i = 0 in place of its own, and q_i = 1.
+The conditions are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2 on each pair of charts (docs/derivation.md, section 11;
+the code calls the numerators m_i n1 and n2). Together, the squares |x_i| <= 1 of all pairs cover every real C_i, and
+v^2 from -1 to 1. Each square is quartered until every box is decided or has the smallest width. In a decided box, the
+interval of one condition excludes 0, or a contraction proves that there is no zero, or exactly one in the box of twice
+the width (Krawczyk's test; Neumaier 1990). Boxes that are undecided at the smallest width are reported.
+
+The functions of a chart are computed from the parameters in interval arithmetic and expanded to second order about the
+centre of a box, with a remainder that holds in the box of twice the width. Where the interval of Delta excludes 0, the
+phases are unique. For an inactive module i, the condition is x_i = 0 instead, and q_i = 1.
 """
 
 import functools
@@ -28,7 +30,7 @@ from flint import acb, arb, arb_series, ctx  # noqa: E402 (after the dependency 
 
 SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
 _BITS = 128
-_REACH = 2  # a box is tested at this multiple of its width, so that zeros on an edge are decided
+_REACH = 2  # a box is tested at this multiple of its width, so that zeros on its edges are decided
 _NARROWEST = 2.0**-24
 _ISOLATED_WIDTH = 2.0**-20  # half-width at which a zero is distinguished from the others
 _MOST = 20_000  # largest number of boxes in a pair of charts; the rest is reported as undecided
@@ -48,8 +50,8 @@ class Proof:
         points, pairs of charts and boxes of the chart parameters. For a single machine a box has one interval, and one
         chart takes the place of a pair.
     undecided: boxes in which nothing is proved. Elsewhere, for any real C_i and v^2 in [-1, 1], no point exists.
-    motions: number of isolated points that are motions at leading order, C_i > 0 and v_i^2 > 0; a box that contains 0
-        is not counted. On the asymmetric branch C is always positive.
+    motions: number of isolated points that are motions at leading order, C_i > 0 and v_i^2 > 0. A point is not counted
+    if its box contains 0. On the asymmetric branch C is always positive.
     complete: True if nothing is undecided, and the search lists exactly one point in each isolated box.
     """
 
@@ -169,7 +171,7 @@ def _subdivide(conditions):
     distinct = []
     for zero in sorted(found):
         gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
-        if any(gap < 0.5 for gap in gaps):  # the same zero: the first box has only one within its reach
+        if any(gap < 0.5 for gap in gaps):  # the same zero, since the first box has only one within its reach
             continue
         (undecided if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
     return [_box(*zero) for zero in distinct], [_box(*zero) for zero in undecided]
@@ -241,19 +243,19 @@ class _Conditions:
         return 1, (x + centre[0], y + centre[1], radius + rounding)
 
     def phases_follow(self, x, y, half):
-        """Return True if Delta is not 0 near (x, y), so that n_i / Delta has unique phases."""
+        """Return True if Delta is not 0 near (x, y), so that m_i / Delta has unique phases."""
         return _excludes_zero(self._sides(x, y, _REACH * half)[0])
 
     def _sides(self, x, y, half):
-        """Return the local polynomials of |Delta|^2, |beta_1 n_1|^2 and |beta_2 n_2|^2."""
+        """Return the local polynomials of |Delta|^2, |beta_1 m_1|^2 and |beta_2 m_2|^2."""
         (z1, q1, beta1, n2), (z2, q2, beta2, n1) = (self._chart(i, at, half) for i, at in enumerate((x, y)))
         delta = np.multiply.outer(q1, q2 + self.K * z2) + np.multiply.outer(self.K * z1, q2)
         return _modulus_squared(delta), np.multiply.outer(beta1, n1), np.multiply.outer(n2, beta2)
 
     def _expanded(self, module, at, half):
-        """Return the coefficients of z, q = e z + n, beta^2 and |n_j|^2 (j: other module) in t = (x - at) / half.
+        """Return the coefficients of z, q = e z + n, beta^2 and the other module's |m|^2 in t = (x - at) / half.
 
-        The highest coefficients of z, q, beta and n_j are intervals that include the remainder for |t| <= _REACH.
+        The highest coefficients of z, q, beta and m are intervals that include the remainder for |t| <= _REACH.
         """
         exact, wide = (_functions(self.names[module], arb(at, radius), self.kappa) for radius in (0, _REACH * half))
         powers = [arb(half) ** k for k in range(_ORDERS)]

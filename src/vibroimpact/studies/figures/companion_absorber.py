@@ -107,12 +107,13 @@ SPEC = {
 
 BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
 PEAK, LOWEST, PLATEAU, STROKE, DECAY = "peak", "lowest peak", "plateau", "stroke", "decay"
-"""Names of quantities in the summary; `_response_ratios` has further ones."""
+"""Names of quantities in the summary; `_response_ratios` defines further names."""
 LIGHT = "#D55E00"
 STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgewidth": 0.4, "linestyle": "none"}
 """Colour for the best restitution coefficient, and marker of the lowest peaks."""
 MARGIN_FACTOR = 1.25
-"""Factor that defines the margin of a clearance, in which the peak is at most MARGIN_FACTOR times the lowest peak."""
+"""Factor that defines the margin of a clearance, the range in which the peak is at most MARGIN_FACTOR times the lowest.
+"""
 PLATEAU_FACTOR = 1.2
 """Factor that defines the plateau: the lowest peaks are at most PLATEAU_FACTOR times the lowest of all."""
 FROM, TO = "plateau from", "plateau to"
@@ -143,7 +144,8 @@ def compute(
     response
         Table of a sweep over sigma_e_hat, then both forces, with regimes, amplitudes and envelopes.
     clearance, design
-        Tables of sweeps with the peaks along `band`: over both forces, and over kappa, then both forces.
+        Tables of two sweeps with the peaks along `band`: `clearance` over both forces, `design` over kappa and then
+        both forces.
     band : dict
         Arguments of `sweeps.grid.axis`, along sigma_e_hat.
     observation, starts
@@ -250,8 +252,8 @@ def _of_restitution(places):
 def plateau(places):
     """Return the largest kappa on the plateau, and the least and the greatest of the lowest peaks on it.
 
-    Up to this kappa each lowest peak is at most PLATEAU_FACTOR times the lowest of all. If the peak at the least kappa
-    is already higher, all three results are nan.
+    Up to this kappa each lowest peak is at most PLATEAU_FACTOR times the lowest of all. If the lowest peak at the least
+    kappa is already higher than this, all three results are nan.
     """
     level = PLATEAU_FACTOR * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))

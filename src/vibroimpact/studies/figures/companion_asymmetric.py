@@ -166,12 +166,12 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fi
     orbits : DataFrame
         Rows of `verdict_table.orbit_rows` for all cases.
     kappa
-        Restitution coefficient of the manifold; cases with another one are left out.
+        Restitution coefficient of the manifold; cases with another kappa are left out.
     epsilon, values
         Range and number of values of epsilon, evenly on a log scale. Pairs are followed to the
         values below the epsilon of their case.
     fit_below : float
-        Largest epsilon in the fit of the order with which the distance falls.
+        Largest epsilon in the fit of the order with which the distance between orbit and fixed point falls.
     C_max : float
         Largest C of the symmetric branch.
 

@@ -126,7 +126,8 @@ MARKERS = {
     "end, by grazing or at speed zero": ("X", (GRAZING, SPEED_ZERO)),
     "stability is lost": ("D", (SYMMETRY_BREAKING, PERIOD_DOUBLING, NEIMARK_SACKER, HOPF, MANIFOLD_FOLD)),
 }
-"""Legend name -> marker, kinds of special points. Kinds in ENDS are always marked, others only at a stable piece."""
+"""Legend name -> marker, kinds of special points. Kinds in ENDS are always marked, other kinds only at a stable piece.
+"""
 _SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.2}
 _SPECIAL |= {"zorder": 4, "clip_on": False}
 REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"
@@ -275,7 +276,7 @@ def _cases(theory, exact, cases):
 def _branches(axes, nodes):
     """Draw all pieces and marks; return each name with the line of its longest piece, a stable one if there is any."""
     named = {}
-    # Successive pieces of the same stability are one line: dashes that begin anew at each piece would look solid.
+    # Successive pieces of the same stability are one line: dashes that start again at each piece would look solid.
     begins = nodes[["series", "stable", "branch"]].ne(nodes[["series", "stable", "branch"]].shift()).any(axis=1)
     begins |= nodes.index.to_series().diff().ne(1)
     for (family, stable, _), piece in nodes.groupby(["series", "stable", begins.cumsum()], sort=False):

@@ -108,10 +108,10 @@ LIMITS = (0.5, 100.0)
 FORCES = (0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2, 1.3)
 SETTLED, OBSERVED = 1500, 500
 SAME_POWER = 1e-3
-"""Largest relative difference of powers of the same motion."""
+"""Powers that differ relatively by at most this value count as powers of the same motion."""
 STARTS, SEED, CYCLES = 32, 1, SETTLED + OBSERVED
 LONG = 10000
-"""Cycles for starts that are not on the asymmetric orbit after SETTLED: some transients are long."""
+"""Cycles for starts that are not on the asymmetric orbit after SETTLED cycles, since some transients are long."""
 SIDE = 8
 WATCHED, POINTS, ENOUGH = (1.0, 3.0, 30.0), 15, 600
 SYMMETRIC, ASYMMETRIC, ALL, LINEAR = "symmetric", "asymmetric", "all starts", "linear absorber"
@@ -121,7 +121,7 @@ NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 """Couplings at which the second term of (10.7) is computed."""
 ERRORS = ["panel", "series", "case", "coupling", "error", "own_error", "predicted", "orbits", "stable"]
 WELL = 5.0
-"""Coupling from which on errors and missing motions are also reported separately."""
+"""Errors and missing motions at couplings of at least this value are also reported separately."""
 ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", VANISHES: "v"}
 """Marks of how a stable range ends."""
 _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}

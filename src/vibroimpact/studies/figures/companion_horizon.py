@@ -30,10 +30,10 @@ SPEC = {
 
 
 def compute(system: System, initial_state, strobe: pd.DataFrame) -> pd.DataFrame:
-    """Return the error of the float64 run at the start of each forcing cycle, and the estimate by the run itself.
+    """Return the error of the float64 run at the start of each forcing cycle, and the estimate in its certificate.
 
-    strobe: the true states at these instants (columns tau and `NAMES`). Returns columns panel ("error"), series
-    ("measured", "expected": curves; "horizon": the cycle at which the expected error passes 1e-3), cycle, error.
+    strobe: the true states at the starts of the cycles (columns tau and `NAMES`). Returns columns panel ("error"),
+    series ("measured", "expected": curves; "horizon": the cycle at which the expected error passes 1e-3), cycle, error.
     """
     difference, expected, horizon = departure(system, initial_state, strobe[list(NAMES)].to_numpy(float))
     cycles = np.arange(len(difference))

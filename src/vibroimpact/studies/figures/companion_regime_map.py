@@ -108,7 +108,7 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
 
 def _dominant(cells, starts):
-    """For each cell, return the regime of most starts other than rest, and how many regimes they settle in."""
+    """For each cell, return the regime of most starts other than rest, and the number of regimes of these starts."""
     counts = cells[[*REGIMES]].to_numpy(float) * starts
     if starts > 1:
         counts -= cells["label"].to_numpy()[:, None] == np.array(REGIMES)

@@ -136,9 +136,9 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
 
     Returns "csv", responses with balls: columns panel ("frequency" or "force"), label (the regime of most starts),
     f10_hat, f20_hat, sigma_e_hat, ratio (X / f), low and high (envelope of the ratio), impact_share. "linear", linear
-    systems: panel, series, f10_hat, f20_hat, sigma_e_hat, ratio. "one_to_one", symmetric 1:1 responses: the same and
-    impact_share, stable. "shares", statistics of impact_share over the frequencies: source, f10_hat, f20_hat, points,
-    least, middle, greatest.
+    systems: panel, series, f10_hat, f20_hat, sigma_e_hat, ratio. "one_to_one", symmetric 1:1 responses: the columns of
+    "linear", and impact_share, stable. "shares", statistics of impact_share over the frequencies: source, f10_hat,
+    f20_hat, points, least, middle, greatest.
     """
     sweeps = {"frequency": frequency, "force": force.assign(sigma_e_hat=system.sigma_e_hat)}
     balls = pd.concat([per_force(system, table)[OF_BALLS].assign(panel=name) for name, table in sweeps.items()])

@@ -46,7 +46,7 @@ def compute(system) -> dict:
 
     Returns "motion", "impacts" (see `animation.compute`); "distance": columns t, distance (Euclidean, between state and
     orbit, once a period); "flights": columns t (end of a flight of ball 2), length (forcing periods); "orbit": label,
-    multiplier (largest modulus). If no such orbit is unstable, the tables have no rows.
+    multiplier (largest modulus). If none of these orbits is unstable, the tables have no rows.
     """
     label, orbit = _called_stable(system)
     if orbit is None:

@@ -41,8 +41,8 @@ def branches(
     Pseudo-arclength continuation (Keller 1977) passes folds and branch points. It also follows the branches that
     emanate from branch points, and asymmetric orbits that emanate from symmetric ones. Each branch is divided at its
     special points: folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf, grazing. If a branch
-    ends inside `between`, the last special point gives the reason: speed zero, lost, symmetry breaking (it meets its
-    mirror image) or period doubling (it meets a motion that repeats earlier).
+    ends inside `between`, the last special point gives the reason: speed zero, lost, symmetry breaking (the branch
+    meets its mirror image) or period doubling (the branch meets a motion with a shorter period).
 
     Parameters
     ----------
@@ -99,9 +99,12 @@ def branches(
     if isinstance(of, PeriodicOrbit):
         families, values = (PeriodicOrbits(of),), [getattr(of.system, names[0])]
         if path(values[0]) != of.system:
-            raise ValueError(f"of: a motion of another system; only {' = '.join(names)} may differ")
+            raise ValueError(f"of: the motion belongs to a system that differs in more than {' = '.join(names)}")
         if not low <= values[0] <= high:
-            raise ValueError(f"of: a motion at {' = '.join(names)} = {values[0]}, outside between = ({low}, {high})")
+            raise ValueError(
+                f"of: the motion is at {' = '.join(names)} = {values[0]}, which is outside the range ({low}, {high}) "
+                "of 'between'"
+            )
     else:
         families = _families(of)
     for family in families:

@@ -19,8 +19,8 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     Parameters
     ----------
     systems, states : System or array_like, array_like
-        Combined as by `ensemble`: one System or an array of them, and initial states (..., 8) at tau = 0. An inactive
-        module (as in `PhysicalSystem.single`) is put at rest.
+        Combined as by `ensemble`: one System or an array of Systems, and initial states (..., 8) at tau = 0. An
+        inactive module (as in `PhysicalSystem.single`) is put at rest.
     cycles : int
         Forcing periods of each run.
     settle : int, default 0

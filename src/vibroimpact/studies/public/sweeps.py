@@ -42,12 +42,12 @@ def sweep(
     axes : mapping
         Values of one or two parameters, by name.
     observe : sequence of str
-        Names of observations. These simulate all initial states: "amplitudes" (largest |X_i|, root mean square, mean
-        ball speeds), "envelopes" (5 % and 95 % quantiles of the amplitude per cycle), "energy" (share of the work of
-        the forces that impacts dissipate), "peaks" (amplitude exceeded by one cycle in a hundred along a band) and
-        "regimes" (share of the initial states that end in each regime, and the regime reached from rest). These do not:
-        "fixed_points" (number of fixed points of the theory and of stable ones) and "orbits" (the same for exact 1:1
-        orbits).
+        Names of observations. The following ones simulate all initial states: "amplitudes" (largest |X_i|, root mean
+        square, mean ball speeds), "envelopes" (5 % and 95 % quantiles of the amplitude per cycle), "energy" (share of
+        the work of the forces that impacts dissipate), "peaks" (amplitude exceeded by one cycle in a hundred along a
+        band) and "regimes" (share of the initial states that end in each regime, and the regime reached from rest).
+        The following ones do not simulate: "fixed_points" (number of fixed points of the theory and of stable ones) and
+        "orbits" (number of exact 1:1 orbits and of stable ones).
     starts : int, default 5
         Number of initial states, evenly spread, the first at rest. A ball may stay idle from rest, although it moves
         from any other initial state.

@@ -19,7 +19,8 @@ always in resonance."""
 DISCARDED = 1
 """Number of initial blocks to discard, in which the perturbation turns to the direction of largest growth."""
 SECOND_LENGTH_FACTOR = 10
-"""Length of the second estimate of an exponent, relative to the first. It is made only if the first is not positive."""
+"""Length of the second estimate of an exponent, relative to the first. The second estimate is made only if the first is
+not positive."""
 
 POSITIVE, ZERO, OPEN = "positive", "zero", "open"
 NEVER, AT_TIMES, ALWAYS = "never", "at times", "always"

@@ -1,7 +1,8 @@
 """Follow exact asymmetric orbits to small epsilon, and find the fixed points of the slow flow that they approach.
 
 Orbits and fixed points are compared in C, v^2 and the phase half-way between both impacts [rad] of each module. Unlike
-v and the impact phases, these are smooth in epsilon where two orbits emanate from a symmetric one (v = 0).
+v and the impact phases, these coordinates are smooth in epsilon at v = 0, where two orbits emanate from a symmetric
+orbit.
 """
 
 from dataclasses import dataclass
@@ -48,7 +49,7 @@ def follow(system, root, values) -> list[Station]:
     """Return the orbits of a branch: that of `root`, then one for each epsilon of `values`.
 
     `root` (6,) solves the asymmetric equations of the system; `values` descend from the epsilon of the system. The list
-    ends early where the branch meets a symmetric orbit or Newton's method loses it.
+    ends early where the branch meets a symmetric orbit or Newton's method loses the branch.
     """
     root = np.asarray(root, dtype=float)
     stations = [Station(system, root)]

@@ -20,7 +20,7 @@ _SAME, _SAME_IDLE = 1e-6, 1e-4
 method does not refine such a motion, and part of the transient remains."""
 
 _COORDINATES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
-"""Name of a coordinate -> its index in the state; for W_i = X_i - Y_i, the indices of X_i and of Y_i, which is set."""
+"""Name of a coordinate -> its index in the state; for W_i, the indices of X_i and Y_i. W_i sets Y_i = X_i - W_i."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,7 +182,10 @@ def basins(
         if name not in _COORDINATES:
             raise ValueError(f"axes: {name!r} is none of {', '.join(_COORDINATES)}")
     if len({_COORDINATES[name][-1] for name in axes}) < len(axes):
-        raise ValueError(f"axes: {' and '.join(axes)} set the same ball; give one of them")
+        raise ValueError(
+            f"axes: {' and '.join(axes)} both set the position of ball {_COORDINATES[name][-1] // 2 + 1}; "
+            "give only one of them"
+        )
     axes = {name: reals(f"axes[{name!r}]", list(values)).ravel() for name, values in axes.items()}
     for name, values in axes.items():
         if not len(values):

@@ -122,8 +122,8 @@ def symmetry_breaking(system, x) -> float:
     """Return the determinant that vanishes where the symmetry of an orbit breaks.
 
     `x` is the root (tau_1, tau_2, C_1, C_2) of the orbit. An antisymmetric change shifts the impact times of a
-    module at its two walls by opposite amounts. Of the conditions of restitution at both walls, it changes only the
-    sum. The result is the determinant of the derivatives of these sums.
+    module at its two walls by opposite amounts. Of the conditions of restitution at both walls, such a change affects
+    only their sum, not their difference. The result is the determinant of the derivatives of these sums.
     """
     jacobian = AsymmetricConditions(system)(asymmetric_root(system, x)[None])[1][0]
     opposite = np.array([[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0]]) @ jacobian[:, :4] @ _OPPOSITE

@@ -127,9 +127,9 @@ def branches(
     """Return the branches of a family that pass a seed (a value of p), and those that emanate from them.
 
     A branch ends at the ends of the interval, where a ball speed vanishes, or where it is lost. It also ends where it
-    joins an image of itself: its mirror image, at a symmetric orbit, or itself shifted by forcing periods, at a motion
-    that repeats earlier. Only one of the images is followed. A branch that neither passes a seed nor emanates
-    from another branch is missed. A seed at which the search for roots fails is skipped with a warning.
+    joins an image of itself. At a symmetric orbit, it joins its mirror image. At a motion with a shorter period, it
+    joins itself shifted by forcing periods. Only one of the images is followed. A branch that neither passes a seed nor
+    emanates from another branch is missed. A seed at which the search for roots fails is skipped with a warning.
 
     Parameters
     ----------
@@ -189,9 +189,9 @@ def equations(family, path: Callable) -> Callable:
 
 
 def images(family, system, x, near) -> list[np.ndarray]:
-    """Return the roots of the same motion and of its mirror image.
+    """Return all roots of the motion of a root x, and of its mirror image.
 
-    The angles differ by at most half a turn from those of the root `near`.
+    Their angles differ by at most half a turn from those of the root `near`.
     """
     found, turn = family.images(system, x.copy()), family.turn(system)
     for image in found:

@@ -82,9 +82,9 @@ def classify_after(system, state, window: int, nearness: float) -> Regime:
     """Return the regime of the motion from `state` (8,), at the start of a forcing cycle, over a window of cycles.
 
     If the displacements repeat within `nearness`, Newton's method computes the periodic motion itself. If this motion
-    is near and attracting, and the run approaches it (`_approaches`), a window of this motion is classified
-    instead. Thus a slow spiral into a 1:1 response is distinguished from a modulated motion before the spiral ends. A
-    motion that does not repeat is unsettled here (see `settling`).
+    is near and attracting, and the run approaches it (`_approaches`), a window of this motion is classified instead of
+    the window of the run. Thus a slow spiral into a 1:1 response is distinguished from a modulated motion before the
+    spiral ends. A motion that does not repeat is unsettled here (see `settling`).
     """
     run = _window(system, state, window)
     if not _at_rest(run).any():
@@ -208,7 +208,8 @@ def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
 def _two_impacts(run):
     """Return True if all events are impacts, one per cycle at each wall.
 
-    At each wall, the window may have one impact more or one less, since it may cut off or include one at its ends.
+    The number of impacts at a wall may differ by one from the number of cycles, since an impact may be at an end of the
+    window.
     """
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]

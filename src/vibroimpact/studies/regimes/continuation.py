@@ -27,8 +27,8 @@ _STEPS, _FEET = 12, 4
 # rounding or a singular Jacobian.
 _SETTLED, _STALLED = 1e-13, 1e-7
 _REFINED = 1e-10
-# Newton's method keeps p fixed within a step if the tangent has a larger component along p: F is costlier at a new p
-# than at a new x.
+# Newton's method keeps p fixed within a step if the component of the tangent along p is larger than this value, since F
+# is costlier at a new p than at a new x.
 _STEEP = 0.2
 _TURN = 0.15  # radians by which the tangent may turn in one step
 _SHORTEST = 1e-7  # shortest step; the curve is lost where a shorter one is needed

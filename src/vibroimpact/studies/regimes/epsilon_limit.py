@@ -61,7 +61,7 @@ def distance_to_orbit(system, point) -> Comparison:
 
 
 def paired(system, offset, exact, slow, fast) -> Comparison:
-    """Compare the exact multipliers with slow eigenvalues (for half of them) and fast multipliers (for the rest)."""
+    """Compare half of the exact multipliers with the slow eigenvalues, and the other half with the fast multipliers."""
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
     # Errors are of order epsilon^2 for slow multipliers and epsilon for fast ones; the weights make them comparable.

@@ -35,7 +35,7 @@ SYMMETRY_BREAKING, PERIOD_DOUBLING = "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
-_EQUAL, _MERGED = 1e-6, 1e-5  # flight fractions, and states of a motion, that differ by less are equal
+_EQUAL, _MERGED = 1e-6, 1e-5  # flight fractions, and states of a motion, count as equal if they differ by less
 _HELD = 1e-12
 
 
@@ -44,7 +44,7 @@ class _OwnImage:
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
-        """Return the roots of the same motion and of its mirror image: x alone, since both are equal."""
+        """Return the roots of the motion x and of its mirror image: x alone, since both are the same motion."""
         return [x]
 
     @staticmethod
@@ -67,7 +67,7 @@ class SymmetricOrbits(_OwnImage):
 
     @classmethod
     def roots(cls, system) -> np.ndarray:
-        """Return all roots, shape (n, 4)."""
+        """Return the roots of all symmetric orbits, shape (n, 4)."""
         return np.where(_inactive(cls, system), cls.rest, symmetric_solutions(system))
 
     @classmethod
@@ -130,12 +130,12 @@ class AsymmetricOrbits(SymmetricOrbits):
 
     @classmethod
     def roots(cls, system) -> np.ndarray:
-        """Return the roots found, shape (n, 6); some may be missed."""
+        """Return the roots of the asymmetric orbits that are found, shape (n, 6); some may be missed."""
         return np.where(_inactive(cls, system), cls.rest, asymmetric_solutions(system)[0])
 
     @classmethod
     def images(cls, system, x) -> list[np.ndarray]:
-        """Return the roots of the same motion and of its mirror image."""
+        """Return the roots of the motion x and of its mirror image."""
         image = np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])
         return [x, np.where(_inactive(cls, system), x, image)]
 
@@ -180,7 +180,7 @@ class PeriodicOrbits(AsymmetricOrbits):
         return list(states * (-1.0) ** halves[:, None])
 
     def merging(self, system, x) -> str:
-        """Return PERIOD_DOUBLING if x repeats earlier than the given motion, SYMMETRY_BREAKING if symmetric, or ""."""
+        """Return PERIOD_DOUBLING if x has a shorter period than the motion, SYMMETRY_BREAKING if symmetric, or ""."""
         images = self._equal_images(system, x) & ~self._own
         return PERIOD_DOUBLING if images[::2].any() else SYMMETRY_BREAKING if images.any() else ""
 

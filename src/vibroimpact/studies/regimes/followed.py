@@ -13,7 +13,7 @@ from vibroimpact.studies.regimes.families import AsymmetricOrbits
 SEARCHED = (0.25, 0.5, 0.75)
 """Positions in the list of values at which orbits are searched, as fractions of its length."""
 LARGEST_CHANGE = 0.1
-"""Largest change of a root from one value to the next on the same branch; the values of a slider are close enough."""
+"""Largest change of a root on a branch between neighbouring values, which are close together in a slider."""
 SAME = 1e-6
 
 
@@ -22,8 +22,8 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
 
     Stable orbits are searched at a few of the values, and followed to both sides by Newton's method until the branch
     folds, or the orbit is inadmissible or symmetric. Of two mirror images one is followed. Branches without a stable
-    orbit at the searched values are missed. A resonance of undamped boxes ends a branch; at a searched value there is a
-    warning.
+    orbit at the searched values are missed. A resonance of undamped boxes ends a branch. If the resonance is at a
+    searched value, there is a warning, and no orbit is searched there.
 
     Parameters
     ----------

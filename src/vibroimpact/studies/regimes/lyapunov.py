@@ -7,7 +7,7 @@ exponent, 0, and its attractor has one more dimension.
 
 If a ball sticks, two directions are lost; if both balls stick at the same time, four. If such double sticks have a
 positive frequency, almost every point of the attractor has one in its past. Four exponents are then -inf, and the
-dimension is at most 4. `Spectrum.without_double_sticks` excludes these cycles.
+dimension is at most 4. `Spectrum.without_double_sticks` excludes the cycles with double sticks.
 """
 
 from dataclasses import dataclass
@@ -143,8 +143,8 @@ class Spectrum:
     def without_double_sticks(self) -> "Spectrum":
         """Return the spectrum over the cycles in which the balls do not stick at the same time.
 
-        The result depends little on the number of excluded cycles. After each of these, four directions start again
-        and align within about ten cycles, which are included.
+        The result depends little on the number of excluded cycles. After each excluded cycle, four directions start
+        again and align within about ten cycles, which are not excluded.
         """
         others = self.stuck < BOTH
         return Spectrum(_largest_first(self.growth[others]), self.contraction[others], self.stuck[others])
@@ -234,7 +234,7 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
         rates = np.log(factors)
-    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # computed factors are of rounding size, not 0
+    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # computed factors are not 0 but of rounding size
     return Spectrum(_largest_first(rates), contraction(system, impacts, stuck), stuck)
 
 

@@ -15,7 +15,7 @@ _WINDOW_AND_TRANSIENT = 300, 300
 def predicted(path, values) -> np.ndarray:
     """Return True for each value, shape (n,), at which the slow flow predicts relaxation oscillations.
 
-    In these a ball enters and leaves resonance again and again, see `theory.relaxation`.
+    In a relaxation oscillation, a ball enters and leaves resonance again and again, see `theory.relaxation`.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ class Observation:
     blocks, block : int
         Number of blocks and forcing periods per block for the Lyapunov exponent of a motion that does not repeat.
     retest : int
-        Forcing periods of a longer run that tests the classification of such a motion.
+        Forcing periods of a longer run that tests the classification of a motion that does not repeat.
 
     Raises
     ------
@@ -72,11 +72,13 @@ class Observation:
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
     """Return the regime that each initial state ends in, in order.
 
-    The regimes of motions that do not repeat are tested one after another. One motion in the regime, the witness,
-    continues for `retest` cycles. If any other motion is periodic, up to MOST_WITNESSES continue, since chaos may be
-    transient. If all witnesses keep a regime of the same kind, all motions in the old regime get the new regime of the
-    last witness. Otherwise all continue for `retest` cycles, and those that are still of this kind are unsettled.
-    Motions that cannot be classified also continue for `retest` cycles.
+    Motions that cannot be classified run for `retest` more cycles.
+
+    Motions that do not repeat are tested regime by regime. One of the motions in a regime, the witness, runs for
+    `retest` more cycles. If any initial state ends in a periodic motion, there are up to MOST_WITNESSES witnesses,
+    since the regime may then be a chaotic transient towards that motion. If all witnesses stay in the regime (all kinds
+    of chaos count as one), the other motions of the regime get the name of the last witness. If not, the other motions
+    also run for `retest` more cycles, and all motions that are still in the regime are named unsettled.
 
     Parameters
     ----------
@@ -90,7 +92,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        now = first if name in CHAOS else regimes  # `regimes` includes motions no longer named chaotic
+        now = first if name in CHAOS else regimes  # `regimes` has motions renamed from chaos by a test
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
             _test_classification(system, regimes, members, observation, progress)
@@ -136,7 +138,7 @@ def _continued(system, regime, observation):
 
 
 def _test_classification(system, regimes, members, observation, progress):
-    """Test the regime that `members` share by longer runs, and update `regimes` in place (see `settle`)."""
+    """Test by longer runs the regime of the motions `members`, and update `regimes` in place (see `settle`)."""
     before = regimes[members[-1]].name
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
@@ -157,5 +159,5 @@ def _continue(system, regimes, places, observation, progress):
 
 
 def _same_kind(before, after):
-    """Return True if two names are of the same kind; all names of chaos are of one kind."""
+    """Return True if two names are equal, or if both are in CHAOS."""
     return before == after or (before in CHAOS and after in CHAOS)

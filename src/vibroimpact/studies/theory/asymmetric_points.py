@@ -1,8 +1,9 @@
 """Find all fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
 
-As for symmetric points (docs/derivation.md, section 5), the balance is linear in w_i = u_i / beta_i, and its
-coefficients depend on the chart parameters x_i alone. This gives |Delta|^2 = |beta_1 n_1|^2 = |beta_2 n_2|^2 on the
-square |x_i| <= 1. `completeness.points` proves that no point is missed.
+The balance is linear in w_i = u_i / beta_i, with coefficients that depend on the chart parameters x_i alone
+(docs/derivation.md, section 11). By Cramer's rule w_i = m_i / Delta, where the code calls the numerators m_i n1 and n2.
+Since |u_i| = 1, |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2 on the square |x_i| <= 1. `completeness.points` proves that
+no point is missed.
 
 Points with v^2 < 0 are kept too. They are not motions at leading order, but continue the branch beyond symmetry
 breaking. A motion close to such a point exists once terms of order epsilon raise v^2 above 0.

@@ -92,8 +92,9 @@ def _mean_length(states):
 def lost_at(system, point) -> float:
     """Return the factor on both forces, below 1, at which the symmetric module of a fixed point leaves resonance.
 
-    There C of this module falls to the fold of the manifold. The result is nan if C is below the fold at first, if C
-    stays above it down to half of the forces, or if the fixed point ends earlier at a fold of its own.
+    At this factor, C of the module falls to the fold of the manifold. The result is nan if C is below the fold at the
+    given forces, if C stays above the fold down to half of the forces, or if the fixed point ends before C reaches the
+    fold.
 
     Parameters
     ----------
