@@ -13,8 +13,8 @@ def with_cases(config: dict) -> dict:
 
     An entry without a case gets `default_case`, or the first case if the config sets no default. The chapter's figures
     must name their case. If a case of the chapter is missing, all figures and animations of this case are removed, and
-    so is `regimes.epsilon.mixed`; other entries that name the missing case get the default case. Malformed entries
-    are left unchanged; validation reports them.
+    also `regimes.epsilon.mixed` if it names this case. Other entries that name the missing case get the default case.
+    Malformed entries are left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")

@@ -1,7 +1,7 @@
 """Compute fixed points and exact 1:1 responses for one case, with verdicts of all criteria and proofs; write CSV.
 
-search.json describes the search for asymmetric orbits: their number, the number of Newton starts, and the smallest
-number of starts that led to the same orbit.
+search.json describes the search for asymmetric orbits: the number of orbits, the number of Newton starts, and the
+smallest number of starts that led to one orbit.
 """
 
 import json

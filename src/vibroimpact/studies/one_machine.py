@@ -199,7 +199,7 @@ class Design:
             tried = sorted({row[name] for row in self.candidates})
             if len(tried) > 1 and value in (tried[0], tried[-1]):
                 end = "least" if value == tried[0] else "greatest"
-                yield f"The {name.removesuffix('_m')} is the {end} of those tried; one beyond it may serve better."
+                yield f"The {name.removesuffix('_m')} is the {end} of those tried; a value beyond it may be better."
         worst = max(self.response, key=lambda row: row["with_m"])
         if not self._settled(worst):
             later = f"{_mm(worst['later_m'])} in the {LATER} periods that follow"
@@ -375,7 +375,7 @@ class _Study:
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
         if self.system.modules != (1,):
             raise ValueError(
-                "machine: a single machine is required, without coupling and a second force; see PhysicalSystem.single"
+                "machine: needs a single machine, without coupling and without second force; see PhysicalSystem.single"
             )
         ratio = machine.c1 / (2 * machine.M * machine.omega10)
         width = 2 * ratio * self.hertz

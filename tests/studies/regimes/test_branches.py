@@ -294,7 +294,7 @@ def test_a_slider_skips_a_resonance(chapter):
     systems = {value: chapter(sigma_e_hat=value, **undamped) for value in (-5.1, -5.0, -4.9)}
     with pytest.raises(ValueError, match="resonance"):
         vi.orbits(systems[-5.0])
-    with pytest.warns(UserWarning, match=r"^no asymmetric orbit sought: [^\n]*resonance[^\n]*$"):
+    with pytest.warns(UserWarning, match=r"^no search for asymmetric orbits: [^\n]*resonance[^\n]*$"):
         assert {value for value, _ in followed(systems)} <= {-5.1, -4.9}
 
 

@@ -4,9 +4,10 @@
 include: "common.smk"
 
 
-# Arguments of `compute` for each figure: `settings`, config entries named by the last key of their path (* stands for all
-# settings of a section except `case`); `inputs`; the system of a `case`; the `systems` of all cases. A figure is omitted
-# if the config lacks one of these entries or an entry in `needs`.
+# Arguments of `compute` for each figure. `settings` lists paths of config entries; each argument has the name of the
+# last key of its path, and * means all settings of a section except `case`. `inputs` are tables by name. With `case`, the
+# system of this case is an argument; with `systems`, the systems of all cases are one argument. A figure is omitted if
+# the config lacks one of these entries or an entry in `needs`.
 COMPANIONS = {
     "companion_10_05": {"settings": ["stability.companion_10_05.C_range"]},
     "companion_10_08": {

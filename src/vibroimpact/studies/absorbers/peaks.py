@@ -25,7 +25,7 @@ class Peak:
     """Peak displacement in a band of frequencies, dimensionless.
 
     value: the peak, see `peak_of`. error: standard error of the value. largest: largest |X_i| in all cycles, which for
-    chaotic motions grows with the number of cycles. at: index of the system with the peak along the band.
+    chaotic motions grows with the number of cycles. at: index, along the band, of the system with the peak.
     """
 
     value: float
@@ -84,7 +84,7 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
         If no cycle would be observed, or as for `ensemble`.
     """
     if not cycles > settle:
-        raise ValueError(f"cycles: {cycles} with {settle} to settle leave none to observe")
+        raise ValueError(f"cycles: {cycles} with {settle} to settle leave no cycle to observe")
     systems, states = np.array(systems, dtype=object), np.array([inactive_at_rest(one, states) for one in systems])
     runs = ensemble(systems[:, None], states, cycles, settle=settle, by_cycle=True)
     largest, final, squares = runs["largest"].max(axis=-1), runs["final"][..., -1, :], runs["mean_square"].sum(axis=-2)

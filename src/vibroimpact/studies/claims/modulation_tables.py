@@ -43,11 +43,11 @@ def modulation_tables(
     observation : dict
         Arguments of `regimes.settling.Observation`.
 
-    Returns "measures": columns case, start ("rest", "spread"), regime, starts, quantity, module (0: both), mean,
-    uncertainty (standard error over starts; binomial for the share of starts; for a single start, from blocks for the
-    exponent and blank otherwise); "windows", for strongly modulated spread starts: columns case, module, cycles,
-    quantity, mean, uncertainty; "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap
-    (see `spectra.rows`).
+    Returns three tables. "measures": columns case, start ("rest" or "spread"), regime, starts, quantity, module (0 for
+    both modules), mean, uncertainty. The uncertainty is the standard error over starts, binomial for the share of
+    starts. For a single start, the uncertainty of the exponent comes from blocks, and all other uncertainties are
+    blank. "windows", for strongly modulated spread starts: columns case, module, cycles, quantity, mean, uncertainty.
+    "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see `spectra.rows`).
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)

@@ -106,8 +106,8 @@ def points_move_left(evidence, before, after):
 def stable_point_moves_down_the_right_arm(evidence, before, after, label):
     """Check that the stable point moves down the right arm between two captions, by label and by continuation.
 
-    As the second amplitude falls, the stable point of the first caption continues to a point other than the one with
-    the same letter in the second caption.
+    As the second amplitude falls, the stable point of the first caption continues to a point with another letter in the
+    second caption.
     """
     fold, r = C_min(rho(evidence.system.kappa)), rho(evidence.system.kappa)
     first, named = (evidence.points(case).loc[label, list(NAMES)].to_numpy(float) for case in (before, after))

@@ -17,9 +17,9 @@ NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
     """Return a row per fixed point and epsilon, for forces at the centres of `points` x `points` cells.
 
-    Columns epsilon, f10_hat, f20_hat, C1, C2 (of the fixed point, the same for every epsilon), one per criterion of the
-    theory, admissible (True if its exact orbit stays between the walls) and exact (the verdict on that orbit, or
-    "no orbit", see `verdict_table.partners`).
+    The columns are epsilon, f10_hat, f20_hat, C1 and C2 of the fixed point, which do not depend on epsilon, one column
+    per criterion of the theory, admissible and exact. admissible is True if the exact orbit of the point stays between
+    the walls. exact is the verdict on this orbit, or "no orbit" (see `verdict_table.partners`).
     """
     forces = plane_of_forces(f10_range, f20_range, points)
     plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
@@ -41,10 +41,9 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
 def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
     """Return a row for each epsilon and each fixed point of a system.
 
-    Each row has the label, the verdicts as in `compute`, and the largest multiplier.
-
-    Columns epsilon, label, C1, C2 (of the fixed point), one per criterion of the theory, exact, multiplier (largest
-    modulus for the exact orbit; blank without an orbit).
+    The columns are epsilon, label, C1 and C2 of the fixed point, one column per criterion of the theory, exact and
+    multiplier. The verdicts are as in `compute`. multiplier is the largest modulus of a multiplier of the exact orbit,
+    blank without an orbit.
     """
     points, rows = fixed_points(system), []
     for value in epsilon:

@@ -3,8 +3,8 @@
 The conditions are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2 on each pair of charts (docs/derivation.md, section 11;
 the code calls the numerators m_i n1 and n2). Together, the squares |x_i| <= 1 of all pairs cover every real C_i, and
 v^2 from -1 to 1. Each square is quartered until every box is decided or has the smallest width. In a decided box, the
-interval of one condition excludes 0, or a contraction proves that there is no zero, or exactly one in the box of twice
-the width (Krawczyk's test; Neumaier 1990). Boxes that are undecided at the smallest width are reported.
+interval of one condition excludes 0, or a contraction (Krawczyk's test, Neumaier 1990) proves the number of zeros. The
+number is 0 in the box, or 1 in the box of twice the width. Boxes that are undecided at the smallest width are reported.
 
 The functions of a chart are computed from the parameters in interval arithmetic and expanded to second order about the
 centre of a box, with a remainder that holds in the box of twice the width. Where the interval of Delta excludes 0, the
@@ -49,9 +49,10 @@ class Proof:
     isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point; for asymmetric
         points, pairs of charts and boxes of the chart parameters. For a single machine a box has one interval, and one
         chart takes the place of a pair.
-    undecided: boxes in which nothing is proved. Elsewhere, for any real C_i and v^2 in [-1, 1], no point exists.
+    undecided: boxes in which nothing is proved. Outside the isolated and undecided boxes, no fixed point exists for any
+        real C_i and v^2 in [-1, 1].
     motions: number of isolated points that are motions at leading order, C_i > 0 and v_i^2 > 0. A point is not counted
-    if its box contains 0. On the asymmetric branch C is always positive.
+        if its box contains 0. On the asymmetric branch C is always positive.
     complete: True if nothing is undecided, and the search lists exactly one point in each isolated box.
     """
 
@@ -64,8 +65,8 @@ class Proof:
 def certify(system) -> Proof:
     """Prove the number of fixed points of a system, with C_i of either sign.
 
-    A system without forces has none: the balls dissipate mu rho C_i^2, so that only a free motion with C_i = 0 could
-    remain, for which the search raises an error.
+    A system without forces has no fixed point. The balls dissipate mu rho C_i^2, so that only a free motion with zero
+    C_i could remain, and the search raises an error for a system with such a free motion.
 
     Raises
     ------

@@ -47,7 +47,7 @@ def compute(samples: pd.DataFrame, events: pd.DataFrame, system, cycles: int) ->
     start, period = samples["tau"].iloc[0], system.period
     end = start + cycles * period
     if samples["tau"].iloc[-1] < end - 1e-6 * period:
-        raise ValueError(f"cycles: {cycles} asked for, the window of the simulation is shorter")
+        raise ValueError(f"cycles: {cycles} is longer than the window of the simulation")
     inside = pd.concat([samples, events])[["tau", *COORDINATES]]
     inside = inside[inside["tau"].between(start, end + 1e-6 * period)].drop_duplicates("tau").sort_values("tau")
     impacts = events[(events["kind"] == "impact") & events["tau"].between(start, end)]

@@ -66,7 +66,7 @@ def compute(C_range: tuple[float, float]) -> dict:
         "printed": printed_limit(rho(kappa)),
     }
     if not (lowest <= limits["printed"].min() and limits["symmetry breaking"].max() <= highest):
-        raise ValueError(f"C_range: {C_range} does not hold the limits of stability")
+        raise ValueError(f"C_range: {C_range} does not contain the limits of stability")
     top = np.minimum(limits["symmetry breaking"], limits["penetration"])
     lines = pd.concat(pd.DataFrame({"series": name, "kappa": kappa, "C": C}) for name, C in limits.items())
     outline = {"kappa": np.append(kappa, kappa[::-1]), "C": np.append(limits["fold"], top[::-1])}

@@ -112,8 +112,7 @@ LIGHT = "#D55E00"
 STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgewidth": 0.4, "linestyle": "none"}
 """Colour for the best restitution coefficient, and marker of the lowest peaks."""
 MARGIN_FACTOR = 1.25
-"""Factor that defines the margin of a clearance, the range in which the peak is at most MARGIN_FACTOR times the lowest.
-"""
+"""Factor that defines the margin of a clearance: the range with peaks up to MARGIN_FACTOR times the lowest peak."""
 PLATEAU_FACTOR = 1.2
 """Factor that defines the plateau: the lowest peaks are at most PLATEAU_FACTOR times the lowest of all."""
 FROM, TO = "plateau from", "plateau to"

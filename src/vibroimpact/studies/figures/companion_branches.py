@@ -126,8 +126,7 @@ MARKERS = {
     "end, by grazing or at speed zero": ("X", (GRAZING, SPEED_ZERO)),
     "stability is lost": ("D", (SYMMETRY_BREAKING, PERIOD_DOUBLING, NEIMARK_SACKER, HOPF, MANIFOLD_FOLD)),
 }
-"""Legend name -> marker, kinds of special points. Kinds in ENDS are always marked, other kinds only at a stable piece.
-"""
+"""Legend name -> marker and kinds of special points. Kinds in ENDS are always marked, others next to stable pieces."""
 _SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.2}
 _SPECIAL |= {"zorder": 4, "clip_on": False}
 REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"
@@ -176,10 +175,10 @@ def compute(
     systems : dict
         Case -> system; cases on a path are marked.
 
-    Returns "csv", the nodes of the branches (columns panel, series, label, branch, piece, p, C1, C2, stable,
-    admissible), "attractors" (panel, label, p, and C1, C2 from half the mean path of the ball per cycle), "cases"
-    (panel, case, p), "special_points" (path, family, kind, p, C1, C2, admissible; one row of the kind "none" for a path
-    without special points), and "onsets" (rows of `regimes.onset.onsets`).
+    Returns five tables. "csv", the nodes of the branches: columns panel, series, label, branch, piece, p, C1, C2,
+    stable, admissible. "attractors": panel, label, p, and C1, C2 from half the mean path of the ball per cycle.
+    "cases": panel, case, p. "special_points": path, family, kind, p, C1, C2, admissible, with one row of the kind
+    "none" for a path without special points. "onsets": rows of `regimes.onset.onsets`.
     """
     nodes, attracting, cases, onsets = [], [], [], []
     names = {panel: " ".join(settings["along"]) for panel, settings in zip(ascii_lowercase, paths, strict=False)}

@@ -139,11 +139,12 @@ def compute(systems: dict) -> dict:
     Parameters
     ----------
     systems : dict
-        Case -> system; patterns and power are of the case "equal", patterns with the modules tuned alike.
+        Case -> system. Patterns and power are computed for the case "equal"; for patterns, the modules are tuned ALIKE.
 
-    Returns "csv": panel "error" (series damper in proportion, held: case, coupling, error, predicted, stable, orbits),
-    "asymmetry" (series pattern and where it was found: coupling, v, stable, ends), "power" (force, power, spread,
-    asymmetric_share, stable); and "summary".
+    Returns "csv" and "summary". The panels of "csv" have different columns. "error", with a series for the damper in
+    proportion and one for the damper held: case, coupling, error, predicted, stable, orbits. "asymmetry", with a series
+    per pattern and coupling at which it was found: coupling, v, stable, ends. "power": force, power, spread,
+    asymmetric_share, stable.
     """
     equal = systems["equal"]
     strong = {case: system for case, system in systems.items() if case in STRONG}

@@ -90,7 +90,7 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     points = {case: {point.label: point for point in fixed_points(system)} for case, system in systems.items()}
     if mixed and mixed["label"] not in (known := sorted(points[mixed["case"]])):
         what = f"the case {mixed['case']!r} has no fixed point {mixed['label']!r}, it has {', '.join(known) or 'none'}"
-        raise ValueError(f"mixed.label: {what}; null leaves the entry out")
+        raise ValueError(f"mixed.label: {what}; set mixed to null to leave no point out")
     for case, system in systems.items():
         for label, point in sorted(points[case].items()):
             if {"case": case, "label": label} == mixed:

@@ -14,8 +14,8 @@ RESOLVED = 0.02
 RECURRENT = 0.1
 """A motion recurs if it returns to its start within this fraction of its extent, in every coordinate."""
 RESONANT = (0.1, 0.9)
-"""Limits of the share of time in bursts: a module below the first counts as never in resonance, above the second as
-always in resonance."""
+"""Limits of the share of time in bursts. A module with a share below the first limit counts as never in resonance, with
+a share above the second limit as always in resonance."""
 DISCARDED = 1
 """Number of initial blocks to discard, in which the perturbation turns to the direction of largest growth."""
 SECOND_LENGTH_FACTOR = 10

@@ -34,7 +34,7 @@ class Attractor:
     cycles : int or None
         Forcing periods after which the motion repeats, or None if it does not.
     states : ndarray
-        Stroboscopic section, shape (k, 8): `cycles` points or, if the motion does not repeat, those of a window.
+        Stroboscopic section, shape (k, 8): `cycles` points or, if the motion does not repeat, the points of a window.
     orbit : PeriodicOrbit or None
         The motion with its multipliers, impacts and amplitudes if the regime is periodic, else None.
     """

@@ -1,9 +1,9 @@
 """Continue folds and symmetry breaking of 1:1 responses in the plane of two parameters.
 
-On such a curve the equations of a response hold and one more function vanishes. At a fold this is the determinant of
-their Jacobian. At the symmetry breaking of an exact orbit it is the determinant of one part of the Jacobian of the
-asymmetric equations, the part for antisymmetric changes of the impact times. At the symmetry breaking of a fixed point
-it is the distance of C_i from its upper limit (Masri).
+On such a curve the equations of a response hold and one more function vanishes. At a fold, this function is the
+determinant of the Jacobian of the equations. At the symmetry breaking of an exact orbit, it is the determinant of the
+part of the Jacobian of the asymmetric equations that belongs to antisymmetric changes of the impact times. At the
+symmetry breaking of a fixed point, it is the distance of C_i from its upper limit (Masri).
 """
 
 from collections.abc import Callable

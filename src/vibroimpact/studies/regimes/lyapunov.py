@@ -5,9 +5,9 @@ orthonormalised by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990)
 are the growth in this cycle. The initial time is not perturbed: the flow in phase space extended by time has one more
 exponent, 0, and its attractor has one more dimension.
 
-If a ball sticks, two directions are lost; if both balls stick at the same time, four. If such double sticks have a
-positive frequency, almost every point of the attractor has one in its past. Four exponents are then -inf, and the
-dimension is at most 4. `Spectrum.without_double_sticks` excludes the cycles with double sticks.
+If a ball sticks, two directions are lost. If both balls stick at the same time, four directions are lost. If such
+double sticks have a positive frequency, almost every point of the attractor has one in its past. Four exponents are
+then -inf, and the dimension is at most 4. `Spectrum.without_double_sticks` excludes the cycles with double sticks.
 """
 
 from dataclasses import dataclass
@@ -35,9 +35,9 @@ _MOST_RESAMPLES = 1_000_000
 class Exponent(NamedTuple):
     """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
-    The error is the root of the sum of squares of the standard error from block means and of ln(t1 / t0) / (t1 - t0).
-    The latter is the apparent rate, over the blocks from t0 to t1, of a perturbation that grows linearly in time. The
-    true exponent of such a perturbation, for example for a ball at rest, is 0.
+    The error is the root of the sum of squares of two errors: the standard error from block means, and ln(t1 / t0) /
+    (t1 - t0). The second error is the apparent rate, over the blocks from t0 to t1, of a perturbation that grows
+    linearly in time, for example for a ball at rest. The true exponent of such a perturbation is 0.
     """
 
     mean: float
@@ -73,7 +73,7 @@ def largest_lyapunov(
     blocks : int, default 20
         Number of blocks into which `cycles` are divided, at least 2; their scatter gives the error.
     discarded : int, default 10
-        Number of blocks to discard before these, in which the perturbation turns to the direction of largest growth.
+        Number of blocks to discard before `cycles`, in which the perturbation turns to the direction of largest growth.
 
     Returns
     -------

@@ -9,7 +9,8 @@ FORCES = {"f10_hat", "f20_hat"}
 COLUMNS = ["path", "source", "first", "last", "uncertainty", "agreement"]
 SLOW_FLOW, SIMULATION = "slow flow", "simulation"
 _WINDOW_AND_TRANSIENT = 300, 300
-"""Forcing cycles of the window and of the transient before it, in which a ball may leave resonance for good."""
+"""Forcing cycles of the window and of the transient before the window. During the transient, a ball may leave resonance
+for good."""
 
 
 def predicted(path, values) -> np.ndarray:

@@ -74,7 +74,7 @@ def _peaks(system, states, spec):
 
 
 def _one_ball(runs):
-    """Return the peak of the runs from rest if one ball, the same in all of them, is idle; else nan."""
+    """Return the peak of the runs from rest if exactly one ball is idle, the same ball in every run; else nan."""
     still = [not runs.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
     return peak_of(runs.largest[:, :1]).max() if sum(still) == 1 else np.nan
 
