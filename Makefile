@@ -14,7 +14,7 @@ export HOME ?= $(CURDIR)/.cache/home
 .PHONY: help figures studies check-figures check-studies accept report archive benchmark attack test test-quick test-all explore lock wheels cluster-tools development clean set-up matrix dist release
 .DEFAULT_GOAL := help
 
-# In a terminal, a build shows a progress bar, elsewhere plain lines, and with V=1 the full output of Snakemake.
+# In a terminal, a build shows a progress bar; elsewhere, it shows plain lines. With V=1, it shows all output of Snakemake.
 BUILD = .venv/bin/snakemake --cores $(CORES) $(if $(V),--quiet host,$$([ ! -t 2 ] || echo --logger rich))
 
 help:  ## show this help
@@ -31,7 +31,7 @@ studies: set-up  ## build the studies (sweeps, maps, companion figures, claims, 
 	@$(BUILD) -- studies
 	@$(BUILD)
 
-check-figures: set-up  ## compare the chapter's figures with the reference set figures/ (STRICT=1: fail if other library versions drew it)
+check-figures: set-up  ## compare the chapter's figures with the reference set figures/ (STRICT=1: fail if other library versions drew the reference)
 	@$(BUILD) -- figure_check$(if $(STRICT),_strict)
 
 check-studies: set-up  ## compare the figures of the studies with the reference set figures/studies/

@@ -25,7 +25,7 @@ def refuse(message):
 
 
 def checkout_path(path):
-    """Return the path of a file in the checkout; it is relative if builds run there, so that the folder can be moved."""
+    """Return the path of a file in the checkout, relative if builds run in the checkout, so that it can be moved."""
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
@@ -59,8 +59,8 @@ if not os.access(".", os.W_OK):
 STUDIES = (ROOT / "workflow/rules/studies").is_dir()
 
 
-# Config files are config/config.yaml and config/studies.yaml. Each is read from the working directory if it exists there,
-# otherwise from the checkout. Entries of --configfile and --config override those of the files.
+# Config files are config/config.yaml and config/studies.yaml. Each is read from the working directory or, if it is
+# missing there, from the checkout. Entries of --configfile and --config override the entries of these files.
 def config_file(path):
     return path if Path(path).is_file() and not IS_MODULE else checkout_path(path)
 
@@ -159,8 +159,8 @@ def entries(paths):
 def figure_params(figure, paths, case=None, systems=False, decides=()):
     """Return the params of a figure: its settings by the last key of their path, the parameters of its systems, and more.
 
-    The param `config` contains all config entries on which the figure depends, including entries that only affect its
-    inputs (`decides`).
+    The param `config` contains all config entries on which the figure depends. Among them are the entries at the paths
+    `decides`, which only affect the inputs of the figure.
     """
     settings = entries(paths)
     drawn_by, shared = spec(figure)["module"], map(module_of, spec(figure)["shares"])
@@ -210,7 +210,7 @@ NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "n
 
 
 def by_notebook(figures):
-    """Return, for each notebook, the given figures for which it makes a page."""
+    """Return, for each notebook, the given figures for which the notebook makes a page."""
     found = {}
     for figure in figures:
         if notebook := spec(figure).get("notebook"):
@@ -231,7 +231,7 @@ def read_by(notebook, figures):
 
 
 def pages(figures):
-    """Return two mappings by figure for a job that executes a notebook: its page; its config entry and parameters."""
+    """Return, for a job that executes a notebook, the page of each figure, and its config entry and parameters."""
     outputs = {figure: f"results/notebooks/{figure}.html" for figure in figures}
     given = {}
     for figure in figures:
@@ -248,7 +248,7 @@ def titled(figure):
 
 
 def modelled(figure, entry):
-    """Return notebook, model, module, system and settings (for a simulation, those of the run) of a figure."""
+    """Return notebook, model, module, system and settings of a figure; for a simulation, the settings of the run."""
     known = {"notebook": spec(figure)["notebook"], "model": entry["model"], "module": spec(figure)["module"]}
     settings = {name: value for name, value in entry.items() if name not in ("like", "model", "case")}
     if known["notebook"] == "simulation":

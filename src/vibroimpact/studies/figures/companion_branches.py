@@ -126,7 +126,7 @@ MARKERS = {
     "end, by grazing or at speed zero": ("X", (GRAZING, SPEED_ZERO)),
     "stability is lost": ("D", (SYMMETRY_BREAKING, PERIOD_DOUBLING, NEIMARK_SACKER, HOPF, MANIFOLD_FOLD)),
 }
-"""Legend name -> marker and kinds of special points. Kinds in ENDS are always marked, others next to stable pieces."""
+"""Legend name -> marker and kinds of points. Kinds in ENDS are always marked, other kinds only at a stable piece."""
 _SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.2}
 _SPECIAL |= {"zorder": 4, "clip_on": False}
 REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"

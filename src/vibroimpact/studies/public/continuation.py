@@ -205,7 +205,7 @@ def with_parameters(known, names) -> tuple[str, ...]:
     """
     for name in names:
         if name not in known:
-            raise ValueError(f"{name}: a System has no such parameter; it has {', '.join(known)}")
+            raise ValueError(f"{name}: not a parameter of System; expected one of {', '.join(known)}")
     return tuple(names)
 
 

@@ -197,7 +197,7 @@ class PeriodicOrbits(AsymmetricOrbits):
         """
         run = self._run(system, x)
         if (determined(run) != self._determined).any():
-            raise Lost("other balls impact")
+            raise Lost("a ball begins or ceases to impact")
         residual = np.where(self._determined, run.final - x, x - self.orbit.run.start)
         return residual, np.where(self._determined[:, None], run.jacobian - np.eye(8), np.eye(8))
 
@@ -343,11 +343,11 @@ def _require_both_modules(family, system, x):
     Raises
     ------
     Lost
-        If x is such a response.
+        If x is a response of one module and both modules are active.
     """
     held = np.abs(x - family.rest) < _HELD
     if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
-        raise Lost("both modules are active, and the response is that of one")
+        raise Lost("both modules are active, but the response is that of one module")
 
 
 def asymmetric_root(system, x) -> np.ndarray:
