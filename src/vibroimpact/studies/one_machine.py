@@ -43,7 +43,7 @@ FEW_STARTS, MORE_STARTS = 3, 6
 SETTLED, LONGEST = 5, 2000
 """Length of the transient in time constants of the machine, and its upper limit in forcing periods."""
 SHORT, LONG = 100, 600
-"""Forcing periods of the window for each candidate; shortest transient for the best few (it may be chaotic)."""
+"""Forcing periods of the window for each candidate; shortest transient for the best few (transients may be chaotic)."""
 WINDOW = 300
 """Forcing periods of the window for each of the best few."""
 NEAR, FRAGILE = 0.02, 1.1
@@ -73,7 +73,7 @@ class Design:
         restitution coefficient `kappa`.
     peak : float
         Largest displacement over the band [m] once settled: in `window[1]` forcing periods after the transient of
-        `window[0]`. It is the largest `with_m` of `response`.
+        `window[0]`. The peak is the largest `with_m` of `response`.
     near : tuple of float
         Smallest and largest peak [m] among those with 2 % less, the same and 2 % more clearance.
     settling : float

@@ -24,7 +24,7 @@ def needs(fits, what: str) -> AfterValidator:
 
 
 def _known(case: str, info: ValidationInfo):
-    """Return a case; raise ValueError if the validation context lists cases without it."""
+    """Return a case; raise ValueError if the validation context lists cases and this case is not among them."""
     if case not in (info.context or [case]):
         raise ValueError(f"should be one of the cases {', '.join(map(repr, info.context))}")
     return case

@@ -13,7 +13,10 @@ HEAD = re.compile(r"<head>\n?")
 
 
 def policy(*scripts: str) -> str:
-    """Return the policy as a meta element. With inline `scripts`, it allows these and script files, else no script."""
+    """Return the policy as a meta element.
+
+    If inline `scripts` are given, the policy allows these scripts and script files. If not, it allows no script.
+    """
     digests = (base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in scripts)
     allowed = " ".join([FILES, *(f"'sha256-{digest}'" for digest in digests)]) if scripts else "'none'"
     rules = (

@@ -82,7 +82,7 @@ class Linear:
     def stroke(self, band: tuple[float, float]) -> float:
         """Return the largest |X_i - Y_i| of both absorbers in a band of frequencies.
 
-        This is the room that each absorber needs on each side.
+        The stroke is the room that an absorber needs on each side.
 
         Raises
         ------

@@ -71,7 +71,7 @@ def equations_in_U_and_W(evidence):
 
     The accelerations come from (10.2).
 
-    As printed, line W1 has the force on box 2. As corrected, it has the force on box 1.
+    As printed, line W1 has the force on box 2. As corrected, this line has the force on box 1.
     """
     system = evidence.system.with_(f10_hat=1.0, f20_hat=0.89)
     rng = np.random.default_rng(1)

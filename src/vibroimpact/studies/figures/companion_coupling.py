@@ -169,10 +169,11 @@ def compute(systems: dict) -> dict:
 def errors(system) -> list[dict]:
     """Return a row per fixed point: relative error of C, verdicts of the theory and of the exact orbit.
 
-    error: larger difference in C_1 or C_2 between the point and its exact orbit, over the larger C_i of the orbit; nan
-    if the point has no orbit that is a motion. own_error: larger difference, each over the C_i of the same module.
-    predicted: True if the theory calls the point stable on both time scales. stable: True if all multipliers of the
-    orbit are inside the unit circle. orbits: number of symmetric motions of the system, the same in all rows.
+    error: larger difference in C_1 or C_2 between the point and its exact orbit, divided by the larger C_i of the
+    orbit. own_error: larger relative difference, where the difference in C_i is divided by C_i of the orbit. Both
+    errors are nan if the point has no orbit that is a motion. predicted: True if the theory calls the point stable on
+    both time scales. stable: True if all multipliers of the orbit are inside the unit circle. orbits: number of
+    symmetric motions of the system, the same in all rows.
     """
     points = fixed_points(system)
     found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]

@@ -156,7 +156,8 @@ def _squares(cells, square):
 def _pieces(corners, crossing):
     """Return the pieces of the border within a square.
 
-    If the border crosses two sides, one piece connects them. If it crosses more, a piece leads from each to the middle.
+    If the border crosses two sides, one piece connects both crossings. If it crosses more sides, a piece leads from
+    each crossing to the middle of the square.
     """
     sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
     ends = [crossing(first, second) for first, second in sides]

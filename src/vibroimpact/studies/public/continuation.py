@@ -54,7 +54,8 @@ def branches(
         First and last value of the parameter.
     of : str or PeriodicOrbit, default 'both'
         "theory" (fixed points of the slow flow), "exact" (orbits), "both", or one motion of the system of any period
-        (`periodic_orbit`). Its branch ends as "lost" where a ball grazes or an event falls on the stroboscopic instant.
+        (`periodic_orbit`). The branch of a given motion ends as "lost" where a ball grazes or an event falls on the
+        stroboscopic instant.
     seeds : int, default 5
         Number of values in `between` at which to search for motions. Branches that pass none of these values and
         emanate from no other branch are missed. For one given motion there is no search.

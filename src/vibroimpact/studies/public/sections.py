@@ -26,7 +26,8 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     settle : int, default 0
         Forcing periods of the transient, the first ones of `cycles`, which are omitted.
     progress : bool, default True
-        Count the steps on standard error, if it is a terminal. A step is 100 cycles of the transient, or 1 after it.
+        Count the steps on standard error, if it is a terminal. A step is 100 cycles of the transient, or 1 cycle after
+        the transient.
 
     Returns
     -------

@@ -54,7 +54,7 @@ def sweep(
     seed : int, default 0
         Seed of the scrambling of the initial states.
     cycles : int, default 1000
-        Forcing periods of each run; "regimes" uses those of `observation`.
+        Forcing periods of each run; "regimes" uses the lengths in `observation`.
     settle : int, default 800
         Forcing periods of the transient, the first ones of `cycles`. At equal forces most motions still change after
         400 cycles, none after 2000 (docs/howto.md).

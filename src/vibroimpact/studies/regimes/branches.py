@@ -23,7 +23,7 @@ from vibroimpact.studies.regimes.families import (
 from vibroimpact.system.representation import Representation, brief
 
 _EQUAL = 1e-6  # a value of p this close to an end of the interval counts as the end
-_APART = 1e-3  # closer branch points count as the same
+_APART = 1e-3  # branch points that are closer than this count as one
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
 

@@ -56,8 +56,8 @@ def largest_lyapunov(
     """Return the largest Lyapunov exponent of the motion reached from an initial state, in nats per period.
 
     An exponent above about three errors indicates chaos. For a periodic motion it is the logarithm of the modulus of
-    the largest Floquet multiplier, over the period. It is computed from the exact Jacobian through impacts, chatter and
-    sticking, for the active modules.
+    the largest Floquet multiplier, over the period. The exponent is computed from the exact Jacobian through impacts,
+    chatter and sticking, for the active modules.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ def rows(key: dict, found) -> list[dict]:
 def _rate(count, others):
     """Return the rate of rare events per OF_CYCLES cycles, and its standard error.
 
-    The error assumes Poisson statistics; if there was no event, it is the error for one event.
+    The error assumes Poisson statistics. If there was no event, the result is the error for one event.
     """
     scale = OF_CYCLES / (count + others)
     return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}

@@ -2,8 +2,8 @@
 
 A ball in resonance is on the stable part of the manifold, which is symmetric or, beyond symmetry breaking, asymmetric.
 When the amplitude of the box has fallen to the fold, B = B_min, the ball leaves resonance. The model assumes that it
-then rests in the middle of its box without any effect, until the walls reach it at B = 1. Then it is in resonance again
-(docs/derivation.md, section 12). No parameter is fitted.
+then rests in the middle of its box without any effect, until the walls reach it at B = 1. Then the ball is in resonance
+again (docs/derivation.md, section 12). No parameter is fitted.
 """
 
 from dataclasses import dataclass
