@@ -66,7 +66,7 @@ def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
     Parameters
     ----------
     points : list of LabelledPoint
-        All fixed points of the system. All are needed because each orbit is assigned to the nearest one.
+        All fixed points of the system. All are needed because each orbit is assigned to the nearest point.
     model : str
         slow_flow, exact_orbit or second_term.
 
@@ -95,7 +95,7 @@ def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
     Raises
     ------
     ValueError
-        As for `motions`, or if the table has no such point, or if no exact orbit lies next to the point.
+        As for `motions`, or if the table has no point with this label, or if no exact orbit lies next to the point.
     """
     labelled_point(points, label)
     found = {one.point.label: one for one in motions(system, labelled_points(points), model)}

@@ -21,7 +21,7 @@ from vibroimpact.system.state import BALLS, BOXES, IMPACT
 LONG = 4000
 """Cycles of the single long run, whose time per impact is the unit of all times."""
 SAMPLE, SHORT = 8, 10
-"""Number of runs per scene with which single runs are timed, and their cycles. Errors are also measured after SHORT
+"""Number of single runs that are timed per scene, and number of their cycles. Errors are also measured after SHORT
 cycles."""
 CHECKED = 64
 """Number of runs of a scene whose events and final states are compared with single runs."""
@@ -153,7 +153,7 @@ def _each(method, systems, states):
 
 
 def _compared(scene):
-    """Compare an ensemble with single runs: share of equal numbers of impacts, and median error of the final state."""
+    """Compare an ensemble with single runs: share of equal impact counts per run, median error of the final state."""
     systems, states = scene.runs(CHECKED)
     outcomes = ensemble(systems, states, SHORT)
     singles = [simulate(system, state, SHORT) for system, state in zip(systems, states, strict=True)]

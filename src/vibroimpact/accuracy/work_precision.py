@@ -12,7 +12,8 @@ from vibroimpact.integrators.protocol import Method, MethodRun
 from vibroimpact.system import System
 
 RESOLVED = 0.03, 1e-11
-"""Largest and smallest error used to fit an order. Larger errors belong to another motion, smaller ones to rounding."""
+"""Largest and smallest error used to fit an order. Larger errors are distances between two different motions; smaller
+errors are due to rounding."""
 
 
 @dataclass(frozen=True)

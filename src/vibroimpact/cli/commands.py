@@ -105,8 +105,8 @@ def _fixed_points(system, options):
 def _orbits(system, options):
     """Return one row per admissible orbit.
 
-    Phases [forcing periods] are those of the impacts at walls +1 and -1, and speeds those of the ball on the flights
-    that start there. modulus_1 is the largest modulus of a multiplier.
+    Phases [forcing periods] are those of the impacts at walls +1 and -1. Speeds are those of the ball on the flights
+    that start at these walls. modulus_1 is the largest modulus of a multiplier.
     """
     measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
     columns = ("symmetric", "C1", "C2", *measures, "modulus_1", "residual", "exact")

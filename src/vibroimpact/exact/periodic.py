@@ -23,7 +23,7 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 SAME = 1e-6
 """Largest difference between states that count as equal; near a bifurcation, their error is about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-_NEUTRAL = 1e-10  # relative: if the velocity of a ball depends less on the state, the ball hits no wall
+_NEUTRAL = 1e-10  # relative; if the change of a ball's velocity depends less on the state, the ball hits no wall
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
 _CONVERGED = ((1e-5, 1e-8), (1e-12, 1e-6))
@@ -257,7 +257,7 @@ def _between_events(run):
 
 
 def _at_zero(run):
-    """Return the state at the end of the last forcing period, after any events there; it equals the one at tau = 0."""
+    """Return the state at the end of the last forcing period, after any events there; it is also that at tau = 0."""
     tau = run.cycles * run.system.period
     there = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
     return there[-1].copy() if len(there) else _state_at(run, tau)

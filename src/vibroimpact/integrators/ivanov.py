@@ -188,7 +188,7 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, signs):
-    """Bisect a step that ends beyond a jump; return the shortest fraction that still does, and the end coordinates."""
+    """Bisect a step to the shortest fraction that ends beyond a jump; return it and the coordinates at its end."""
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, signs, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)

@@ -76,7 +76,7 @@ class Method(ABC):
     def run(self, system, state, cycles: int, tau0: float, setting, limit: int | None = None) -> MethodRun:
         """Integrate from a state (8,) at tau0 over `cycles` forcing periods in at most `limit` steps.
 
-        setting: one of `settings`. limit: by default that of the method. A run that cannot continue returns a failure.
+        setting: one of `settings`. limit: by default, that of the class. A run that cannot continue returns a failure.
         """
 
     def scale(self, setting, run: MethodRun) -> float:

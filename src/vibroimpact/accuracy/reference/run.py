@@ -26,10 +26,11 @@ class ReferenceRun:
     """Trajectory in arbitrary precision, dimensionless, with states in the usual order.
 
     digits: decimals to which a single flight is computed. events: structured array (tau, module, wall, kind 0 impact /
-    1 stick / 2 release, state after), rounded to float64. event_taus (n,), event_states (n, 8), final_exact (8,): these
-    times and states in arbitrary precision (flint.arb). samples (n, 8), final (8,): float64. local_error (arb): largest
-    radius of an enclosure in a single flight. completion_error (arb): largest change by the last step of a chatter's
-    extrapolation. flights, chatters: number of flights, and number of chatters that were extrapolated to their end.
+    1 stick / 2 release, state after), rounded to float64. event_taus (n,), event_states (n, 8), final_exact (8,): times
+    and states of the events, and final state, in arbitrary precision (flint.arb). samples (n, 8), final (8,): float64.
+    local_error (arb): largest radius of an enclosure in a single flight. completion_error (arb): largest change by the
+    last step of a chatter's extrapolation. flights, chatters: number of flights, and number of chatters that were
+    extrapolated to their end.
     """
 
     digits: int
@@ -126,7 +127,7 @@ def proven_run(
     max_digits=5000,
     exact_floats=None,
 ) -> ProvenRun:
-    """Repeat `reference_run` with doubled digits until two successive runs agree to the absolute accuracy.
+    """Repeat `reference_run` with doubled digits until two successive runs differ by at most `accuracy`.
 
     Parameters
     ----------
@@ -159,8 +160,8 @@ def proven_run(
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
     """Return the event times of the fine run (n,), and the difference between two runs at each event (n,).
 
-    The difference is the largest in time and coordinates; it is inf from the first event with another module, wall or
-    kind.
+    The difference is the largest in time and coordinates; it is inf from the first event on whose module, wall or kind
+    differs between the runs.
     """
     error = np.full(len(fine.events), np.inf)
     for i, (one, other) in enumerate(zip(coarse.events, fine.events, strict=False)):

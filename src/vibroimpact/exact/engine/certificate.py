@@ -32,8 +32,8 @@ from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
 TABLE, REBOUND = 0.15, 0.25
-"""Typical rounding errors, in UNIT: of an entry of the flow tables, and of restitution times approach velocity. If the
-same error repeats (the same entry is read again, or kappa is close to 1), it adds up instead of averaging out."""
+"""Typical rounding errors, in UNIT: of an entry of the flow tables, and of the rebound per unit of approach velocity.
+An error that repeats (the same entry is read again, or kappa is close to 1) adds up instead of averaging out."""
 
 
 class Errors(NamedTuple):
@@ -50,7 +50,7 @@ class Errors(NamedTuple):
 
 @compiled
 def errors_of(flow, flights, events, limit):
-    """Return the estimated errors at the start and end of every flight, rows (m + 1, 2), and that of the final state.
+    """Return the estimated errors at the start and end of every flight, rows (m + 1, 2), and at the end of the run.
 
     An error is the root of the sum of the mean squares over all components. If it exceeds the limit after an event (or
     at the end), all later errors are inf.

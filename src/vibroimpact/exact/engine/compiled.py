@@ -44,7 +44,7 @@ class _Notice(event.Listener):
         self.within, self.said, self.hint = 0, set(), " (run python -m vibroimpact.compile to do it in advance)"
 
     def beforehand(self) -> None:
-        """Omit the hint to compile in advance, since this process already does so."""
+        """Omit the hint to compile in advance, since this process already compiles in advance."""
         self.hint = ""
 
     def on_start(self, compilation):

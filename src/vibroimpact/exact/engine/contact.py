@@ -180,9 +180,9 @@ def box_accelerations(q, walls, boxes, sine):
 def _contact_push(q, jets, boxes, i, wall, sticking):
     """Return a number > 0 if ball i, at rest on a wall, is pushed by the wall, and < 0 if the wall would have to pull.
 
-    The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. The
-    derivative also decides if the pull on a sticking ball is so brief that it lifts the ball by no more than rounding:
-    the lift is 2 |force|^3 / (3 change^2).
+    The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. The first
+    derivative is also returned if the pull on a sticking ball is so brief that it lifts the ball by no more than
+    rounding: the lift is 2 |force|^3 / (3 change^2), where `change` is this derivative.
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -211,7 +211,7 @@ def _end_of_chatter(flow, motion, i, counters):
     """Return (True if the chatter of ball i may be completed now, time until the chatter ends).
 
     The ball leaves the wall at the inward speed u, and the box accelerates towards it at a. Each hop is shorter than
-    the last one by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)). Completing it at once
+    the one before by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)). To complete it at once
     conserves the momentum of box and ball, but neglects the spring force due to the ball's distance from the wall
     during the hops, of order u^3 / a^2.
     """
@@ -317,8 +317,8 @@ def _apply_impact(flow, motion, i, moment, log):
 def _stick_or_release(q, motion, i, pulled, elapsed, log):
     """Return the motion after deciding whether ball i, at rest on a wall, sticks to it, stays stuck or is released."""
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
-    # Use the acceleration of box and ball together in both cases. The box alone accelerates 1 + epsilon times as much;
-    # if the force is zero within rounding, the two accelerations would make the ball stick and be released endlessly.
+    # Use the acceleration of box and ball together for a free ball, too. The box alone accelerates 1 + epsilon times as
+    # much; if the force is zero within rounding, using both values would make the ball stick and be released endlessly.
     together = mode_of(pair(motion.walls, i, 1))
     jets = jet(q, together, boxes, motion.sine, motion.cosine)
     if wall != 0:

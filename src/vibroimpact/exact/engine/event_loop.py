@@ -87,7 +87,7 @@ def _first_event(q, motion, jets, bound, horizon, short):
     two = 1 - one
     t1, w1, u1 = module_time(q, motion, one, jets, bound, horizon, short)
     w, s1 = _bounds(t1, w1, short)
-    # check the other module for a little longer, so that no event of it precedes the first one unnoticed
+    # check the other module for a little longer, so that none of its events precedes the first event unnoticed
     t2, w2, u2 = module_time(q, motion, two, jets, bound, min(t1 + w + short, horizon), short)
     v, s2 = _bounds(t2, w2, short)
     if w1 < math.inf and t1 + w <= s2:

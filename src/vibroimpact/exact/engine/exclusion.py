@@ -60,8 +60,8 @@ def safe_time(c, horizon):
     """Return a time in [0, horizon] up to which the polynomial c (8,) is certainly positive; 0 if not c[0] > 0.
 
     The time is close to the first zero if this zero is simple, and at least half of the longest time for which the
-    Bernstein coefficients are positive. They are positive for a time t if no real or complex zero lies in the disc with
-    diameter [0, t].
+    Bernstein coefficients are positive. The coefficients are positive for a time t if no real or complex zero lies in
+    the disc with diameter [0, t].
     """
     if not c[0] > 0.0:
         return 0.0

@@ -187,7 +187,8 @@ def _expand(coefficients, powers, series, mode):
 def _multiply(powers, last, many):
     """Append `many` powers of P = exp(A h) to P, ..., P^last: the products of P^last with P, ..., P^many.
 
-    The forcing phase does not depend on the boxes, so its rows have zeros there, and these products are left out.
+    The forcing phase does not depend on the boxes, so its rows are zero in the columns of the boxes. The products with
+    these zeros are left out.
     """
     for i in range(BOXES):
         for j in range(BOXES):

@@ -274,8 +274,8 @@ def _at_start(q, boxes, balls, phase):
 def _at_end(q, walls, boxes, balls, phase):
     """Return the error of the state at the end of the run that would cause another event before the end.
 
-    For a free ball that approaches a wall, it is the gap. For a sticking ball, it is `_force` if the contact force
-    decreases. Otherwise it is inf. The smaller value of both balls is returned.
+    For a free ball that approaches a wall, this error is the gap. For a sticking ball whose contact force decreases, it
+    is `_force`. For any other ball it is inf. The smaller value of both balls is returned.
     """
     margin = math.inf
     for i in range(2):

@@ -93,8 +93,8 @@ def ensemble(
     ndarray
         Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
         the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
-        observed cycles are nan. The averages are exact to rounding. So is the largest |X_i|, except where a box almost
-        at rest turns back (error up to 1e-5 of its path).
+        observed cycles are nan. The averages and the largest |X_i| are exact to rounding, except for the largest |X_i|
+        of a box that turns back almost at rest (error up to 1e-5 of its path).
 
     Raises
     ------

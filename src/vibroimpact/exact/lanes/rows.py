@@ -52,7 +52,8 @@ LOW_PARTS: rounding remainders of its columns for the boxes, four rows of four; 
 SCALARS_AT: scalars of `flow.numbers_of`, in their order
 CA, SA: cos - 1 and sin of Omega h; STEP: h
 BEND, BEND_FORCE: BEND times the root of twice the energy, plus BEND_FORCE, is a bound on the fourth derivative / 72
-ROUNDING, LEAST_ROUNDING: the same for a bound on rounding errors, without the part due to ball velocities
+ROUNDING, LEAST_ROUNDING: ROUNDING times this root, plus LEAST_ROUNDING, is a bound on rounding errors, without the part
+due to ball velocities
 LOSS: energy loss of an impact divided by its squared relative velocity
 FIRST, FIRST_TAIL: phase at the start of the run, and its remainder
 DRIFTS: drift c of each integral (`energy.Squares`)

@@ -122,7 +122,7 @@ class Contact(NamedTuple):
     """End of a step in each lane, which may be an impact.
 
     time: duration of the step. meets: a ball meets a wall at the end. missed: a ball should meet a wall in the step,
-    but the time is not found. first: this ball belongs to module 1, else to module 2. walls: the wall ahead of each
+    but the time is not found. first: True if that ball belongs to module 1, else False. walls: the wall ahead of each
     ball. at_once: the ball is on its wall at the start of the step.
     """
 

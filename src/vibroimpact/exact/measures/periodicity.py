@@ -72,7 +72,7 @@ def mirror_distance(displacements, per_cycle: int) -> float:
     """Return the largest |x(tau + T/2) + x(tau)| over the window, which is 0 for a symmetric motion.
 
     The equations of motion stay the same if the sign of the state changes and time shifts by half a period. A motion is
-    symmetric if it also stays the same.
+    symmetric if this change leaves the motion the same, too.
 
     Raises
     ------

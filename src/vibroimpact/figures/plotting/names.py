@@ -16,8 +16,8 @@ LEAD_MARGIN = 3.0
 """Points by which a name without a leader line must be nearer to its own curve than to other named curves."""
 
 UNCLEAR, OVERLAPS = 1, 2
-"""Defects of a place, which is used only if there is no better one. UNCLEAR: it is not obvious to which curve the name
-belongs. OVERLAPS: the name covers something."""
+"""Defects of a place. A place with a defect is used only if there is no better place. UNCLEAR: it is not
+obvious to which curve the name belongs. OVERLAPS: the name covers something."""
 
 
 def name_curves(figure, panels: dict, **style) -> None:

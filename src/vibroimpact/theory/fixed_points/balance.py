@@ -106,8 +106,8 @@ def determinant(system, C) -> float:
 
     Constant factors, powers of B_i and the square in h_1 are left out. The equation sin^2 + cos^2 = 1 for psi_1 and for
     psi_2 gives two equations linear in cosine and sine of psi_2 - psi_1; their determinant is four times the returned
-    value. It vanishes for all C only if the modules are uncoupled: as a quadratic in C_1 it vanishes identically only
-    for p_2 = 0, which is impossible since the ball dissipates energy.
+    value. This value vanishes for all C only if the modules are uncoupled: as a quadratic in C_1 it vanishes
+    identically only for p_2 = 0, which is impossible since the ball dissipates energy.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)

@@ -1,8 +1,8 @@
 """Prove existence, motion between the walls and stability of a computed orbit in interval arithmetic.
 
 Krawczyk's test (Krawczyk 1969; Neumaier 1990) on the six equations of asymmetric.py proves that exactly one root lies
-in a box around the computed numbers. If the mirror image of the root lies in the box too, both are the same, and the
-root is symmetric. If a flight fraction is not 1/2, the root is asymmetric. The enclosure of the root gives enclosures
+in a box around the computed numbers. If the mirror image of the root lies in the box too, it is this root, which is
+therefore symmetric. If a flight fraction is not 1/2, the root is asymmetric. The enclosure of the root gives enclosures
 of the states at the impacts, of the monodromy matrix and of its eigenvalues (flint's acb_mat.eig: Rump 2010; van der
 Hoeven and Mourrain 2017). Numbers of the Orbit, computed in float64, are called listed numbers.
 """
