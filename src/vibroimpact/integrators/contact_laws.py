@@ -3,9 +3,10 @@
 All laws have the form K p^n + D p^m p'. In the phase plane of p and V = p', with the mass mu = epsilon / (1 + epsilon)
 of the relative motion, V dV/dp = -(K p^n + D p^m V) / mu.
 
-If m = (n - 1) / 2, the substitution u = p^((n + 1) / 2) gives V dV/du = -2 (K u + D V) / ((n + 1) mu), a linear
-oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu), which multiplies every speed by exp(-pi zeta / sqrt(1
-- zeta^2)) (Antypov and Elliott 2011, for n = 3/2). So the restitution coefficient is the same at every speed.
+If m = (n - 1) / 2, the substitution u = p^((n + 1) / 2) gives V dV/du = -2 (K u + D V) / ((n + 1) mu). This is a linear
+oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact is half a period, which multiplies every
+speed by exp(-pi zeta / sqrt(1 - zeta^2)) (Antypov and Elliott 2011, for n = 3/2). So the restitution coefficient is the
+same at every speed.
 
 If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. The integral from speed V to speed -kappa V at
 the same p vanishes if (1 + kappa) d = log((1 + d) / (1 - kappa d)), d = D V / K. So D must be proportional to 1 / V.

@@ -74,8 +74,8 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     """Return J and M, each (..., 4, 4): perturbations x of (C_1, psi_1, C_2, psi_2) satisfy M dx/dtau_1 = J x.
 
-    J and M stay finite at the fold C_min, where the usual Jacobian in (B, psi) is infinite. There M, which contains the
-    slope dB/dC of the manifold, is singular. For a single machine both are (..., 2, 2).
+    J and M stay finite at the fold C_min, where the usual Jacobian in (B, psi) is infinite. M contains the slope dB/dC
+    of the manifold and is singular at the fold. For a single machine both are (..., 2, 2).
 
     Parameters
     ----------

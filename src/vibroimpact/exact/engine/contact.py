@@ -178,7 +178,7 @@ def box_accelerations(q, walls, boxes, sine):
 
 @inlined
 def _contact_push(q, jets, boxes, i, wall, sticking):
-    """Return a number > 0 if ball i, at rest on a wall, is pushed by the wall, and < 0 if the wall would have to pull.
+    """Return a number > 0 if the wall pushes ball i, which rests on it, and < 0 if the wall would have to pull it.
 
     The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. The first
     derivative is also returned if the pull on a sticking ball is so brief that it lifts the ball by no more than
@@ -211,7 +211,7 @@ def _end_of_chatter(flow, motion, i, counters):
     """Return (True if the chatter of ball i may be completed now, time until the chatter ends).
 
     The ball leaves the wall at the inward speed u, and the box accelerates towards it at a. Each hop is shorter than
-    the one before by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)). To complete it at once
+    the one before by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)). Completing it at once
     conserves the momentum of box and ball, but neglects the spring force due to the ball's distance from the wall
     during the hops, of order u^3 / a^2.
     """

@@ -2,8 +2,8 @@
 
 Between events the flow is linear and evaluated in closed form (flow.advance). For each module, exclusion.module_time
 proves that it has no event over some time, or returns the time at which its next event certainly happens. If the first
-event is certain, Newton's method finds its time, starting at the nearest time of the flow table. Otherwise the flight
-continues to the end of the proved interval, so that no event is missed. Events (contact.resolve):
+event is certain, Newton's method finds its time, starting at the nearest time of the flow table. If no event is
+certain, the flight continues to the end of the proved interval, so that no event is missed. Events (contact.resolve):
 
 impact    a ball meets a wall with outward relative velocity: Newton's restitution rule, momentum conserved;
 stick     the end of a chatter, infinitely many impacts in a finite time. A chatter is completed at once when this

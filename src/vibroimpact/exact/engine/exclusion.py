@@ -59,8 +59,8 @@ def positive(c, t):
 def safe_time(c, horizon):
     """Return a time in [0, horizon] up to which the polynomial c (8,) is certainly positive; 0 if not c[0] > 0.
 
-    The time is close to the first zero if this zero is simple, and at least half of the longest time for which the
-    Bernstein coefficients are positive. The coefficients are positive for a time t if no real or complex zero lies in
+    The time is close to the first zero if this zero is simple. It is always at least half of the longest time for which
+    the Bernstein coefficients are positive. The coefficients are positive for a time t if no real or complex zero is in
     the disc with diameter [0, t].
     """
     if not c[0] > 0.0:
@@ -291,8 +291,8 @@ def _hop_time(c, bound, margin, horizon, short):
 def module_time(q, motion, i, jets, bound, horizon, short):
     """Return (time, width, undecided): a time without events in module i, or the time of its next event.
 
-    If width is inf, the module has no event before time. Otherwise its next event is certainly at time +- width. Width
-    0 means exact to rounding; time is slightly negative if the event was just passed. undecided: True if rounding
+    If width is inf, the module has no event before time. If not, its next event is certainly at time +- width. Width 0
+    means exact to rounding; time is slightly negative if the event was just passed. undecided: True if rounding
     decides whether the constraint reaches zero (tangential contact). jets: Taylor polynomials of both boxes; bound:
     `remainder` up to the horizon; short: longest time over which a jet is exact to rounding.
     """

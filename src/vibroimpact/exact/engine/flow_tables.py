@@ -83,8 +83,8 @@ def tables(rates, spacing, count):
     rates: the matrices in pairs, (2, k, 6, 6). spacing: h, a power of two. count: at least 2.
 
     series (k, count, 6, 16): for each initial unit vector of z, the Taylor coefficients X_i^(m) / m! of both boxes at
-    index 8 i + m, i = 0, 1. Their positions and velocities are exp(A j h) to rounding. rotations (count, 2): cosine and
-    sine of the forcing phase.
+    index 8 i + m, i = 0, 1. The positions and velocities (m = 0, 1) are exp(A j h) to rounding. rotations (count, 2):
+    cosine and sine of the forcing phase.
     """
     series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     for mode in range(rates.shape[1]):

@@ -1,10 +1,10 @@
 """Find asymmetric 1:1 responses (unequal flight times) by Newton's method from many starts.
 
 Ball i meets wall +1 at p_i and wall -1 at q_i = p_i + u_i T. Its velocity changes by I_i at p_i and by -I_i at q_i.
-Its velocity is therefore I_i (1 - u_i) on the flight from wall +1 and -I_i u_i on the flight back, and both flights
-have the length I_i u_i (1 - u_i) T. The velocity of box i changes by -epsilon I_i at p_i and by +epsilon I_i at q_i.
+Its velocity is therefore I_i (1 - u_i) on the flight from wall +1 and -I_i u_i on the flight back. The distance is
+I_i u_i (1 - u_i) T on both flights. The velocity of box i changes by -epsilon I_i at p_i and by +epsilon I_i at q_i.
 The motion of the boxes is the sum of the forced response and the responses to all impulses. Each module has two
-equations from Newton's rule and one for the length of the flights,
+equations from Newton's rule and one for the distance,
 
     (1 + kappa) X_i'(p_i-) = I_i (1 - u_i - kappa u_i + epsilon),
     (1 + kappa) X_i'(q_i-) = I_i (kappa (1 - u_i) - u_i - epsilon),

@@ -257,7 +257,7 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
 
     Their squares are the multipliers of the orbit.
 
-    They distinguish a fold (multiplier +1) from symmetry breaking (multiplier -1).
+    The half-period multipliers distinguish a fold (multiplier +1) from symmetry breaking (multiplier -1).
 
     Raises
     ------

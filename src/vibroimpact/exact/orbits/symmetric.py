@@ -4,7 +4,7 @@ Ball i meets wall +1 at tau_i and wall -1 half a period later. With C_i = 1 - U_
 the distance 2 C_i / (1 + epsilon) in half a period: its speed is V_i = 4 C_i / ((1 + epsilon) T). Each impact reverses
 the ball, which changes the velocity of box i by -2 epsilon V_i at wall +1 and by +2 epsilon V_i at wall -1. The motion
 of the boxes is the sum of the forced response and the responses to both trains of impulses. Module i has two
-conditions: the ball meets the wall, and Newton's rule. They are the imaginary and the real part of
+conditions: the ball meets the wall, and Newton's rule. These are the imaginary and the real part of
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 

@@ -156,8 +156,8 @@ def search_radius(system) -> float:
 
     The bound depends only on f and rho (docs/derivation.md, section 6).
 
-    The power dissipated by impacts, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed the power of the forces,
-    which is at most |f_1| B_1 + |f_2| B_2, where B_i <= 1 + sqrt(1 + rho^2) |C_i|.
+    The power of the forces is at most |f_1| B_1 + |f_2| B_2, where B_i <= 1 + sqrt(1 + rho^2) |C_i|. The power
+    dissipated by impacts, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed it.
     """
     r = rho(system.kappa)
     f = np.abs([system.f10_hat, system.f20_hat])
