@@ -19,8 +19,8 @@ SECONDS = 0.5
 HANDICAPS = """\
 Each time is the shortest of many calls in one process. Only this engine proves that it misses no impact.
 SciPy's methods (RK45, DOP853, Radau, LSODA) execute steps in Python and locate events to 4 units of rounding.
-heyoka calls the impact law in Python, which takes a sixth to a third of its time; its batches use starts without
-sticking, where the same closed form in C++ takes 99 to 112 ns and one long run takes 222."""
+heyoka calls the impact law in Python, which takes a sixth to a third of its time. Its batches use starts without
+sticking."""
 
 
 def main(config: dict, output) -> None:
