@@ -10,7 +10,7 @@ CHAPTER = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
 IDENTICAL = {"sigma20_hat": 0.0}
 UNCOUPLED = {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
 UNDAMPED = {"gamma1_hat": 0.0, "gamma2_hat": 0.0, "gamma12_hat": 0.0}
-RESONANT = UNDAMPED | IDENTICAL
+FOLD = 0.6977803686883265  # f20_hat at which two fixed points of the chapter's system merge
 NEARLY_ELASTIC = {
     "weak dampers": dict(
         kappa=1 - 3.3e-7, gamma1_hat=1.5e-9, gamma2_hat=8.7e-12, alpha12_hat=1.269, sigma20_hat=-1.186,

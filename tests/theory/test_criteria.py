@@ -7,18 +7,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
-from chapter import PARAMETERS
+from chapter import FORCES, PARAMETERS
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory import criteria as verdicts
 from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact.theory.slow_flow import jacobian, rates
 
-CASES = {"equal": (1, 1), "unequal": (1, 0.89), "weak": (0.5, 0.5)}
 PRINTED, FOLD, BREAKING = 3.3 / 3.65, 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)
 
 
 def case(name):
-    return vi.System(**PARAMETERS, f10_hat=CASES[name][0], f20_hat=CASES[name][1])
+    return vi.System(**PARAMETERS, f10_hat=FORCES[name][0], f20_hat=FORCES[name][1])
 
 
 def true_fixed_point(system, point):
@@ -65,20 +64,20 @@ def test_both_modules_must_satisfy_the_limits(C, printed, derived):
     assert verdicts.masri_derived(C, 0.65) == verdicts.masri_derived(C[::-1], 0.65) == derived
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", FORCES)
 def test_slow_flow_is_the_sign_of_the_jacobian_s_eigenvalues(name):
     system = case(name)
     for point in vi.fixed_points(system):
         growth = np.linalg.eigvals(jacobian(system, point.psi, point.C)).real.max()
-        assert verdicts.of_fixed_point(system, point)["slow"] == ("stable" if growth < 0 else "unstable")
-        assert verdicts.fixed_point_error(system, point) < 1e-11
         says = verdicts.of_fixed_point(system, point)
+        assert says["slow"] == ("stable" if growth < 0 else "unstable")
+        assert verdicts.fixed_point_error(system, point) < 1e-11
         expected = "stable" if growth < 0 and min(point.C) > FOLD and max(point.C) < BREAKING else "unstable"
         assert point.stability.theory == says["theory"] == expected
 
 
 @settings(max_examples=30)
-@given(st.sampled_from(list(CASES)), st.integers(0, 2), st.integers(0, 2**32 - 1))
+@given(st.sampled_from(list(FORCES)), st.integers(0, 2), st.integers(0, 2**32 - 1))
 def test_eigenvalues_stay_within_their_error(name, k, seed):
     """psi and C shifted at random by at most the error."""
     system = case(name)
@@ -128,10 +127,7 @@ def test_close_to_a_fold_the_slow_flow_is_undecided_and_beyond_not():
     """Two fixed points merge as f20 falls; where they last exist, an eigenvalue vanishes to within its error."""
     low, high = 0.65, 0.75
     base = case("equal")
-    while high - low > 1e-15:
-        middle = (low + high) / 2
-        if middle in (low, high):
-            break
+    while low < (middle := (low + high) / 2) < high:
         low, high = (low, middle) if len(vi.fixed_points(base.with_(f20_hat=middle))) == 3 else (middle, high)
     near = base.with_(f20_hat=high)
     assert "undecided" in [verdicts.of_fixed_point(near, point)["slow"] for point in vi.fixed_points(near)]

@@ -125,12 +125,6 @@ def test_at_the_largest_C_the_ball_grazes_the_wall_it_left(kappa):
     assert float(rate) == pytest.approx(0, abs=1e-13)
 
 
-def test_limit_of_elastic_impacts_by_trigonometry():
-    """rho = 0: W = 1 again where (1 + sin s) = C (sin s - 2 s / pi), s = t - pi/2; its least C by minimisation."""
-    best = minimize_scalar(lambda s: (1 + np.sin(s)) / (np.sin(s) - 2 * s / np.pi), bounds=(0.1, 1.4), method="bounded")
-    assert manifold.largest_C(1 - 1e-9) == pytest.approx(best.fun, rel=1e-8)
-
-
 @pytest.mark.parametrize("kappa", [1e-300, 1e-12, 1e-6, 3e-5])
 def test_limit_of_plastic_impacts(kappa):
     """tan(p) / p = 1 + kappa in 400 digits, p half the grazing time; C = 1 + (8 / pi) sqrt(kappa / 3) + ..."""

@@ -1,8 +1,7 @@
-"""One module alone, the other uncoupled: against what is published of it, and against its orbits in closed form."""
+"""One module alone, the other uncoupled: against what is published of it, and its thresholds in closed form."""
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
 from scipy.optimize import brentq, minimize_scalar
 
 import vibroimpact as vi
@@ -122,32 +121,3 @@ def test_between_two_forces_neither_rest_nor_a_resonant_response_lasts():
     crest = runs["largest"][:, 0] ** 2 / (2 * runs["mean_square"][:, 0])  # 1 of a sinusoid
     np.testing.assert_allclose(crest[[0, 3]], 1, atol=0.02)
     assert min(crest[1:3]) > 1.5
-
-
-# The exact module.
-
-
-def closed_form(system):
-    """Speed V of the ball of module 1 on all symmetric 1:1 orbits, below 0 where it would start beyond the wall."""
-    half, rate = system.period / 2, np.array([[0.0, 1.0], [-1.0, -system.gamma1]])
-    # The box's answer to a jump of its velocity by 1 that changes sign from impact to impact: just after, just before.
-    after = np.linalg.solve(np.eye(2) + expm(rate * half), [0.0, 1.0])
-    before = after - [0.0, 1.0]
-    jump, relative = -2 * system.epsilon, 2 * (1 + system.epsilon) / (1 + system.kappa)
-    # At the wall W = 1: X = 1 - V half / 2 and X'- = W'- - V, less what the impacts contribute: both linear in V.
-    place = np.array([-half / 2 - jump * after[0], 1.0])
-    speed = np.array([relative - 1 - jump * before[1], 0.0]) / system.Omega
-    amplitude = system.forcing[0] / abs(1 - system.Omega**2 + 1j * system.gamma1 * system.Omega)
-    return np.sort(np.roots(np.polyadd(np.polymul(place, place), np.polymul(speed, speed)) - [0, 0, amplitude**2]))
-
-
-@pytest.mark.parametrize(
-    ("epsilon", "kappa", "sigma", "force"), [(0.1, 0.65, 0.2, 1.0), (0.3, 0.4, -0.5, 2.0), (0.02, 0.8, 0.0, 0.9)]
-)
-def test_orbits_of_an_uncoupled_module_are_those_of_a_quadratic_equation(epsilon, kappa, sigma, force):
-    system = uncoupled(epsilon, kappa, 0.2, sigma, force, other=force)
-    expected = closed_form(system)
-    found = np.unique([orbit.ball_speeds[0] for orbit in vi.orbits(system) if orbit.symmetric])
-    assert expected.shape == (2,)
-    np.testing.assert_allclose(np.abs(found[:, None] - expected).min(axis=1), 0, atol=1e-10)
-    np.testing.assert_allclose(np.abs(found[:, None] - expected).min(axis=0), 0, atol=1e-10)
