@@ -57,12 +57,3 @@ def test_errors_shrink_tenfold_with_epsilon(chapter, f10, f20):
         fast = [abs(c.multipliers - c.predicted_multipliers)[4:].max() for c in found]
         for errors in (distances, slow, fast):
             assert errors[0] / errors[1] == pytest.approx(10, rel=0.1)
-
-
-def test_two_terms_are_right_to_second_order(chapter):
-    point = vi.fixed_points(chapter(1.0, 1.0))[-1]
-    added = first_order(chapter(1.0, 1.0), point).ravel()
-    epsilon = np.geomspace(1e-2, 1e-3, 3)
-    found = [distance_to_orbit(chapter(1.0, 1.0, epsilon=e), point) for e in epsilon]
-    errors = [np.linalg.norm(c.offset - c.epsilon * added) for c in found]
-    assert order(epsilon, errors)[0] == pytest.approx(2, abs=0.03)

@@ -47,15 +47,6 @@ def test_chaos_separates_neighbours_at_the_rate_of_the_jacobian(chapter):
     assert expected > 0.5
 
 
-def test_blocks_do_not_matter(chapter):
-    """On one stretch of 30 cycles: a longer one is another motion as soon as rounding has grown."""
-    system = chapter(1.0, 0.89)
-    state = vi.simulate(system, np.zeros(8), 500).final
-    assert vi.largest_lyapunov(system, state, 30, 0, 10, 0).mean == pytest.approx(
-        vi.largest_lyapunov(system, state, 30, 0, 6, 0).mean, rel=1e-4
-    )
-
-
 def test_the_error_is_the_scatter_over_starts(chapter):
     """Twelve stretches of the same chaos differ by as much as the error of each says."""
     system = chapter(0.5, 0.5)

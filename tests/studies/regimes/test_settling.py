@@ -9,54 +9,31 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.exact.measures.periodicity import distance_after
-from vibroimpact.studies.regimes.aperiodic import (
-    ALWAYS,
-    AT_TIMES,
-    NEVER,
-    OPEN,
-    POSITIVE,
-    ZERO,
-    name_aperiodic,
-    recurs,
-    resonance,
-    sign,
-)
-from vibroimpact.studies.regimes.classification import (
-    ASYMMETRIC,
-    CHAOS,
-    HOPPING,
-    IDLE,
-    NO_IMPACTS,
-    PERIODIC,
-    QUASI_PERIODIC,
-    STRONGLY_MODULATED,
-    UNSETTLED,
-    classify,
-    classify_after,
-    starts,
-)
+from vibroimpact.studies.regimes import aperiodic
+from vibroimpact.studies.regimes import classification as names
+from vibroimpact.studies.regimes.classification import classify_after, starts
 from vibroimpact.studies.regimes.lyapunov import Measured
 from vibroimpact.studies.regimes.midpoint_grid import plane_of_forces
 from vibroimpact.studies.regimes.settling import settle
 
-ENDS = {*PERIODIC, IDLE, NO_IMPACTS}
+ENDS = {*names.PERIODIC, names.IDLE, names.NO_IMPACTS}
 
 
 @pytest.mark.parametrize(
     ("mean", "error", "expected"),
     [
-        (0.5, 0.1, POSITIVE),
-        (0.5, 0.2, OPEN),
-        (0.001, 0.001, ZERO),
-        (-0.001, 0.001, ZERO),
-        (0.01, 0.02, OPEN),
-        (-0.012, 0.0001, OPEN),  # a periodic motion that is not reached yet
+        (0.5, 0.1, aperiodic.POSITIVE),
+        (0.5, 0.2, aperiodic.OPEN),
+        (0.001, 0.001, aperiodic.ZERO),
+        (-0.001, 0.001, aperiodic.ZERO),
+        (0.01, 0.02, aperiodic.OPEN),
+        (-0.012, 0.0001, aperiodic.OPEN),  # a periodic motion that is not reached yet
     ],
 )
 def test_the_sign_of_an_exponent_is_said_where_its_error_allows(mean, error, expected):
     found = Measured(mean, error)
     found.scatter = error
-    assert sign(found) == expected
+    assert aperiodic.sign(found) == expected
 
 
 def test_growth_with_time_is_neither_chaos_nor_quasi_periodic(chapter):
@@ -64,21 +41,21 @@ def test_growth_with_time_is_neither_chaos_nor_quasi_periodic(chapter):
     found = vi.largest_lyapunov(chapter(0.02, 0.02), np.zeros(8), 120, 0, 6, 1)
     assert found.mean == pytest.approx(np.log(7) / 120, rel=0.1)
     assert found.mean > 3 * found.scatter > 0
-    assert sign(found) == OPEN
+    assert aperiodic.sign(found) == aperiodic.OPEN
 
 
 @pytest.mark.parametrize(
     ("shares", "expected"),
     [
-        ((0.0, 0.05), NEVER),
-        ((0.6, 0.05), AT_TIMES),
-        ((1.0, 0.5), AT_TIMES),
-        ((1.0, 0.95), ALWAYS),
-        ((1.0, 0.0), ALWAYS),
+        ((0.0, 0.05), aperiodic.NEVER),
+        ((0.6, 0.05), aperiodic.AT_TIMES),
+        ((1.0, 0.5), aperiodic.AT_TIMES),
+        ((1.0, 0.95), aperiodic.ALWAYS),
+        ((1.0, 0.0), aperiodic.ALWAYS),
     ],
 )
 def test_a_module_that_comes_and_goes_makes_bursts(shares, expected):
-    assert resonance(shares) == expected
+    assert aperiodic.resonance(shares) == expected
 
 
 def ends(chapter, f10, f20, observation, count=5):
@@ -87,15 +64,15 @@ def ends(chapter, f10, f20, observation, count=5):
 
 def test_what_is_not_driven_decays_and_gets_no_other_name(chapter, observation):
     """All energy is lost in the end, ever more slowly: nothing but rest is a regime without forcing."""
-    assert ends(chapter, 0.0, 0.0, observation) == [NO_IMPACTS] + 4 * [UNSETTLED]
+    assert ends(chapter, 0.0, 0.0, observation) == [names.NO_IMPACTS] + 4 * [names.UNSETTLED]
     decaying = vi.simulate(chapter(0.0, 0.0), starts(2, seed=1)[1], 1000)
-    assert not recurs(chapter(0.0, 0.0), decaying.final, 1000)
+    assert not aperiodic.recurs(chapter(0.0, 0.0), decaying.final, 1000)
 
 
 def test_weak_forces_make_balls_hop(chapter, observation):
     system = chapter(0.03, 0.03)
     regimes = settle(system, starts(4, seed=1)[1:], observation)
-    assert {regime.name for regime in regimes} == {HOPPING}
+    assert {regime.name for regime in regimes} == {names.HOPPING}
     run = vi.simulate(system, regimes[0].run.final, 2000)
     assert len(run.events) / run.cycles < 1.5
 
@@ -104,8 +81,8 @@ def test_a_torus_is_quasi_periodic(chapter, observation):
     """Just below the Neimark-Sacker point of the asymmetric pair, from its own surroundings."""
     pair = [o for o in vi.orbits(chapter(1.0, 0.8181)) if not o.symmetric and abs(o.multipliers[0]) < 1]
     near = pair[0].state + 1e-3 * np.eye(8)[4]
-    assert [r.name for r in settle(chapter(1.0, 0.8168), [near], observation)] == [QUASI_PERIODIC]
-    assert [r.name for r in settle(chapter(1.0, 0.8181), [near], observation)] == [ASYMMETRIC]
+    assert [r.name for r in settle(chapter(1.0, 0.8168), [near], observation)] == [names.QUASI_PERIODIC]
+    assert [r.name for r in settle(chapter(1.0, 0.8181), [near], observation)] == [names.ASYMMETRIC]
 
 
 def names_now_and_later(system, states, observation, times):
@@ -119,11 +96,11 @@ def names_now_and_later(system, states, observation, times):
     for one, state in zip(regimes, late, strict=True):
         times = np.arange(2 * observation.cycles + 1) * (system.period / 2)
         run = vi.simulate(system, state, observation.cycles, sample_times=times)
-        name = classify(run)[0]
-        if name == UNSETTLED and one.repeats and distance_after(run.samples[:, :4], 2, one.repeats) < 1e-4:
+        name = names.classify(run)[0]
+        if name == names.UNSETTLED and one.repeats and distance_after(run.samples[:, :4], 2, one.repeats) < 1e-4:
             name = one.name
-        if name == UNSETTLED:
-            name = name_aperiodic(run, observation.blocks, observation.block)
+        if name == names.UNSETTLED:
+            name = aperiodic.name_aperiodic(run, observation.blocks, observation.block)
         counts[one.name, name] += 1
     return counts
 
@@ -135,13 +112,13 @@ def test_names_last_fifty_times_as_long(chapter, observation):
     for f10, f20 in plane_of_forces((0.0, 1.6), (0.0, 1.6), 4):
         counts += names_now_and_later(chapter(f10, f20), starts(4, seed=4), observation, times=50)
     assert counts.total() == 64
-    settled = {(name, later): n for (name, later), n in counts.items() if name != UNSETTLED}
+    settled = {(name, later): n for (name, later), n in counts.items() if name != names.UNSETTLED}
     assert {later for (name, later) in settled if name in ENDS} <= ENDS
-    assert all(name == later for name, later in settled if name not in CHAOS)
-    chaotic = sum(n for (name, _), n in settled.items() if name in CHAOS)
-    kept = sum(n for (name, later), n in settled.items() if name in CHAOS and later in CHAOS)
+    assert all(name == later for name, later in settled if name not in names.CHAOS)
+    chaotic = sum(n for (name, _), n in settled.items() if name in names.CHAOS)
+    kept = sum(n for (name, later), n in settled.items() if name in names.CHAOS and later in names.CHAOS)
     assert kept >= 0.95 * chaotic > 20
-    assert counts[STRONGLY_MODULATED, STRONGLY_MODULATED] > 15
+    assert counts[names.STRONGLY_MODULATED, names.STRONGLY_MODULATED] > 15
 
 
 def test_where_the_witness_leaves_the_others_are_not_called_chaotic(chapter, observation):
@@ -149,8 +126,8 @@ def test_where_the_witness_leaves_the_others_are_not_called_chaotic(chapter, obs
     system, states = chapter(1.0, 0.97), starts(12, seed=1)
     short = [r.name for r in settle(system, states, replace(observation, rounds=1, retest=1))]
     long = [r.name for r in settle(system, states, replace(observation, rounds=1))]
-    assert set(short) & set(CHAOS)
-    assert set(long) <= {ASYMMETRIC, UNSETTLED}
+    assert set(short) & set(names.CHAOS)
+    assert set(long) <= {names.ASYMMETRIC, names.UNSETTLED}
 
 
 def test_from_rest_at_weak_forces_the_chaos_of_the_first_module_ends(chapter, observation):

@@ -21,16 +21,10 @@ MULTIPLIER = 0.882208
 OF = {1: [0, 1, 4, 5], 2: [2, 3, 6, 7]}
 
 
-def moving(system):
-    """The module that takes part."""
-    [module] = system.modules
-    return module
-
-
 def starts(system, count=6):
     """Starts of module 1 for the one that takes part; the other one moves, too."""
     states = vi.starts(count, seed=1)
-    return states if moving(system) == 1 else states[:, [2, 3, 0, 1, 6, 7, 4, 5]]
+    return states if system.modules == (1,) else states[:, [2, 3, 0, 1, 6, 7, 4, 5]]
 
 
 @pytest.fixture(scope="module", params=ALONE)
@@ -57,49 +51,35 @@ def test_the_spectrum_has_the_four_exponents_of_the_orbit(machine):
 
 
 def test_a_ball_that_sticks_leaves_two_directions_of_four():
-    """Against the Jacobians of the single cycles, cut to the module that takes part."""
-    machine = vi.System(
-        **dict(epsilon=0.3, kappa=0.1, alpha12_hat=0.0, gamma1_hat=0.3, gamma2_hat=0.3, gamma12_hat=0.0),
-        **dict(sigma20_hat=0.0, sigma_e_hat=0.0, f10_hat=9.0, f20_hat=0.0),
-    )
-    state, cycles = vi.simulate(machine, np.zeros(8), 200).final, 60
-    found = vi.lyapunov_spectrum(machine, state, cycles, 0, 0)
-    frame, sums = np.eye(4), np.zeros(2)
-    for _ in range(cycles):
-        run = vi.simulate(machine, state, 1)
-        assert (run.events["kind"] == STICK).any()
-        frame, triangle = np.linalg.qr(run.jacobian[np.ix_(OF[1], OF[1])] @ frame)
-        sums, state = sums + np.log(np.abs(np.diag(triangle)[:2])), run.final
-    assert np.isneginf(found.exponents[2:]).all()
-    np.testing.assert_allclose(found.exponents[:2], sums / cycles, atol=0.1)
-    assert vi.largest_lyapunov(machine, np.zeros(8), 400, 200).mean == pytest.approx(found.exponents[0], abs=0.02)
+    machine = MACHINE.with_(epsilon=0.3, kappa=0.1, gamma1_hat=0.3, gamma2_hat=0.3, sigma_e_hat=0.0, f10_hat=9.0)
+    state = vi.simulate(machine, np.zeros(8), 200).final
+    assert (vi.simulate(machine, state, 1).events["kind"] == STICK).any()
+    found = vi.lyapunov_spectrum(machine, state, 60, 0, 0).exponents
+    assert np.isneginf(found).tolist() == [False, False, True, True]
+    assert vi.largest_lyapunov(machine, np.zeros(8), 400, 200).mean == pytest.approx(found[0], abs=0.02)
 
 
-def test_chaos_has_the_exponent_of_the_twin_and_the_closed_sum():
+def test_exponents_of_chaos_have_the_closed_sum():
     machine = MACHINE.with_(kappa=0.9, f10_hat=0.2)
-    twin, start = machine.with_(f20_hat=0.2), np.array([0.0, 0.3, 0.0, 0.3, 0.0, 0.5, 0.0, 0.5])
-    alone, both = (vi.largest_lyapunov(one, start, 4000) for one in (machine, twin))
-    assert alone.mean == pytest.approx(both.mean, abs=4 * np.hypot(alone.error, both.error))
-    assert alone.mean > 3 * alone.error
-    found = vi.lyapunov_spectrum(machine, start, 300)
+    found = vi.lyapunov_spectrum(machine, [0.0, 0.3, 0.0, 0.3, 0.0, 0.5, 0.0, 0.5], 300)
+    assert found.exponents[0] > 0.05
     np.testing.assert_allclose(found.growth.sum(axis=1), found.contraction, rtol=0, atol=1e-8)
-    assert contraction(machine, 4, 0) == pytest.approx(contraction(twin, 8, 0) / 2)
+    assert contraction(machine, 4, 0) == pytest.approx(contraction(machine.with_(f20_hat=0.2), 8, 0) / 2)
 
 
 def test_all_starts_end_on_the_orbit_of_the_twin(machine):
     found = vi.attractors(machine, starts(machine, 12))
     assert found.shares == {1: 1.0}
     [attractor] = found.attractors.values()
-    [orbit] = [one for one in vi.orbits(TWIN) if one.admissible]
+    [orbit], [module] = [one for one in vi.orbits(TWIN) if one.admissible], machine.modules
     assert (attractor.regime, attractor.cycles) == ("symmetric", 1)
-    module = moving(machine)
     np.testing.assert_allclose(attractor.states[0, OF[module]], orbit.state[OF[1]], atol=1e-9)
     assert not attractor.states[0, OF[3 - module]].any()
 
 
 def test_basins_do_not_depend_on_the_idle_module(machine):
-    module, values = moving(machine), [-0.5, 0.2, 0.7]
-    found = vi.basins(machine, {f"W{module}": values, f"dY{3 - module}": [0.0, 0.4]})
+    [module] = machine.modules
+    found = vi.basins(machine, {f"W{module}": [-0.5, 0.2, 0.7], f"dY{3 - module}": [0.0, 0.4]})
     assert found.shares == {1: 1.0}
 
 
@@ -115,7 +95,7 @@ def test_basins_do_not_depend_on_the_idle_module(machine):
 )
 def test_regimes_have_the_names_of_the_twin(machine, force, kappa, name):
     """From equal starts of both modules."""
-    module = moving(machine)
+    [module] = machine.modules
     alone = machine.with_(kappa=kappa, **{f"f{module}0_hat": force})
     twin = TWIN.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     states = starts(machine, 4)
@@ -136,13 +116,10 @@ def test_a_section_is_that_of_the_twin():
     assert moved == [[True, True], [False, True], [True, False]]
 
 
-SIMULATED = ["regimes", "amplitudes", "envelopes", "energy", "peaks"]
-
-
 def test_a_row_of_a_sweep_is_that_of_the_twin(machine):
-    given = dict(observe=SIMULATED, starts=4, seed=1, cycles=700, settle=600, band={"sigma_e_hat": [0.0, 0.1]})
-    [ours], [theirs] = (vi.sweep(system, {"kappa": [0.6]}, **given) for system in (machine, TWIN))
-    module = moving(machine)
+    observe, [module] = ["regimes", "amplitudes", "envelopes", "energy", "peaks"], machine.modules
+    given = dict(starts=4, seed=1, cycles=700, settle=600, band={"sigma_e_hat": [0.0, 0.1]})
+    [ours], [theirs] = (vi.sweep(system, {"kappa": [0.6]}, observe, **given) for system in (machine, TWIN))
     assert (ours.pop("failed"), theirs.pop("failed")) == ("", "")
     assert ours.pop("from_rest") == theirs.pop("from_rest") == "symmetric"
     for name, value in ours.items():
