@@ -20,7 +20,6 @@ BAND = (7.4, 8.4)
 NARROW = replace(MACHINE, c1=120.0), (7.6, 8.2)
 CHOICE = {"clearances": [0.001, 0.002], "restitutions": [0.4]}
 OPTIONS = "design --M 120 --m 6 --k 3e5 --c 240 --F 40 --from 7.4 --to 8.4 --clearance 0.001 0.002 --restitution 0.4"
-WORDS = OPTIONS.split()
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -119,14 +118,6 @@ def test_a_machine_and_its_mirror_image_have_the_same_answer_to_the_digit(found)
     assert mirrored.machine == replace(found.machine, F10=-40.0)
 
 
-def test_what_takes_no_part_changes_nothing(found):
-    """The second module of `PhysicalSystem.single` is one alike; here it is another one."""
-    other = vi.design(replace(MACHINE, k2=4e5, c2=0.0), BAND, **CHOICE)
-    assert (other.machine.L, other.machine.kappa) == (found.machine.L, found.machine.kappa)
-    for name in ("peak", "near", "settling", "without", "fixed", "absorber", "off"):
-        assert getattr(other, name) == pytest.approx(getattr(found, name), rel=1e-6), name
-
-
 def test_displacement_and_impacts_are_those_of_one_motion_in_one_window(found):
     """Where it is periodic, against runs from each start, sampled: the largest of them, and its impacts."""
     waited, watched = found.window
@@ -196,29 +187,21 @@ def run_at(hertz, L=0.002, kappa=0.4):
     return machine, vi.simulate(system, vi.simulate(system, np.zeros(8), 200).final, 60)
 
 
-def test_impulses_are_changes_of_the_momentum_of_the_ball():
+def test_impulses_are_changes_of_momentum_and_speeds_account_for_the_energy_that_impacts_take():
     machine, run = run_at(7.9)
-    events = run.events[(run.events["module"] == 1) & (run.events["kind"] == vi.IMPACT)]
-    assert len(events) > 100
-    assert len(events) == len(run.events)
-    # Between its impacts the ball is free, so the velocity before an impact is that after the one before.
-    momentum = machine.m * machine.L * machine.omega10 * events["state"][:, 5]
-    told = one_machine._impacts(machine, run)
-    assert told["impulse_Ns"] == pytest.approx(np.abs(np.diff(momentum)).mean(), rel=0.02)
-    seconds = 60 / 7.9
-    assert told["impacts_per_s"] == pytest.approx(len(events) / seconds)
-    assert told["impulse_Ns_per_s"] == pytest.approx(told["impulse_Ns"] * told["impacts_per_s"])
-
-
-def test_speeds_of_impacts_account_for_the_energy_that_impacts_take():
-    machine, run = run_at(7.9)
-    reduced = machine.M * machine.m / (machine.M + machine.m)
+    told, unit = one_machine._impacts(machine, run), machine.L * machine.omega10
     states = run.events["state"][(run.events["module"] == 1) & (run.events["kind"] == vi.IMPACT)]
-    before = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa
+    assert len(states) == len(run.events) > 100
+    # Between its impacts the ball is free, so the velocity before an impact is that after the one before.
+    momentum = machine.m * unit * states[:, 5]
+    assert told["impulse_Ns"] == pytest.approx(np.abs(np.diff(momentum)).mean(), rel=0.02)
+    assert told["impacts_per_s"] == pytest.approx(len(states) / (60 / 7.9))
+    assert told["impulse_Ns_per_s"] == pytest.approx(told["impulse_Ns"] * told["impacts_per_s"])
+    before = unit * np.abs(states[:, 4] - states[:, 5]) / machine.kappa
+    reduced, joule = machine.M * machine.m / (machine.M + machine.m), machine.k1 * machine.L**2
     lost = 0.5 * reduced * (1 - machine.kappa**2) * (before**2).sum()
-    joule = machine.k1 * machine.L**2
     assert lost == pytest.approx(joule * np.sum(run.energy.impacts), rel=1e-9)
-    assert one_machine._impacts(machine, run)["impact_speed_m_s"] == pytest.approx(before.mean())
+    assert told["impact_speed_m_s"] == pytest.approx(before.mean())
 
 
 def test_the_share_of_sticking_is_that_of_fine_samples():
@@ -267,7 +250,7 @@ def test_refusals_name_the_argument(told, machine, choice):
 def test_the_command_prints_the_answer_and_writes_table_and_picture(found, tmp_path, capsys):
     table, picture = tmp_path / "machine.csv", tmp_path / "machine.png"
     with matplotlib.rc_context({"text.usetex": True}):  # a setting of the user that does not reach the picture
-        assert main([*WORDS, "--output", str(table), "--plot", str(picture)]) == 0
+        assert main([*OPTIONS.split(), "--output", str(table), "--plot", str(picture)]) == 0
     assert capsys.readouterr().out == f"{found}\n"
     with open(table, encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -278,7 +261,7 @@ def test_the_command_prints_the_answer_and_writes_table_and_picture(found, tmp_p
 @pytest.mark.thorough
 def test_a_backend_that_is_not_installed_does_not_cost_the_picture(tmp_path):
     """As a notebook sets it for every process that it starts."""
-    command = [sys.executable, "-m", "vibroimpact", *WORDS, "--plot", "design.pdf"]
+    command = [sys.executable, "-m", "vibroimpact", *OPTIONS.split(), "--plot", "design.pdf"]
     subprocess.run(command, env=os.environ | {"MPLBACKEND": "none"}, cwd=tmp_path, check=True)
     assert (tmp_path / "design.pdf").read_bytes().startswith(b"%PDF")
 
@@ -288,7 +271,7 @@ def test_a_picture_that_cannot_be_saved_does_not_cost_the_answer(found, tmp_path
     table = tmp_path / "machine.csv"
     monkeypatch.setattr(one_machine.Design, "plot", lambda self: 1 / 0)
     with pytest.raises(SystemExit) as end:
-        main([*WORDS, "--output", str(table), "--plot", str(tmp_path / "machine.png")])
+        main([*OPTIONS.split(), "--output", str(table), "--plot", str(tmp_path / "machine.png")])
     printed = capsys.readouterr()
     assert (end.value.code, printed.out) == (1, f"{found}\n")
     assert re.fullmatch(r"vibroimpact design: plot: .*machine.png cannot be saved: division by zero\n", printed.err)

@@ -5,6 +5,7 @@ import pytest
 
 import vibroimpact as vi
 from single_machines import FIRST, MACHINE, MACHINES, SECOND, company, holds, partner, same_numbers
+from systems_of_points import everything
 from vibroimpact.exact.orbits.search import half_period_multipliers
 from vibroimpact.studies.completeness import orbits as certify
 from vibroimpact.studies.completeness import points as completeness_proof
@@ -12,14 +13,8 @@ from vibroimpact.studies.regimes.branches import Path, branches
 from vibroimpact.studies.regimes.continuation import Lost
 from vibroimpact.studies.regimes.families import AsymmetricOrbits, FixedPoints, SymmetricOrbits
 from vibroimpact.studies.theory import asymmetric_points
-from vibroimpact.theory.fixed_points.symmetric_points import search
 from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
-
-
-def everything(system):
-    """All fixed points, also those with some C below 0."""
-    return [point for part in search(system) for point in part]
 
 
 @MACHINES
@@ -105,9 +100,8 @@ def test_a_path_on_which_the_other_module_is_active_says_so():
 
 def test_branches_of_orbits_break_their_symmetry_where_the_module_in_company_does():
     path, interval = Path(SECOND, ("f20_hat",)), (1.07, 1.12)
-    found = [
-        one for family in (SymmetricOrbits, AsymmetricOrbits) for one in branches(family, path, interval, [1.1], 0.05)
-    ]
+    families = SymmetricOrbits, AsymmetricOrbits
+    found = [one for family in families for one in branches(family, path, interval, [1.1], 0.05)]
     nodes = (node for one in found if one.family is SymmetricOrbits for node in one.special)
     (breaking,) = (node for node in nodes if node.kind == "symmetry breaking")
     system = path(breaking.p)

@@ -44,39 +44,12 @@ def test_the_example_of_a_docstring_runs(name):
 # Lyapunov exponents
 
 
-def test_exponents_of_a_periodic_motion_are_those_of_its_multipliers(pair):
-    found = vi.lyapunov_spectrum(SYSTEM, pair[0].state, cycles=400, settle=0)
-    logs = np.log(np.abs(pair[0].multipliers))
-    assert found.exponents.sum() == pytest.approx(logs.sum(), abs=1e-8)
-    np.testing.assert_allclose(found.exponents[:4], logs[:4], atol=0.02)  # pairs turn: means over whole turns only
-    largest = vi.largest_lyapunov(SYSTEM, REST, cycles=2000, settle=3000)
-    assert largest.mean == pytest.approx(logs[0], abs=max(3 * largest.error, 1e-3))
-
-
-def test_the_exponent_of_chaos_is_the_growth_of_a_small_distance():
-    """Two runs side by side, renormalised after every cycle: no Jacobian."""
-    system, start = SYSTEM.with_(f10_hat=0.5, f20_hat=0.5), np.array([0, 0, 0, 0, 0, 0.5, 0, -0.5])
-    state = vi.ensemble(system, start, 500, settle=500)["final"]
-    other, growth = state + 1e-8, []
-    for _ in range(1500):
-        state, other = vi.ensemble(system, np.array([state, other]), 1, settle=1)["final"]
-        distance = np.linalg.norm(other - state)
-        growth.append(np.log(distance / 1e-8))
-        other = state + (other - state) * 1e-8 / distance
-    blocks = np.reshape(growth[100:], (20, -1)).mean(axis=1)
-    found = vi.largest_lyapunov(system, start, cycles=2000, settle=500)
-    error = np.hypot(found.error, blocks.std(ddof=1) / np.sqrt(len(blocks)))
-    assert abs(found.mean - blocks.mean()) < 4 * error < 0.2
-
-
 def test_growth_with_time_is_not_chaos_within_the_error():
     """Two balls at rest between moving boxes: a nudge grows with time t, ln(3000 / 1000) / 2000 in the window."""
     found = vi.largest_lyapunov(SYSTEM.with_(f10_hat=0.1, f20_hat=0.1), REST)
     assert found == (found.mean, found.error)  # two numbers to unpack
     assert found.mean == pytest.approx(np.log(3) / 2000, rel=0.05)
     assert found.mean < 3 * found.error < 0.005
-    longer = vi.largest_lyapunov(SYSTEM.with_(f10_hat=0.1, f20_hat=0.1), REST, cycles=20_000)
-    assert longer.mean < 3 * longer.error < 0.001
 
 
 # Attractors and basins
@@ -176,14 +149,11 @@ SPECTRUM, SINGLE_CYCLE = (Spectrum(np.zeros((n, 8)), np.zeros(n), np.zeros(n)) f
         (lambda: vi.largest_lyapunov(SYSTEM, REST, 1), "cycles"),
         (lambda: vi.largest_lyapunov(SYSTEM, REST, blocks=1), "blocks"),
         (lambda: vi.largest_lyapunov(SYSTEM, REST, 39), "cycles"), (lambda: SPECTRUM.errors(0), "block"),
-        (lambda: SPECTRUM.errors(6), "block"), (lambda: SPECTRUM.errors(2.5), "block"),
-        (lambda: SPECTRUM.errors(2, resamples=1), "resamples"), (lambda: SPECTRUM.errors(2, seed=-1), "seed"),
-        (lambda: SINGLE_CYCLE.errors(1), "growth"), (lambda: vi.starts(0, 1), "count"),
-        (lambda: vi.starts(2.5, 1), "count"), (lambda: vi.starts(2, -1), "seed"), (lambda: vi.starts(2, None), "seed"),
+        (lambda: SPECTRUM.errors(6), "block"), (lambda: SPECTRUM.errors(2, seed=-1), "seed"),
+        (lambda: SPECTRUM.errors(2, resamples=1), "resamples"), (lambda: SINGLE_CYCLE.errors(1), "growth"),
+        (lambda: vi.starts(0, 1), "count"), (lambda: vi.starts(2, -1), "seed"),
         (lambda: vi.starts(2, 1, np.nan), "reach"), (lambda: vi.basins(SYSTEM, {"Y1": []}), r"axes\['Y1'\]"),
-        (lambda: vi.basins(SYSTEM, {"W1": [0.1], "Y2": []}), r"axes\['Y2'\]"),
         (lambda: vi.basins(SYSTEM, {"Y1": [0.0, 0.5], "W1": [0.2]}), "axes"),
-        (lambda: vi.basins(SYSTEM, {"W2": [0.2], "Y2": [0.0]}), "axes"),
         (lambda: vi.attractors(SYSTEM, REST), "states"),
         (lambda: vi.attractors(SYSTEM, [[2.0, *REST[1:]]]), "start 0"),
         (lambda: vi.basins(SYSTEM, {"Z": [1]}), "axes"), (lambda: vi.basins(SYSTEM, {}), "axes"),
