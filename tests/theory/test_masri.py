@@ -21,9 +21,11 @@ FOLD, BREAKING = 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)
 # By computer algebra
 
 
-@pytest.fixture(scope="module")
-def derived():
-    """Half-cycle map of (delta t, delta W'+), from free flight, wall and Newton's rule, in terms of C and kappa."""
+def test_trace_and_determinant_of_the_half_cycle_map_and_all_its_limits():
+    """The map of (delta t, delta W'+), from free flight, wall and Newton's rule, in terms of C and kappa.
+
+    A multiplier is +1 at the fold only, -1 at pi^2/(pi^2 - 4) only; a complex pair has modulus kappa.
+    """
     t1, t2, w1, w2, B = sympy.symbols("t1 t2 w1 w2 B", real=True)
     C, kappa = sympy.symbols("C kappa", positive=True)
     # Times are phases of U = B sin t; the ball is free, so W - U is straight from W(t1) = 1, W'(t1) = w1.
@@ -39,31 +41,13 @@ def derived():
     step = step.subs({t2: a + sympy.pi, t1: a}).subs(w1, -2 * C / sympy.pi + B * sympy.cos(a))
     rho = 2 * (1 - kappa) / (sympy.pi * (1 + kappa))
     step = sympy.expand_trig(step).subs({sympy.sin(a): (1 - C) / B, sympy.cos(a): rho * C / B})
-    return sympy.simplify(step), C, kappa
-
-
-def test_determinant_and_trace(derived):
-    step, C, kappa = derived
+    step = sympy.simplify(step)
     trace = 2 * kappa + sympy.pi**2 * (1 + kappa) ** 2 * (1 - C) / (4 * C)
     assert sympy.simplify(step.det() - kappa**2) == 0
     assert sympy.simplify(step.trace() - trace) == 0
-
-
-def test_all_limits(derived):
-    """A multiplier is +1 at the fold only, -1 at pi^2/(pi^2 - 4) only; a complex pair has modulus kappa."""
-    step, C, kappa = derived
-    rho = 2 * (1 - kappa) / (sympy.pi * (1 + kappa))
-    plus, minus = (sympy.solve(sympy.numer(sympy.together(1 - s * step.trace() + step.det())), C) for s in (1, -1))
+    plus, minus = (sympy.solve(sympy.numer(sympy.together(1 - s * trace + kappa**2)), C) for s in (1, -1))
     assert [sympy.simplify(root - 1 / (1 + rho**2)) for root in plus] == [0]
     assert [sympy.simplify(root - sympy.pi**2 / (sympy.pi**2 - 4)) for root in minus] == [0]
-
-
-def rho_of(kappa):
-    return 2 * (1 - kappa) / (np.pi * (1 + kappa))
-
-
-LIMITS = {"printed": lambda k: 4 / (4 + np.pi * rho_of(k)), "with squares": lambda k: (1 + k) ** 2 / (2 * (1 + k**2))}
-"""(10.26) as printed, and as it would read if its squares had been lost: 4 / (4 + pi^2 rho^2)."""
 
 
 # A ball between walls that oscillate as prescribed
@@ -111,13 +95,14 @@ def test_multipliers_are_those_of_the_impact_map(kappa, C):
 
 @given(kappas)
 def test_both_readings_of_10_26_lie_below_the_fold(kappa):
-    """4 / (4 + pi rho) is 2 (1 + kappa) / (3 + kappa)."""
-    assert printed_limit(rho_of(kappa)) == pytest.approx(2 * (1 + kappa) / (3 + kappa), rel=1e-14)
-    assert printed_limit(rho_of(kappa)) == pytest.approx(LIMITS["printed"](kappa), rel=1e-14)
-    assert limit_with_squares(rho_of(kappa)) == pytest.approx(LIMITS["with squares"](kappa), rel=1e-13)
-    for limit in LIMITS.values():
-        assert limit(kappa) < masri.lower_limit(kappa)
-        assert np.abs(masri.impact_multipliers(limit(kappa), kappa)).max() > 1
+    """In terms of kappa: 4 / (4 + pi rho) as printed, and 4 / (4 + pi^2 rho^2) if squares had been lost."""
+    rho = 2 * (1 - kappa) / (np.pi * (1 + kappa))
+    printed, squared = 2 * (1 + kappa) / (3 + kappa), (1 + kappa) ** 2 / (2 * (1 + kappa**2))
+    assert printed_limit(rho) == pytest.approx(printed, rel=1e-14)
+    assert limit_with_squares(rho) == pytest.approx(squared, rel=1e-13)
+    for limit in (printed, squared):
+        assert limit < masri.lower_limit(kappa)
+        assert np.abs(masri.impact_multipliers(limit, kappa)).max() > 1
 
 
 @given(kappas, st.floats(-2, 4), st.floats(0, 0.1))

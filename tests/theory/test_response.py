@@ -56,11 +56,6 @@ def test_box_and_ball_satisfy_the_equations_to_leading_order(point):
     assert residual(1e-3) / residual(1e-4) == pytest.approx(100, rel=0.02)
 
 
-def balance(power):
-    """Its five kinds of numbers, both modules apart, shape (7,)."""
-    return np.hstack([power.work, power.ground, power.coupling, power.impacts])
-
-
 @pytest.mark.parametrize("forces", FORCES.values(), ids=FORCES)
 def test_what_the_forces_supply_is_dissipated(forces):
     system = vi.System(**PARAMETERS, f10_hat=forces[0], f20_hat=forces[1])
@@ -73,6 +68,10 @@ def test_what_the_forces_supply_is_dissipated(forces):
 
 def test_the_exact_orbits_differ_by_the_order_of_epsilon():
     """Halving epsilon halves the relative error of every part of the power and of the share of the impacts."""
+
+    def parts(power):
+        return np.hstack([power.work, power.ground, power.coupling, power.impacts])
+
     errors = []
     for epsilon in (0.02, 0.01, 0.005):
         system = vi.System(**{**PARAMETERS, "epsilon": epsilon}, f10_hat=1.0, f20_hat=0.89)
@@ -83,7 +82,7 @@ def test_the_exact_orbits_differ_by_the_order_of_epsilon():
             assert np.abs(orbit.C - point.C).max() < 6 * epsilon
             exact, expected = vi.simulate(system, orbit.state, 1).energy, mean_power(system, point)
             share = abs(exact.impact_share / expected.impact_share - 1)
-            found.append([*np.abs(balance(exact) / (balance(expected) * system.period) - 1), share])
+            found.append([*np.abs(parts(exact) / (parts(expected) * system.period) - 1), share])
         errors.append(found)
     assert len(errors[0]) == 3
     size, ratios = np.max(errors[-1]), np.max(errors, axis=(1, 2))

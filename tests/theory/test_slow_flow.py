@@ -172,14 +172,9 @@ def test_jacobian_against_high_precision_differences(C, psi):
             cosine, sine = ([of(x) for x in angle] for of in (mpmath.cos, mpmath.sin))
             return np.ravel(slow_flow.rates_from_phasors(CHAPTER, *map(np.array, (B, cosine, sine, along))), order="F")
 
-        base = [on_manifold[0], mpmath.mpf(psi[0]), on_manifold[1], mpmath.mpf(psi[1])]
-        h = mpmath.mpf(10) ** -20
-        columns = []
-        for k in range(4):
-            ahead, behind = list(base), list(base)
-            ahead[k] += h
-            behind[k] -= h
-            columns.append([(a - b) / (2 * h) for a, b in zip(flow(ahead), flow(behind), strict=True)])
+        base = np.array([on_manifold[0], mpmath.mpf(psi[0]), on_manifold[1], mpmath.mpf(psi[1])])
+        steps = mpmath.mpf(10) ** -20 * np.eye(4, dtype=object)
+        columns = [(flow(base + step) - flow(base - step)) / (2 * step.sum()) for step in steps]
         expected = np.array(columns, dtype=float).T
     found = jacobian(CHAPTER, np.array(psi), np.array(C))
     assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max())

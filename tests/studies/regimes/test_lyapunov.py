@@ -114,19 +114,10 @@ def test_both_balls_stuck_at_once_leave_four_dimensions(chapter):
     system, h = chapter(0.5, 0.5), 1e-6
     start = vi.simulate(system, BEFORE, DOUBLE).final
     run = vi.simulate(system, start, 1)
-    at = {
-        (kind, module): run.events["tau"][(run.events["kind"] == kind) & (run.events["module"] == module)][0]
-        for kind in (STICK, RELEASE)
-        for module in (1, 2)
-    }
-    assert max(at[STICK, 1], at[STICK, 2]) < min(at[RELEASE, 1], at[RELEASE, 2])
-    differences = np.transpose(
-        [
-            (vi.simulate(system, start + step, 1).final - vi.simulate(system, start - step, 1).final) / (2 * h)
-            for step in h * np.eye(8)
-        ]
-    )
-    for matrix, lost in ((run.jacobian, 1e-13), (differences, 1e-3)):
+    kept = run.events[np.isin(run.events["kind"], (STICK, RELEASE))]
+    assert kept["kind"].tolist()[:3] == [STICK, STICK, RELEASE]
+    ahead, behind = ([vi.simulate(system, start + step, 1).final for step in s * h * np.eye(8)] for s in (1, -1))
+    for matrix, lost in ((run.jacobian, 1e-13), (np.subtract(ahead, behind) / (2 * h), 1e-3)):
         values = np.linalg.svd(matrix, compute_uv=False)
         assert values[3] > 0.5
         assert values[4] < lost

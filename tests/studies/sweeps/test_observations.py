@@ -30,8 +30,7 @@ def found():
     return list(rows(GRID, SPEC_KEYS, [0, 1]))
 
 
-def test_amplitudes_are_those_of_runs_that_were_sampled(found):
-    """The ensemble observes without samples; here are samples of `simulate`, close together."""
+def test_amplitudes_are_those_of_samples_of_single_runs(found):
     system = BASE.with_(f20_hat=0.89)
     times = np.linspace(20, 30, 8001) * system.period
     runs = [vi.simulate(system, start, 30, sample_times=times).samples for start in spread_starts(3, 1)]

@@ -94,10 +94,6 @@ def test_trace_and_determinant_of_the_impact_map(values):
     assert float(cycle.det()) == pytest.approx(float(values[kappa]) ** 4, rel=1e-12)
 
 
-FLIGHTS = [(0.02, 0.65), (0.3, 0.65), (0.45, 0.3), (0.6, 0.9)]
-"""v and kappa; the ball stays inside at all but the last."""
-
-
 @pytest.mark.parametrize("kappa", [0.1, 0.65, 0.95])
 def test_the_branch_begins_where_symmetry_breaks_and_only_grows(kappa):
     squared = np.linspace(0, 0.99, 400)
@@ -121,8 +117,9 @@ def test_the_branch_is_stable_up_to_a_period_doubling(kappa):
         assert said == "undecided" or inside == (said == "stable")
 
 
-@pytest.mark.parametrize(("v", "kappa"), FLIGHTS)
+@pytest.mark.parametrize(("v", "kappa"), [(0.02, 0.65), (0.3, 0.65), (0.45, 0.3), (0.6, 0.9)])
 def test_overshoot_is_that_of_a_sampled_flight(v, kappa):
+    """The ball stays inside at all but the last."""
     B = branch.amplitudes(v**2, kappa)[1]
     a, b = branch.impact_phases(v, kappa)
     largest = 1.0

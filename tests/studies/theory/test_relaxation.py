@@ -15,13 +15,6 @@ EQUAL = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 R = rho(EQUAL.kappa)
 
 
-@pytest.fixture(scope="module")
-def pair():
-    """Where the pair of Fig. 10.8 comes from."""
-    (point,) = [point for point in fixed_points(EQUAL) if abs(point.squared).max() < 0.01]
-    return point
-
-
 def test_describing_function_is_that_of_the_manifold():
     ball = describing_function(EQUAL.kappa)
     C = np.linspace(1.0, 1.68, 30)
@@ -70,7 +63,8 @@ def test_without_force_amplitudes_fall_to_the_fold_at_a_known_time():
     assert B_min(R) < B[-1] < 1
 
 
-def test_the_pair_is_lost_where_its_module_passes_the_fold(pair):
+def test_the_pair_of_fig_10_8_is_lost_where_its_module_passes_the_fold():
+    (pair,) = [point for point in fixed_points(EQUAL) if abs(point.squared).max() < 0.01]
     factor = lost_at(EQUAL, pair)
     assert 0.92 < factor < 0.93
     above, below = (
