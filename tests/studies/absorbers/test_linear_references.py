@@ -12,14 +12,10 @@ from chapter import PARAMETERS
 from vibroimpact.studies.absorbers.references import Tuning, fixed_balls, tuned, without_balls
 from vibroimpact.studies.absorbers.tuning import best_tuning, textbook_tuning
 
+CHAPTER = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 DAMPED = vi.System(**{**PARAMETERS, "gamma1_hat": 2.5, "gamma2_hat": 3.5}, f10_hat=1.0, f20_hat=-0.6)
 TUNING = Tuning((0.95, 1.1), (0.2, 0.3))
 BARE = dict.fromkeys(("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", "sigma20_hat"), 0.0)
-
-
-@pytest.fixture(scope="module")
-def chapter():
-    return vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 
 
 def hosts(**changes):
@@ -110,19 +106,19 @@ def test_the_damping_of_the_textbook_is_the_printed_one_in_its_own_unit(ratio):
     assert tuning.damping[0] == pytest.approx(math.sqrt(np.mean(np.square(level))), rel=1e-6)
 
 
-def test_no_tuning_nearby_is_better_than_the_best(chapter):
+def test_no_tuning_nearby_is_better_than_the_best():
     band = (0.7, 1.4)
-    tuning = best_tuning(chapter, band)
-    lowest, rng = tuned(chapter, tuning).peak(band), np.random.default_rng(5)
-    assert lowest < tuned(chapter, textbook_tuning(chapter)).peak(band)
+    tuning = best_tuning(CHAPTER, band)
+    lowest, rng = tuned(CHAPTER, tuning).peak(band), np.random.default_rng(5)
+    assert lowest < tuned(CHAPTER, textbook_tuning(CHAPTER)).peak(band)
     for factors in np.exp(rng.normal(0.0, 1.0, (60, 4)) * rng.choice([0.003, 0.03, 0.3], (60, 1))):
         other = Tuning(tuple(tuning.frequency * factors[:2]), tuple(tuning.damping * factors[2:]))
-        assert tuned(chapter, other).peak(band) > lowest * (1 - 1e-4)
+        assert tuned(CHAPTER, other).peak(band) > lowest * (1 - 1e-4)
 
 
-def test_a_peak_is_the_top_of_all_humps(chapter):
+def test_a_peak_is_the_top_of_all_humps():
     """A fine grid finds no higher point, however narrow the resonances."""
-    for system in (chapter, chapter.with_(gamma1_hat=1e-4, gamma2_hat=2e-4, gamma12_hat=0.0)):
+    for system in (CHAPTER, CHAPTER.with_(gamma1_hat=1e-4, gamma2_hat=2e-4, gamma12_hat=0.0)):
         linear = without_balls(system)
         near = np.abs(linear.poles.imag)[:, None] + np.abs(linear.poles.real)[:, None] * np.linspace(-3, 3, 2001)
         assert linear.peak((0.7, 1.4)) == pytest.approx(linear.amplitudes(near).max(), rel=1e-6)
