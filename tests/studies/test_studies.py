@@ -19,24 +19,15 @@ from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 REST = [0.0] * 8
-EXAMPLES = (
-    *("branches", "bifurcation_curves", "sweep", "sections"),
-    *("attractors", "basins", "largest_lyapunov", "lyapunov_spectrum"),
-)
-
-
-@pytest.fixture(scope="module")
-def pair():
-    """The stable asymmetric orbits, mirror images of each other, by Newton's method."""
-    return [orbit for orbit in vi.orbits(SYSTEM) if orbit.admissible and orbit.stable]
+EXAMPLES = ["branches", "bifurcation_curves", "sweep", "sections"]
+EXAMPLES += ["attractors", "basins", "largest_lyapunov", "lyapunov_spectrum"]
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_the_example_of_a_docstring_runs(name):
     function = getattr(vi, name)
-    [example] = doctest.DocTestFinder(recurse=False).find(
-        function, name, globs={"system": SYSTEM, "np": np, name: function}
-    )
+    known = {"system": SYSTEM, "np": np, name: function}
+    [example] = doctest.DocTestFinder(recurse=False).find(function, name, globs=known)
     assert example.examples
     assert doctest.DocTestRunner().run(example).failed == 0
 
@@ -55,8 +46,9 @@ def test_growth_with_time_is_not_chaos_within_the_error():
 # Attractors and basins
 
 
-def test_the_basins_of_mirror_images_are_mirror_images(pair):
-    """Starts from near either orbit bear its label; shares count the labels."""
+def test_the_basins_of_mirror_images_are_mirror_images():
+    """Starts from near either of the stable asymmetric orbits bear its label; shares count the labels."""
+    pair = [orbit for orbit in vi.orbits(SYSTEM) if orbit.admissible and orbit.stable]
     states = np.array([pair[0].state, pair[1].state, pair[0].state + 1e-3, pair[1].state + 1e-3])
     found = vi.attractors(SYSTEM, states)
     assert found.labels.tolist() == [1, 2, 1, 2]

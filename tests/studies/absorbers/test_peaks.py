@@ -6,7 +6,6 @@ import pytest
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.studies.absorbers.peaks import by_cycle, peak, peak_of, standard_error
-from vibroimpact.studies.absorbers.references import without_balls
 from vibroimpact.studies.regimes.classification import starts
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
@@ -70,11 +69,3 @@ def test_runs_that_cannot_be_finished_are_counted_and_left_out():
         peak(BAND, states, 12, 8)
     with pytest.raises(ValueError, match=r"^cycles: 8 with 8"):
         peak(BAND, states[:2], 8, 8)
-
-
-def test_balls_that_meet_no_wall_have_the_peak_of_none():
-    faint = [system.with_(f10_hat=1e-3, f20_hat=1e-3) for system in BAND]
-    found = peak(faint, np.zeros((1, 8)), 400, 390)
-    amplitudes = [without_balls(system).amplitudes(system.Omega).max() for system in faint]
-    assert found.value == pytest.approx(max(amplitudes), rel=1e-4)
-    assert found.at == int(np.argmax(amplitudes))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import vibroimpact as vi
 from chapter import PARAMETERS
@@ -70,6 +71,13 @@ def test_without_coupling_all_patterns_have_the_same_amplitudes():
     np.testing.assert_allclose(splitting(system, patterns(system)[IN_PHASE]), 0, atol=1e-15)
 
 
+def test_what_an_even_harmonic_passes_through_the_coupling():
+    """By computer algebra: the response of box 1 to a force on box 2, boxes undamped, natural frequency 1."""
+    n, K = sp.symbols("n K")
+    through = sp.Matrix([[1 - n**2 + K, -K], [-K, 1 - n**2 + K]]).inv()[0, 1]
+    assert sp.simplify(through - K / ((n**2 - 1) * (n**2 - 1 - 2 * K))) == 0
+
+
 @pytest.fixture(scope="module")
 def ranges():
     return list(stable_ranges(TUNED_ALIKE, LIMITS))
@@ -113,9 +121,10 @@ def test_all_stable_patterns_that_the_page_names_are_proved(asymmetric):
     found = [pattern(one) for one in asymmetric]
     assert (found.count(IN_PHASE), found.count(ANTIPHASE)) == named[asymmetric[0].system.alpha12_hat]
     for one in asymmetric:
-        proved = one.with_proof()
+        proved, (plus, minus) = one.with_proof(), one.impact_phases.T
         assert proved.proved
         assert proved.stable
+        np.testing.assert_allclose(flight_asymmetry(one), 1 - 2 * ((minus - plus) % 1.0), atol=1e-9)
 
 
 def forced(f10_hat, f20_hat):

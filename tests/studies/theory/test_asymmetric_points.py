@@ -83,22 +83,6 @@ def test_without_coupling_each_module_is_on_its_own():
             np.testing.assert_allclose(np.reshape(found, (-1, 2)), np.reshape(expected, (-1, 2)), atol=6e-4)
 
 
-def test_points_are_where_symmetry_breaks_at_the_same_force():
-    """Where C_2 of the symmetric point passes pi^2 / (pi^2 - 4), v_2^2 passes 0, and C, B, psi are the same."""
-
-    def born(f20):
-        return min(search(SYSTEMS["equal"].with_(f20_hat=f20)), key=lambda p: abs(p.squared).sum())
-
-    low, high = (born(f20) for f20 in (1.0, 1.1))
-    assert low.squared[1] < 0 < high.squared[1]
-    f20 = 1.0 + 0.1 * low.squared[1] / (low.squared[1] - high.squared[1])
-    at = born(f20)
-    assert abs(at.squared[1]) < 1e-3
-    symmetric = min(vi.fixed_points(SYSTEMS["equal"].with_(f20_hat=f20)), key=lambda p: np.linalg.norm(p.C - at.C))
-    np.testing.assert_allclose(symmetric.C, at.C, atol=1e-2)
-    np.testing.assert_allclose(symmetric.psi, at.psi, atol=1e-2)
-
-
 def test_what_is_not_driven_or_not_a_system_is_told():
     assert fixed_points(SYSTEMS["equal"].with_(f10_hat=0.0, f20_hat=0.0)) == []
     with pytest.raises(ValueError, match="system"):
