@@ -45,73 +45,44 @@ def boxes(parameters, masses=(1, 1)):
 
 
 @pytest.mark.parametrize(
-    "changes",
+    ("changes", "walls"),
     [
-        {},
-        {"alpha12_hat": "0", "gamma12_hat": "0", "sigma20_hat": "0"},  # repeated
-        {"alpha12_hat": "0", "gamma12_hat": "0", "gamma1_hat": "20"},  # defective: box 1 critically damped
-        {"gamma1_hat": "0", "gamma2_hat": "0", "gamma12_hat": "0"},  # undamped
-        {"epsilon": "1", "alpha12_hat": "50", "gamma12_hat": "30"},  # stiff coupling
+        ({}, (0, 0)),
+        ({"alpha12_hat": "0", "gamma12_hat": "0", "sigma20_hat": "0"}, (0, 0)),
+        ({"alpha12_hat": "0", "gamma12_hat": "0", "gamma1_hat": "20"}, (0, 0)),  # box 1 is critically damped
+        ({"gamma1_hat": "0", "gamma2_hat": "0", "gamma12_hat": "0"}, (0, 0)),
+        ({"epsilon": "1", "alpha12_hat": "50", "gamma12_hat": "30"}, (0, 0)),
+        *(({}, walls) for walls in ((1, 0), (0, -1), (1, -1))),
     ],
-    ids=["chapter", "repeated", "defective", "undamped", "stiff"],
+    ids=["chapter", "repeated", "defective", "undamped", "stiff", "ball 1 sticks", "ball 2 sticks", "both stick"],
 )
-def test_free_flight_is_the_matrix_exponential(changes):
+def test_between_events_the_boxes_follow_the_matrix_exponential(changes, walls):
+    """Balls fly, or stick to the wall that pushes them: +1 of box 1, -1 of box 2."""
     parameters = MODULATED | changes
-    state = ["0.3", "0.2", "-0.1", "-0.2", "0.05", "0.02", "0.1", "-0.01"]
-    tau0, sample = Fraction(7, 10), Fraction(11, 10)
-    run = reference_run(parameters, state, "0.2", 50, tau0=tau0, sample_times=[sample])
+    x, v = ("-1", "0.8"), ("0.05", "-0.1")
+    y = [("-2", "1.8")[i] if walls[i] else ("-0.9", "0.5")[i] for i in range(2)]
+    u = [v[i] if walls[i] else ("0.02", "-0.01")[i] for i in range(2)]
+    state = [x[0], y[0], x[1], y[1], v[0], u[0], v[1], u[1]]
+    run = reference_run(parameters, state, "0.1", 50, tau0=Fraction(7, 10), sample_times=[Fraction(11, 10)])
     assert len(run.events) == 0
     with mpmath.workdps(70):
-        rate = boxes(parameters)
-        omega = rate[4, 5]
-        x1, y1, x2, y2, v1, u1, v2, u2 = map(mpmath.mpf, state)
-        start = mpmath.matrix([x1, x2, v1, v2, mpmath.sin(omega * 7 / 10), mpmath.cos(omega * 7 / 10)])
+        rate = boxes(parameters, [1 + abs(wall) * mpmath.mpf(parameters["epsilon"]) for wall in walls])
+        phase = rate[4, 5] * 7 / 10
+        start = mpmath.matrix([*map(mpmath.mpf, x + v), mpmath.sin(phase), mpmath.cos(phase)])
 
         def after(time):
-            box = mpmath.expm(rate * time) * start
-            return [box[0], y1 + u1 * time, box[1], y2 + u2 * time, box[2], u1, box[3], u2]
+            box, found = mpmath.expm(rate * time) * start, []
+            for i, wall in enumerate(walls):
+                flown = mpmath.mpf(y[i]) + mpmath.mpf(u[i]) * time
+                found.append((box[i], box[i] - wall if wall else flown))
+            for i, wall in enumerate(walls):
+                found.append((box[2 + i], box[2 + i] if wall else mpmath.mpf(u[i])))
+            return [value for pair in found for value in pair]
 
-        wanted = after(2 * mpmath.pi / omega / 5)
+        wanted = after(mpmath.pi / rate[4, 5] / 5)
         worst = max(abs(mp(value) - other) for value, other in zip(run.final_exact, wanted, strict=True))
         assert worst < mpmath.mpf(10) ** -50
         np.testing.assert_allclose(run.samples[0], [float(v) for v in after(mpmath.mpf(4) / 10)], rtol=0, atol=2e-16)
-
-
-@pytest.mark.parametrize("stuck", [(True, False), (False, True), (True, True)])
-def test_stuck_balls_move_with_their_boxes(stuck):
-    """Box 1 pushes its ball with wall +1, box 2 with wall -1; a ball that does not stick is in mid-cavity."""
-    x, walls = (mpmath.mpf(-1), mpmath.mpf("0.8")), (1, -1)
-    y = [x[i] - walls[i] if stuck[i] else x[i] for i in range(2)]
-    state = [mpmath.nstr(value, 15) for value in (x[0], y[0], x[1], y[1])] + [0] * 4
-    run = reference_run(MODULATED, state, "0.1", 50)
-    with mpmath.workdps(70):
-        rate = boxes(MODULATED, [mpmath.mpf(11) / 10 if s else 1 for s in stuck])
-        time = mpmath.pi / 5 / rate[4, 5]
-        box = mpmath.expm(rate * time) * mpmath.matrix([-1, mpmath.mpf(8) / 10, 0, 0, 0, 1])
-        final = [mp(value) for value in run.final_exact]
-        tiny = mpmath.mpf(10) ** -50
-        assert all(abs(final[k] - box[j]) < tiny for j, k in enumerate((0, 2, 4, 6)))
-        for i, wall in enumerate(walls):
-            gap, speed = final[2 * i] - final[2 * i + 1], final[5 + 2 * i]
-            assert abs(gap - wall) < tiny if stuck[i] else abs(gap) < 1
-            assert speed == (final[4 + 2 * i] if stuck[i] else 0)
-    assert len(run.events) == 0
-
-
-def test_impact_time_and_law_for_one_oscillator():
-    """X1 = sin tau, ball at Y1 = 1/5 - tau/2: first impact where sin tau + tau/2 = 6/5."""
-    run = reference_run(BARE, [0, "0.2", 0, 0, 1, "-0.5", 0, 0], "0.2", 60)
-    assert [tuple(e) for e in run.events[["module", "wall", "kind"]]] == [(1, 1, IMPACT)]
-    with mpmath.workdps(80):
-        epsilon, kappa = mpmath.mpf(1) / 10, mpmath.mpf(65) / 100
-        tau = mpmath.findroot(lambda t: mpmath.sin(t) + t / 2 - mpmath.mpf(6) / 5, 0.9)
-        v, u = mpmath.cos(tau), -mpmath.mpf(1) / 2
-        state = [mp(value) for value in run.event_states[0]]
-        tiny = mpmath.mpf(10) ** -60
-        assert abs(mp(run.event_taus[0]) - tau) < tiny
-        assert abs(state[0] - state[1] - 1) < tiny
-        assert abs(state[4] - state[5] + kappa * (v - u)) < tiny
-        assert abs(state[4] + epsilon * state[5] - v - epsilon * u) < tiny
 
 
 @pytest.mark.parametrize("exponent", [2, 10, 20, 30])
