@@ -21,6 +21,7 @@ def test_the_cost_is_that_of_the_fastest_good_run_on_the_worst_problem_and_the_c
         run("p", "b", 1e-7, 3.0),
         run("q", "b", 1e-7, 8.0),
         run("p", "c", 1e-7, 0.8),
+        run("p", "c", 1e-8, 0.9),
         run("p", "c", 1e-13, 0.1, missed=1),
         run("q", "c", 1e-7, 1.0, outcome="unfinished"),
         run("p", "untested", 1e-7, 0.1),

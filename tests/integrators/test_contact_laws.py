@@ -59,30 +59,19 @@ def test_restitution_is_kappa_at_every_speed(name, kappa):
         assert found == pytest.approx(kappa, rel=1e-6)
 
 
-@pytest.mark.parametrize("name", ["spring", "Hertz"])
-def test_an_undamped_contact_lasts_as_long_as_it_is_tuned_to(name):
-    stiffness = stiffness_in(LAWS[name], 0.65)
-    assert contact(LAWS[name], stiffness, 0.0, 1.0)[1] == pytest.approx(DURATION, rel=1e-6)
-
-
-def test_the_power_law_turns_the_ball_at_the_wall():
-    law = power_law(20)
+def test_an_undamped_contact_lasts_as_long_as_it_is_tuned_to_and_the_power_law_turns_the_ball_at_the_wall():
+    for name in ("spring", "Hertz"):
+        stiffness = stiffness_in(LAWS[name], 0.65)
+        assert contact(LAWS[name], stiffness, 0.0, 1.0)[1] == pytest.approx(DURATION, rel=1e-6)
+    law = LAWS["power law"]
     stiffness = stiffness_in(law, 0.65)
     assert contact(law, stiffness, damping_of(law, MASS, 0.65, stiffness), 1.0)[2] == pytest.approx(1.0, abs=1e-9)
 
 
-@pytest.mark.parametrize("kappa", [1e-9, 1e-3, 0.1, 0.65, 0.999, 1.0 - 1e-9])
+@pytest.mark.parametrize("kappa", [1e-9, 0.1, 0.999, 1.0 - 1e-9])
 def test_the_hunt_crossley_number_solves_its_equation(kappa):
     d = hunt_crossley_number(kappa)
     if kappa > 0.05:  # below, 1 - kappa d is lost in rounding
         assert (1.0 + kappa) * d == pytest.approx(np.log1p(d) - np.log1p(-kappa * d), rel=1e-9)
     assert 1.5 * (1.0 - kappa) <= d * (1.0 + 1e-6)  # its limit where kappa tends to 1
     assert d * kappa <= 1.0
-
-
-def test_one_damping_of_hunt_and_crossley_has_kappa_at_one_speed_only():
-    stiffness = stiffness_in(HUNT_CROSSLEY, 0.65)
-    damping = damping_of(HUNT_CROSSLEY, MASS, 0.65, stiffness)
-    slow, fast = (contact(HUNT_CROSSLEY, stiffness, damping, speed)[0] for speed in (0.5, 2.0))
-    assert slow > 0.75
-    assert fast < 0.52

@@ -8,7 +8,6 @@ from vibroimpact.integrators import moreau_jean
 from vibroimpact.integrators.leading_order import LeadingOrder
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED
 from vibroimpact.integrators.right_hand_side import coefficients
-from vibroimpact.integrators.rigid_contact import Contacts
 
 
 @pytest.mark.parametrize("name", ["heyoka", "RK45", "LSODA", "Moreau-Jean", "penalty", "Ivanov", "Ivanov, events"])
@@ -29,15 +28,14 @@ def test_the_leading_order_refuses_where_no_response_is_stable(motion):
     assert "fixed point" in run.failure.reason
 
 
-def test_contact_logic_keeps_momentum_when_a_ball_comes_to_rest(motion):
-    system = motion("chatter")[0]
-    contacts = Contacts(system, slow=1e-3)
-    s = np.array([-0.8, -1.8, 0.1, 0.1, 0.0, -1e-3, 0.0, 0.0])
-    before = s[4] + system.epsilon * s[5]
-    contacts.resolve(0.0, s, [0])
-    assert contacts.walls.tolist() == [1, 0]
-    assert s[4] == s[5]
-    assert s[4] + system.epsilon * s[5] == pytest.approx(before, abs=1e-18)
+def test_located_impacts_of_a_chatter_have_no_end_in_ivanovs_coordinates(method, motion):
+    system, state, cycles, reference = motion("chatter")
+    run = method("Ivanov, events").run(system, state, cycles, 0.0, 10)
+    assert run.failure.kind == UNFINISHED
+    end = run.impacts["tau"][-1]
+    rest = reference.events["tau"][reference.events["kind"] == 1][0]
+    assert end == pytest.approx(rest, abs=1e-4)
+    assert f"at tau = {rest:.3g}" in run.failure.reason[:40]
 
 
 @pytest.mark.parametrize(
