@@ -94,6 +94,10 @@ def test_the_motion_is_that_of_the_parameters(shown):
     assert "**repeats every period**" in text
     assert int(re.search(r"changes after one period by up to \$[^$]*10\^\{-(\d+)\}", text)[1]) > 6
     assert not re.search("not repeat|modulated", text)
+    rows = re.findall(rf"^(?:time|velocity of \w+ [12]) +-?{NUMBER} +-?{NUMBER}", text, re.MULTILINE)  # an impact
+    assert len(rows) == 3
+    for by_hand, in_the_table in rows:
+        assert float(by_hand) == pytest.approx(float(in_the_table), abs=1e-8)
 
 
 def test_the_manifold_is_that_of_kappa(shown):
@@ -111,34 +115,16 @@ def test_every_notebook_shows_its_picture_once(shown):
     assert "fig10_02: printed size 84 mm x 46 mm" in shown["drawing"]
 
 
-def test_the_impact_by_hand_is_that_of_the_table(shown):
-    rows = re.findall(rf"^(?:time|velocity of \w+ [12]) +-?{NUMBER} +-?{NUMBER}", shown["motion"], re.MULTILINE)
-    assert len(rows) == 3
-    for by_hand, in_the_table in rows:
-        assert float(by_hand) == pytest.approx(float(in_the_table), abs=1e-8)
-
-
-@pytest.fixture(scope="module")
-def played(tmp_path_factory):
-    """What the notebook to play with shows, and the folder it was started in."""
-    folder = tmp_path_factory.mktemp("play")
-    return printed(PLAYED, folder), folder
-
-
 @pytest.mark.thorough
-def test_playing_shows_motion_section_and_comparison_and_writes_the_animation_alone(played):
-    shown, folder = played
-    assert {key: text.count("<picture>") for key, text in shown.items()} == dict.fromkeys(PLAYED, 3)
-    assert [path.name for path in folder.iterdir()] == ["play.gif"]
-    with Image.open(folder / "play.gif") as animation:
-        assert animation.n_frames > 30
-    assert all("IPython.core.display.HTML" in text for text in shown.values())
-
-
-@pytest.mark.thorough
-def test_playing_tells_the_truth(played):
+def test_playing_tells_the_truth_and_writes_the_animation_alone(tmp_path):
     """Numbers of points and orbits as in the documents; the motion of the equal case repeats, the weak one does not."""
-    equal, weak, sticking, light = (played[0][key] for key in PLAYED)
+    shown = printed(PLAYED, tmp_path)
+    assert {key: text.count("<picture>") for key, text in shown.items()} == dict.fromkeys(PLAYED, 3)
+    assert all("IPython.core.display.HTML" in text for text in shown.values())
+    assert [path.name for path in tmp_path.iterdir()] == ["play.gif"]
+    with Image.open(tmp_path / "play.gif") as animation:
+        assert animation.n_frames > 30
+    equal, weak, sticking, light = shown.values()
     assert "A ball chatters." in sticking
     assert "Fixed points of the theory: 3. Stable ones: c." in equal
     assert "Exact orbits of this kind: 7. Stable ones: 2." in equal
@@ -147,42 +133,21 @@ def test_playing_tells_the_truth(played):
     assert "The motion does not repeat every period, or not yet." in weak
     assert len(re.findall(r"  symmetric, .*multiplier 0\.\d+$", light, re.MULTILINE)) == 1
     assert not re.search(r"  asymmetric, .*multiplier 0\.\d+$", light, re.MULTILINE)
-
-
-@pytest.mark.thorough
-def test_scipy_written_out_agrees_until_chaos_parts_it(played):
-    def apart(text):
-        return [float(n) for n in re.search(rf"differ by {NUMBER} after one period and by {NUMBER}", text).groups()]
-
-    equal, weak, _, light = (played[0][key] for key in PLAYED)
+    apart = {
+        text: [float(n) for n in re.search(rf"differ by {NUMBER} after one period and by {NUMBER}", text).groups()]
+        for text in (equal, light, weak)
+    }
     for text in (equal, light):
-        assert max(apart(text)) < 1e-7
+        assert max(apart[text]) < 1e-7
         assert re.search(r"^(\d+) impacts by SciPy, \1 events by the library", text, re.MULTILINE)
-    assert apart(weak)[0] < 1e-8
-    assert apart(weak)[1] > 0.01
-
-
-def papermill(folder, *arguments):
-    """Exit status and output of papermill on the notebook of fixed points, and what the executed one shows."""
-    notebook = folder / "executed.ipynb"
-    given = [str(ROOT / "notebooks/fixed_points.ipynb"), str(notebook), "--no-progress-bar", *arguments]
-    done = subprocess.run(
-        [sys.executable, "-m", "papermill", *given], cwd=folder, capture_output=True, text=True, check=False
-    )
-    return done, notebook.read_text(encoding="utf-8")
-
-
-@pytest.mark.thorough
-def test_papermill_sets_a_parameter_by_its_name(tmp_path):
-    done, executed = papermill(tmp_path, "-p", "kappa", "0.5", "-p", "f20_hat", "0.9")
-    assert done.returncode == 0, done.stderr
-    expected = [point.C for point in points_of(0.9, kappa=0.5)]
-    table = re.findall(rf"^ *\"\d+ +equal +\w +{NUMBER} +{NUMBER}", executed, re.MULTILINE)
-    np.testing.assert_allclose(sorted([float(C1), float(C2)] for C1, C2 in table), expected, atol=2e-5)
-    assert expected
+    assert apart[weak][0] < 1e-8
+    assert apart[weak][1] > 0.01  # chaos has parted them
 
 
 def test_papermill_is_refused_a_parameter_that_the_notebook_has_not(tmp_path):
-    done, _ = papermill(tmp_path, "-p", "kapa", "0.5")
+    given = [str(ROOT / "notebooks/fixed_points.ipynb"), "executed.ipynb", "--no-progress-bar", "-p", "kapa", "0.5"]
+    done = subprocess.run(
+        [sys.executable, "-m", "papermill", *given], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
     assert done.returncode != 0
     assert "ValueError: parameters: unknown kapa; this notebook has model, C_max, epsilon, kappa" in done.stderr

@@ -3,7 +3,6 @@
 import json
 import sys
 from importlib import import_module
-from types import SimpleNamespace
 
 import matplotlib
 import matplotlib.colors
@@ -15,11 +14,9 @@ from PIL import Image
 
 from figure_tables import lightness
 from pipeline_trees import ROOT
-from scripts import Given
 from vibroimpact import tables
 from vibroimpact.figures import fig10_04
 from vibroimpact.figures.plotting import style
-from vibroimpact_pipeline import provenance
 from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.specs import spec_of, specs
 
@@ -60,12 +57,12 @@ def test_fit_for_print(figure):
     assert not unlabelled, f"a line of colour {unlabelled} needs a label in its colour: no colour speaks alone"
 
 
-def test_same_bytes_again_whatever_the_user_has_set_and_no_date(tmp_path):
+def test_same_bytes_again_whatever_the_user_has_set_and_no_date_but_the_versions_that_draw(tmp_path):
+    """Matplotlib writes its own version into a picture."""
     table = tables.read(ROOT / "figures/fig10_04.csv")
     written = []
-    for folder, size in (("one", 10), ("two", 20)):
-        (tmp_path / folder).mkdir()
-        outputs = {kind: tmp_path / folder / kind for kind in ("png", "pdf", "svg")}
+    for size in (10, 20):
+        outputs = {kind: tmp_path / f"{size}.{kind}" for kind in ("png", "pdf", "svg", "provenance")}
         with matplotlib.rc_context({"font.size": size, "savefig.dpi": 50, "svg.hashsalt": None}):
             before = dict(matplotlib.rcParams)
             style.save(fig10_04.draw(table), outputs)
@@ -74,6 +71,9 @@ def test_same_bytes_again_whatever_the_user_has_set_and_no_date(tmp_path):
     assert written[0] == written[1]
     assert not any(mark in written[0]["pdf"] for mark in (b"CreationDate", b"ModDate"))
     assert b"dc:date" not in written[0]["svg"]
+    versions = json.loads(written[0]["provenance"])["versions"]
+    assert Image.open(outputs["png"]).text["Software"].startswith(f"Matplotlib version{versions['matplotlib']},")
+    assert versions["python"] == sys.version.split()[0]
 
 
 def test_a_picture_is_drawn_of_what_was_written_with_every_digit(tmp_path, monkeypatch):
@@ -83,20 +83,3 @@ def test_a_picture_is_drawn_of_what_was_written_with_every_digit(tmp_path, monke
     style.write_and_draw(fig10_04, written, {"csv": tmp_path / "t.csv", "png": tmp_path / "t.png"})
     assert given[0] is not written
     assert (given[0]["x"].to_numpy().view("i8") == values.view("i8")).all()
-
-
-def test_versions_are_recorded_by_the_process_that_draws(tmp_path, monkeypatch):
-    """Matplotlib writes its own into a picture."""
-    outputs = {"png": tmp_path / "figure.png", "provenance": tmp_path / "figure.provenance.json"}
-    style.save(style.new_figure(20, 20), outputs)
-    versions = json.loads(outputs["provenance"].read_text())["versions"]
-    assert Image.open(outputs["png"]).text["Software"].startswith(f"Matplotlib version{versions['matplotlib']},")
-    assert versions["python"] == sys.version.split()[0]
-    monkeypatch.setattr(provenance, "origin", lambda root: ("0123", "clean"))
-    job = SimpleNamespace(
-        output=Given(png="figure.png", provenance="figure.provenance.json"),
-        params=SimpleNamespace(figure="figure", config={}, code={}),
-        input=[],
-    )
-    provenance.write(job, SimpleNamespace(**outputs))
-    assert json.loads(outputs["provenance"].read_text())["versions"] == versions
