@@ -13,16 +13,16 @@ from chapter import FORCES, PARAMETERS
 from vibroimpact.cli.parser import main
 
 
-def table(capsys, *arguments):
+def table(capsys, words):
     """Rows of the CSV that a command prints."""
-    assert main([*arguments]) == 0
+    assert main(words.split()) == 0
     return list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
 
 
-def refusal(capsys, *arguments):
+def refusal(capsys, words):
     """Exit status and the only line that a command prints."""
     with pytest.raises(SystemExit) as end:
-        main([*arguments])
+        main(words.split())
     printed = capsys.readouterr()
     assert printed.out == ""
     said = [line for line in printed.err.splitlines(keepends=True) if ": compiling " not in line]
@@ -35,7 +35,7 @@ def system_of(case, **changes):
 
 
 def test_fixed_points_and_orbits_that_are_motions(capsys):
-    rows = table(capsys, "fixed-points", "--case", "unequal")
+    rows = table(capsys, "fixed-points --case unequal")
     points = vi.fixed_points(system_of("unequal"))
     assert [[float(row["C1"]), float(row["psi2"])] for row in rows] == [[p.C[0], p.psi[1]] for p in points]
     said = [(point.stability.fast, point.stability.slow, point.stability.theory) for point in points]
@@ -47,31 +47,19 @@ def test_fixed_points_and_orbits_that_are_motions(capsys):
 
 
 def test_options_change_the_system(capsys):
-    rows = table(capsys, "fixed-points", "--case", "weak", "--kappa", "0.7", "--f10-hat", "-1e-1")
+    rows = table(capsys, "fixed-points --case weak --kappa 0.7 --f10-hat -1e-1")
     points = vi.fixed_points(system_of("weak", kappa=0.7, f10_hat=-0.1))
     assert [float(row["C2"]) for row in rows] == [point.C[1] for point in points]
 
 
-START = ["--state", "-1e-3", "0", "0.1", "-.5", "0", "0", "0", "0.3", "--cycles", "20", "--tau0", "0.5"]
-STATE = [-1e-3, 0, 0.1, -0.5, 0, 0, 0, 0.3]
-
-
-def test_samples_of_a_run(capsys):
-    system = system_of("equal")
-    rows = table(capsys, "simulate", *START, "--samples-per-cycle", "4")
-    tau = np.array([float(row["tau"]) for row in rows])
-    np.testing.assert_allclose(tau, 0.5 + np.arange(81) * system.period / 4, rtol=1e-15)
-    run = vi.simulate(system, STATE, 20, 0.5)
-    np.testing.assert_array_equal([float(value) for value in list(rows[-1].values())[1:]], run.final)
-
-
-def test_events_of_a_run(capsys):
-    rows = table(capsys, "simulate", *START, "--events")
-    events = vi.simulate(system_of("equal"), STATE, 20, 0.5).events
-    assert [(float(r["tau"]), int(r["wall"]), r["kind"]) for r in rows] == [
-        (event["tau"], event["wall"], vi.KINDS[event["kind"]]) for event in events
-    ]
-    assert [float(row["dY2"]) for row in rows] == [event["state"][7] for event in events]
+def test_samples_and_events_of_a_run(capsys):
+    words = "simulate --state -1e-3 0 0.1 -.5 0 0 0 0.3 --cycles 20 --tau0 0.5"
+    run = vi.simulate(system_of("equal"), [-1e-3, 0, 0.1, -0.5, 0, 0, 0, 0.3], 20, 0.5)
+    rows = [[float(value) for value in row.values()] for row in table(capsys, f"{words} --samples-per-cycle 4")]
+    np.testing.assert_allclose([row[0] for row in rows], 0.5 + np.arange(81) * run.system.period / 4, rtol=1e-15)
+    np.testing.assert_array_equal(rows[-1][1:], run.final)
+    said = [(float(r["tau"]), int(r["wall"]), r["kind"], float(r["dY2"])) for r in table(capsys, f"{words} --events")]
+    assert said == [(event["tau"], event["wall"], vi.KINDS[event["kind"]], event["state"][7]) for event in run.events]
 
 
 BAD = {
@@ -86,15 +74,14 @@ BAD = {
 
 @pytest.mark.parametrize("words", BAD)
 def test_wrong_words_are_one_line_that_names_the_option(capsys, words):
-    status, line = refusal(capsys, *words.split())
+    status, line = refusal(capsys, words)
     assert status == 2
     assert BAD[words] in line
     assert "--help" in line
 
 
 def test_a_run_that_fails_is_one_line(capsys):
-    far = ["1e300", "1e300", "0", "0", "0", "0", "0", "0"]
-    status, line = refusal(capsys, "simulate", "--cycles", "1", "--state", *far)
+    status, line = refusal(capsys, "simulate --cycles 1 --state 1e300 1e300 0 0 0 0 0 0")
     assert status == 1
     assert "time stands still" in line
 

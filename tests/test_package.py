@@ -5,7 +5,6 @@ import ctypes
 import os
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 import zipfile
@@ -174,7 +173,6 @@ def test_the_stub_names_what_the_package_exports():
     assert imported == vi._PUBLIC
 
 
-WHERE = "from vibroimpact.exact.engine import compiled as c; print(c.code_folder(c.PACKAGE / 'exact/engine'))"
 ADVANCE = """
 import vibroimpact as vi
 from vibroimpact.exact.engine.flow import advance, flow_of
@@ -184,27 +182,22 @@ print(advance(flow_of(vi.System(**PARAMETERS, **CASES["equal"])), 0, (0.0, 0.0, 
 """
 
 
-@pytest.fixture
-def nowhere_to_write(alone, tmp_path):
-    """Runs Python where neither the installation nor the home can be written to, with a folder for temporary files."""
-    folders = [alone.site, *(path for path in alone.site.rglob("*") if path.is_dir() and not path.is_symlink())]
-    modes = {path: path.stat().st_mode for path in folders}
-    for path in folders:
-        path.chmod(0o555)
-    places = {"HOME": str(alone.site), "TMPDIR": str(tmp_path)}
-    yield lambda code: alone("-c", code, preexec_fn=_bound_by_permissions, **places)
-    for path, mode in modes.items():
-        path.chmod(mode)
-
-
 def _bound_by_permissions():
     """Let permissions bind the superuser too, after the next exec: without CAP_DAC_OVERRIDE."""
     ctypes.CDLL(None).prctl(24, 1, 0, 0, 0)  # PR_CAPBSET_DROP
 
 
 @pytest.mark.thorough
-def test_a_read_only_installation_without_a_home_works(nowhere_to_write, tmp_path):
-    first, second = nowhere_to_write(ADVANCE), nowhere_to_write(ADVANCE)
+def test_a_read_only_installation_without_a_home_works(alone, tmp_path):
+    """Python runs where only a folder for temporary files can be written to."""
+    folders = [alone.site, *(path for path in alone.site.rglob("*") if path.is_dir() and not path.is_symlink())]
+    modes = {path: path.stat().st_mode for path in folders}
+    for path in folders:
+        path.chmod(0o555)
+    places = {"HOME": str(alone.site), "TMPDIR": str(tmp_path)}
+    first, second = (alone("-c", ADVANCE, preexec_fn=_bound_by_permissions, **places) for _ in range(2))
+    for path, mode in modes.items():
+        path.chmod(mode)
     [folder] = tmp_path.glob("vibroimpact-*")
     kept = f"is writable; caching compiled code in {folder}"
     assert kept in first.stderr
@@ -214,28 +207,3 @@ def test_a_read_only_installation_without_a_home_works(nowhere_to_write, tmp_pat
     assert "compiling" not in second.stderr
     assert first.stdout == second.stdout
     assert folder.stat().st_mode & 0o777 == 0o700
-
-
-@pytest.fixture
-def compiled_before(alone):
-    """What a program prints that compiles a part of the library beside it, as at its installation."""
-    compiled_code.share(alone.site / "vibroimpact")  # so that it need not be compiled again
-    yield alone("-c", ADVANCE).stdout
-    for code in (alone.site / "vibroimpact/__pycache__").glob("compiled-*"):
-        shutil.rmtree(code)
-
-
-@pytest.mark.thorough
-def test_code_of_an_installation_that_is_read_only_by_now_is_used(alone, compiled_before, nowhere_to_write, tmp_path):
-    """As in a container: it is copied to where it can be written to, since Numba uses no other folder."""
-    for _ in range(2):
-        run = nowhere_to_write(ADVANCE)
-        assert "compiling" not in run.stderr
-        assert run.stdout == compiled_before
-    installed = alone("-c", WHERE).stdout.strip()
-    [copy] = tmp_path.glob(f"vibroimpact-*/{Path(installed).name}")
-    assert {*files(Path(installed))} == {*files(copy)} != set()
-
-
-def files(folder):
-    return ((path.relative_to(folder), path.read_bytes()) for path in folder.rglob("*.nb?"))
