@@ -13,11 +13,6 @@ SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f1
 BREAKING = np.pi**2 / (np.pi**2 - 4)
 
 
-@pytest.fixture(scope="module")
-def verdict_tables():
-    return verdicts_of(SYSTEMS)
-
-
 def test_without_orbits_fixed_points_are_left_without_multipliers():
     system = SYSTEMS["weak"]
     rows = fixed_point_rows("weak", system, vi.fixed_points(system), orbit_rows("weak", []))
@@ -52,8 +47,8 @@ def test_a_range_that_cuts_the_region_is_refused(C_range):
         companion_10_05.compute(C_range)
 
 
-def test_every_verdict_on_a_fixed_point_is_a_dot_filled_where_it_says_stable(verdict_tables):
-    points, _ = verdict_tables
+def test_every_verdict_on_a_fixed_point_is_a_dot_filled_where_it_says_stable():
+    points, _ = verdicts_of(SYSTEMS)
     columns = [*companion_stability.CRITERIA]
     axes = companion_stability.draw(companion_stability.compute(points)).axes[0]
     dots = {(line.get_xdata()[0], line.get_ydata()[0]): line.get_markerfacecolor() for line in axes.lines}

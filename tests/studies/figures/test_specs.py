@@ -3,7 +3,6 @@
 import papermill
 import pytest
 
-from configs import GOOD
 from loaded_rules import SPECS, assert_compute_takes, assert_declared, drawn, made, published, rules, without
 from pipeline_trees import ROOT
 
@@ -49,12 +48,3 @@ def test_the_config_makes_the_reference_set(of_the_studies):
 )
 def test_a_figure_whose_settings_the_config_lacks_is_not_made(lacking, gone, tmp_path):
     assert set(DRAWN) - made(rules(tmp_path, without(*lacking)), "companions") == gone
-
-
-def test_what_decides_on_a_figure_is_named_by_its_place_in_the_config(of_the_studies):
-    params = of_the_studies["companion_horizon"].params
-    run = GOOD["cases"]["weak"]["simulation"]
-    assert of_the_studies["companion_horizon"].input.strobe == "results/simulations/weak/reference/strobe.csv"
-    assert params.settings == {"initial_state": run["initial_state"]}
-    assert params.config["cases.weak.simulation.initial_state"] == run["initial_state"]
-    assert params.config["cases.weak"] == params.system
