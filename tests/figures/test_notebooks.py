@@ -11,7 +11,6 @@ from pipeline_trees import ROOT
 FOLDER = ROOT / "notebooks"
 NOTEBOOKS = sorted(path.relative_to(FOLDER).with_suffix("").as_posix() for path in FOLDER.rglob("*.ipynb"))
 """Those of the chapter, and whatever else there is."""
-OF_FIGURES = [name for name in NOTEBOOKS if name != "play"]
 
 
 def opened(name):
@@ -25,52 +24,36 @@ def code(notebook, tag=None):
     return ["\n".join(line for line in cell.source.splitlines() if not line.startswith("%")) for cell in chosen]
 
 
-@pytest.fixture(params=NOTEBOOKS)
-def notebook(request):
-    return opened(request.param)
-
-
-@pytest.fixture(params=OF_FIGURES)
-def of_a_figure(request):
-    return opened(request.param)
-
-
-def test_valid_and_stripped_with_readable_cell_ids(notebook):
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_valid_and_stripped_with_readable_cell_ids_and_begins_with_the_question_and_its_equations(name):
+    notebook = opened(name)
     nbformat.validate(notebook)
     assert (notebook.nbformat, notebook.nbformat_minor) == (4, 5)
     assert all(cell.id.replace("-", "").isalpha() for cell in notebook.cells)
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert all(cell.outputs == [] and cell.execution_count is None for cell in cells)
-
-
-def test_parameters_are_plain_names_with_values(of_a_figure):
-    (source,) = code(of_a_figure, "parameters")
-    values = {node.targets[0].id: ast.literal_eval(node.value) for node in ast.parse(source).body}
-    assert list(values)[:2] == ["figure", "alt"]
-    assert "refuse_unknown(" in code(of_a_figure)[2]
-    assert values["inputs"] == {}  # a reader's run is a reader's own
-
-
-def test_begins_with_the_question_and_its_equations(notebook):
     question, equations = notebook.cells[:2]
     assert "**Question.**" in question.source
     assert equations.source.startswith("**Equations.**")
     assert "$$" in equations.source
 
 
-def test_defines_no_functions_but_those_of_a_solution_by_hand(of_a_figure):
+@pytest.mark.parametrize("name", [name for name in NOTEBOOKS if name != "play"])
+def test_parameters_are_plain_names_with_values_and_functions_belong_to_a_solution_by_hand(name):
     """Whatever else computes belongs to the library, where it is tested."""
-    by_hand = code(of_a_figure, "by-hand")
-    for source in code(of_a_figure):
-        tree = ast.parse(source)
-        defines = any(isinstance(node, (ast.FunctionDef, ast.ClassDef)) for node in ast.walk(tree))
-        assert not defines or source in by_hand
+    notebook = opened(name)
+    (source,) = code(notebook, "parameters")
+    values = {node.targets[0].id: ast.literal_eval(node.value) for node in ast.parse(source).body}
+    assert list(values)[:2] == ["figure", "alt"]
+    assert "refuse_unknown(" in code(notebook)[2]
+    assert values["inputs"] == {}  # a reader's run is a reader's own
+    for source in set(code(notebook)) - set(code(notebook, "by-hand")):
+        assert not any(isinstance(node, (ast.FunctionDef, ast.ClassDef)) for node in ast.walk(ast.parse(source)))
 
 
 def test_the_one_to_play_with_needs_what_its_extra_installs():
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
     assert {"vibroimpact[figures]", "ipykernel>=6.29"} < set(extras["notebooks"])
-    assert any(line.startswith("jupyterlab>=") for line in extras["notebooks"])
     imports = [node for source in code(opened("play")) for node in ast.walk(ast.parse(source))]
     names = {alias.name for node in imports if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module for node in imports if isinstance(node, ast.ImportFrom)}

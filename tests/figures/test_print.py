@@ -25,17 +25,13 @@ PUBLISHED = {path.stem: path.parent for path in sorted((ROOT / "figures").rglob(
 FIGURES = {figure: spec_of(figure, {}, specs()) for figure in PUBLISHED}
 
 
-@pytest.fixture(scope="module", params=FIGURES)
-def figure(request):
-    name, spec = request.param, FIGURES[request.param]
-    read = {key: tables.read(PUBLISHED[name] / file) for key, (file, _) in compared_files(name, spec).items()}
-    drawn = style.draw_tables(import_module(spec["module"]), read)
-    drawn.draw_without_rendering()
-    return drawn
-
-
-def test_fit_for_print(figure):
+@pytest.mark.parametrize("name", FIGURES)
+def test_fit_for_print(name):
     """Width of a column or page; nothing beyond the paper; lettering that can be read; no line told by hue alone."""
+    spec = FIGURES[name]
+    read = {key: tables.read(PUBLISHED[name] / file) for key, (file, _) in compared_files(name, spec).items()}
+    figure = style.draw_tables(import_module(spec["module"]), read)
+    figure.draw_without_rendering()
     width, height = figure.get_size_inches() * 25.4
     assert round(width, 6) in (84, 174)
     assert height < 235

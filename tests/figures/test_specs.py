@@ -69,21 +69,12 @@ def test_a_figure_whose_settings_the_config_lacks_is_not_made(lacking, gone, tmp
     assert set(DRAWN) - made(rules(tmp_path, without(*lacking)), "figure_check") == gone
 
 
-def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own(tmp_path):
-    planes = spec_of("mine", OWN | {"like": "fig10_10", "C_max": 2.0}, SPECS)
-    modules = [one["module"].rpartition(".")[2] for one in (planes, spec_of("mine", OWN, SPECS))]
-    assert modules == ["fig10_10", "fig10_07"]
+def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own_and_names_another_model():
+    planes, own = (spec_of("mine", OWN | {"like": like, "C_max": 2.0}, SPECS) for like in ("fig10_10", "fig10_07"))
+    assert [one["module"].rpartition(".")[2] for one in (planes, own)] == ["fig10_10", "fig10_07"]
     assert planes["tables"]["csv"]["file"] == "results/figures/mine.csv"
     assert planes["caption"] == SPECS["fig10_07"]["own"]["caption"]
-    rule = rules(tmp_path, GOOD | {"figures": {"mine": OWN | {"model": "slow_flow"}}})["mine"]
-    assert rule.input.points == "results/fixed_points/weak.csv"
-    assert rule.output.csv == "results/figures/mine.csv"
-    assert rule.params.settings == {"model": "slow_flow", "fixed_point": "a", "periods": 1}
-
-
-def test_a_caption_names_a_model_that_is_not_the_chapter_s():
-    scene = GOOD["figures"]["fig10_07"]
-    parameters = GOOD["system"] | {"f10_hat": 1.0, "f20_hat": 1.0}
+    scene, parameters = GOOD["figures"]["fig10_07"], GOOD["system"] | {"f10_hat": 1.0, "f20_hat": 1.0}
     plain, exact = (words("fig10_07", scene | {"model": model}, parameters) for model in ("slow_flow", "exact_orbit"))
     assert exact["caption"] == f"{plain['caption']} Drawn with the model *exact orbit*."
 
