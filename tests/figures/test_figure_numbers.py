@@ -8,11 +8,12 @@ import pandas as pd
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
-from figure_tables import system_of, table_of_points
+from figure_tables import system_of
 from pipeline_trees import ROOT
-from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_09, fig10_10
+from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_09, fig10_10
 from vibroimpact.figures.plotting import simulated
 from vibroimpact.tables import read, select
+from vibroimpact.theory.fixed_points.table import fixed_point_table
 
 RHO = 2 * 0.35 / (np.pi * 1.65)
 LIMIT = 4 / (4 + np.pi * RHO)
@@ -145,7 +146,7 @@ def test_the_head_of_a_row_has_the_verdict_of_10_26_on_its_point(name, draw):
 @pytest.mark.parametrize(("name", "label", "case"), [("fig10_07", "c", "equal"), ("fig10_10", "a", "weak")])
 @pytest.mark.parametrize("module", [1, 2])
 def test_the_response_is_10_9_and_10_10(name, label, case, module):
-    point = table_of_points(system_of(case)).set_index("label").loc[label]
+    point = fixed_point_table("", system_of(case)).set_index("label").loc[label]
     C, B, psi = point[[f"{quantity}{module}" for quantity in ("C", "B", "psi")]]
     # (10.17): the ball meets the wall +1 at the phase theta with sin, cos of theta + phi as printed
     theta = psi + np.arctan2((1 - C) / B, RHO * C / B)
@@ -164,6 +165,16 @@ def test_the_modulated_ball_reaches_both_walls_and_goes_no_further():
 # What else a figure may be asked for
 
 
+def test_corners_of_the_second_module_are_drawn_at_the_wall():
+    samples = pd.DataFrame({"tau": [1.0, 2.0, 3.0], "X2": [0.1, 0.2, 0.3], "Y2": [0.0, -0.5, 0.6]})
+    events = [(0.5, 2, 1, 9.0), (1.5, 1, 1, 9.0), (2.0, 2, 1, 0.2), (2.5, 2, -1, 0.25), (3.5, 2, 1, 9.0)]
+    drawn = fig10_08.compute(EQUAL, samples, pd.DataFrame(events, columns=["tau", "module", "wall", "X2"]))
+    W_2 = select(drawn, "b", "W_2")
+    assert W_2[["tau", "value"]].to_numpy().tolist() == [[1, 0.1], [2, 1], [2.5, -1], [3, pytest.approx(-0.3)]]
+    assert select(drawn, "a", "X_2")["value"].tolist() == [0.1, 0.2, 0.25, 0.3]
+    np.testing.assert_allclose(W_2["cycle"], 1.02 / (2 * np.pi) * W_2["tau"], rtol=1e-12)
+
+
 def test_flights_of_more_than_a_cycle_are_without_resonance():
     """Impacts at known times and walls; a ball that stays at a wall has not reached the other one."""
     times, walls = [0.0, 0.5, 1.0, 1.2, 2.3, 2.8, 4.0], [1.0, -1.0, 1.0, 1.0, -1.0, 1.0, -1.0]
@@ -172,7 +183,7 @@ def test_flights_of_more_than_a_cycle_are_without_resonance():
 
 
 def test_planes_without_fixed_points_show_the_manifold_and_others_reach_every_point():
-    points = table_of_points(EQUAL)
+    points = fixed_point_table("", EQUAL)
     empty = fig10_06.compute(EQUAL, points.iloc[:0], (2.0, 3.5))
     assert set(empty["series"]) == {"SIM stable", "SIM unstable"}
     assert len(fig10_06.draw(empty).axes) == 2
@@ -180,7 +191,7 @@ def test_planes_without_fixed_points_show_the_manifold_and_others_reach_every_po
     assert short[short["series"] == "SIM stable"].groupby("panel")["C"].max()["a2"] > points["C2"].max()
 
 
-POINTS = table_of_points(EQUAL)
+POINTS = fixed_point_table("", EQUAL)
 
 
 @pytest.mark.parametrize(

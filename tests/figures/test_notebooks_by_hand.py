@@ -4,13 +4,14 @@ import re
 import subprocess
 import sys
 
+import nbformat
 import numpy as np
 import pytest
+from nbclient import NotebookClient
 from PIL import Image
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from opened_notebooks import printed
 from pipeline_trees import ROOT
 
 LESS = {"f20_hat = 1.0": "f20_hat = 0.72"}
@@ -32,6 +33,35 @@ PLAYED = {
     "play light": ("play", {'"epsilon": 0.1': '"epsilon": 0.002', '"play.gif"': '""', "compared = 40": "compared = 5"}),
 }
 NUMBER = r"([\d.]+(?:e[+-]?\d+)?)"
+
+
+def printed(runs, folder):
+    """Outputs of notebooks with edited parameters, {key: (name, edits)}, by their keys; images are "<picture>".
+
+    One kernel, started in the folder, runs all of them; its variables are deleted before the next one.
+    """
+    cells, keys = [], []
+    for key, (name, edits) in runs.items():
+        code = [
+            one
+            for one in nbformat.read(ROOT / f"notebooks/{name}.ipynb", as_version=4).cells
+            if one.cell_type == "code"
+        ]
+        (parameters,) = (cell for cell in code if "parameters" in cell.metadata.get("tags", []))
+        for old, new in edits.items():
+            assert parameters.source.count(old) == 1, (name, old)
+            parameters.source = parameters.source.replace(old, new)
+        cells += [nbformat.v4.new_code_cell(source) for source in ("%reset -f", *(cell.source for cell in code))]
+        keys += [key] * (len(code) + 1)
+    whole = nbformat.v4.new_notebook(cells=cells)
+    NotebookClient(whole, kernel_name="python3", resources={"metadata": {"path": str(folder)}}).execute()
+    shown = dict.fromkeys(runs, "")
+    for key, cell in zip(keys, whole.cells, strict=True):
+        for output in cell.outputs:
+            data = output.get("data", {"text/plain": output.get("text", "")})
+            text = "<picture>" if "image/png" in data else data.get("text/markdown") or data.get("text/plain", "")
+            shown[key] += text + "\n"
+    return shown
 
 
 def sums(folder):

@@ -1,13 +1,11 @@
-"""Tables of figures at the chapter's parameters, in the format of the pipeline, and lightness of colours."""
+"""Systems of the chapter, tables of their simulations, and lightness of colours."""
 
 import numpy as np
-import pandas as pd
 from matplotlib.colors import to_rgb
 
 import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
-from vibroimpact.system.state import NAMES
-from vibroimpact.theory.fixed_points.symmetric_points import labels
+from vibroimpact.accuracy.window import window
 
 
 def system_of(case):
@@ -15,28 +13,11 @@ def system_of(case):
     return vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)
 
 
-def table_of_points(system):
-    """Return the fixed points of a system in the format of the pipeline's table."""
-    points = vi.fixed_points(system)
-    table = pd.DataFrame(
-        {
-            "label": label,
-            **{f"{name}{i}": getattr(point, name)[i - 1] for name in ("C", "B", "psi") for i in (1, 2)},
-        }
-        for label, point in zip(labels(system, points), points, strict=True)
-    )
-    return table.sort_values("label", ignore_index=True)
-
-
-def tables_of_run(system, start, transient, window, per_cycle):
+def tables_of_run(system, start, transient, window_cycles, per_cycle):
     """Return samples and events of a simulation in the format of the pipeline's tables."""
-    times = (transient + np.arange(window * per_cycle + 1) / per_cycle) * system.period
-    run = vi.simulate(system, start, transient + window, sample_times=times)
-    samples = pd.DataFrame({"tau": times, **dict(zip(NAMES, run.samples.T, strict=True))})
-    events = pd.DataFrame({name: run.events[name] for name in ("tau", "module", "wall")})
-    events[list(NAMES)] = run.events["state"]
-    events["kind"] = np.array(["impact", "stick", "release"])[run.events["kind"]]
-    return samples, events
+    settings = {"initial_state": start, "transient_cycles": transient, "window_cycles": window_cycles}
+    made = window(system, settings | {"samples_per_cycle": per_cycle, "model": "float64"})
+    return made.samples, made.events
 
 
 def lightness(colour):

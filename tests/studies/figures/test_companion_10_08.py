@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from figure_tables import system_of, table_of_points, tables_of_run
+from figure_tables import system_of, tables_of_run
 from vibroimpact.studies.figures import companion_10_08
 from vibroimpact.tables import select
+from vibroimpact.theory.fixed_points.table import fixed_point_table
 
 SYSTEM = system_of("equal")
 
@@ -25,7 +26,7 @@ def motion(pair):
 
 @pytest.fixture(scope="module")
 def table(motion):
-    return companion_10_08.compute(SYSTEM, table_of_points(SYSTEM), *motion)
+    return companion_10_08.compute(SYSTEM, fixed_point_table("", SYSTEM), *motion)
 
 
 def test_the_flights_are_those_of_the_exact_orbit_and_of_the_fixed_point(pair, table):
@@ -51,5 +52,5 @@ def test_the_figure_names_both_motions_and_the_lengths_of_their_flights(table, m
     assert theory == {"", "0.50 $T$"}
     assert simulated == {"", "0.38 $T$", "0.62 $T$"}
     assert [axes.get_title("left") for axes in figure.axes] == ["theory: fixed point (c)", "simulated"]
-    none = companion_10_08.compute(SYSTEM, table_of_points(SYSTEM).head(0), *motion)
+    none = companion_10_08.compute(SYSTEM, fixed_point_table("", SYSTEM).head(0), *motion)
     assert companion_10_08.draw(none).axes[0].get_title("left") == "theory: no fixed point"

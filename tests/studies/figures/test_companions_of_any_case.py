@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.accuracy.verdict_table import orbit_rows
+from vibroimpact.accuracy.verdict_table import fixed_point_rows, orbit_rows
 from vibroimpact.figures import fig10_06, fig10_07, fig10_10
 from vibroimpact.studies.figures import (
     companion_asymmetric,
@@ -21,7 +21,7 @@ from vibroimpact.studies.regimes.epsilon_limit import distance_to_orbit
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.studies.sweeps.rows import rows
 from vibroimpact.studies.sweeps.spec import Spec
-from vibroimpact.theory.fixed_points.table import fixed_point_table
+from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 
 STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)
 """Too weakly driven for a fixed point, an orbit or an impact."""
@@ -98,6 +98,10 @@ def test_a_single_machine_is_drawn_with_a_module_at_rest(forces, module):
     assert np.abs(response["value"][response["series"] == f"W_{module}"]).max() >= 1
     fig10_07.draw(response)
     fig10_10.draw(fig10_10.compute(system, points, "a", 2.0, 2.5))
+    found = orbit_rows("single", vi.orbits(system))
+    judged = fixed_point_rows("single", system, labelled_points(points), found).iloc[0]
+    orbit = found.set_index("label").loc[judged["orbit"]]
+    assert (judged["admissible"], judged["exact"]) == (True, orbit["exact"])
 
 
 def test_a_single_machine_is_compared_with_its_orbits(monkeypatch):
