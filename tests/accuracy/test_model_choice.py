@@ -76,23 +76,20 @@ def test_of_a_single_machine_its_module_moves_as_in_company(model):
     assert np.isnan([*(getattr(alone.point, name)[1] for name in ("C", "B", "psi")), alone.impacts[1]]).all()
 
 
-def test_a_point_without_an_exact_orbit_has_no_such_motion():
+def test_a_point_without_an_exact_orbit_and_other_models_are_refused_in_one_line():
     """Further from every orbit than any is from its point."""
-    system = SYSTEMS["weak"]
-    table = fixed_point_table("weak", system).assign(C1=9.0)
-    with pytest.raises(ValueError, match=r"\Amodel: fixed point 'a' has no exact_orbit next to it"):
-        motion(system, table, "a", "exact_orbit")
-    assert motion(system, table, "a", "slow_flow").point.C[0] == 9.0
-
-
-def test_other_models_are_refused_in_one_line():
     system, settings = SYSTEMS["weak"], {"transient_cycles": 0, "window_cycles": 1, "samples_per_cycle": 8}
-    with pytest.raises(ValueError, match=r"\Amodel: 'float64' is not slow_flow, exact_orbit or second_term\Z"):
-        motion(system, fixed_point_table("weak", system), "a", "float64")
+    table = fixed_point_table("weak", system).assign(C1=9.0)
+    assert motion(system, table, "a", "slow_flow").point.C[0] == 9.0
+    for label, model, said in (
+        ("a", "exact_orbit", r"\Amodel: fixed point 'a' has no exact_orbit next to it"),
+        ("a", "float64", r"\Amodel: 'float64' is not slow_flow, exact_orbit or second_term\Z"),
+        ("z", "exact_orbit", r"\Afixed_point: "),
+    ):
+        with pytest.raises(ValueError, match=said):
+            motion(system, table, label, model)
     with pytest.raises(ValueError, match=r"\Amodel: 'slow_flow' is not float64 or reference\Z"):
         window(system, settings | {"initial_state": [0.0] * 8, "model": "slow_flow"})
-    with pytest.raises(ValueError, match=r"\Afixed_point: "):
-        motion(system, fixed_point_table("weak", system), "z", "exact_orbit")
 
 
 def test_the_arithmetic_is_that_of_the_model_whatever_digits_the_case_has():

@@ -95,10 +95,8 @@ def test_a_verdict_follows_from_the_parts(parts, corrected, expected):
 
 
 def test_misprints_are_presented_last():
-    """Of the verdicts, and of the claims: none is listed before a refutation of substance."""
-    assert VERDICTS[-1] == MISPRINT
     order = [EXPECTED[claim] for claim in CLAIMS]
-    assert order.count(MISPRINT) == 5
+    assert VERDICTS[-1] == MISPRINT
     assert REFUTED not in order[order.index(MISPRINT) :]
 
 
@@ -145,12 +143,9 @@ POINTS, GRID, RUNS = "fixed_points", "verdict_grid", "modulation"
 EQUAL, WEAK = 'case == "equal"', 'case == "weak"'
 OTHER_EVIDENCE = [
     ("equal-b", with_values(POINTS, f'{EQUAL} and label == "b"', "exact", "stable"), IN_PART),
-    ("equal-c", with_values(POINTS, f'{EQUAL} and label == "c"', "exact", "stable"), HOLDS),
     ("weak-a", with_values(POINTS, WEAK, "exact", "undecided"), OPEN),
     ("two-stable-equal", with_values(POINTS, EQUAL, "fast", "undecided"), IN_PART),
-    ("one-stable-unequal", with_values(POINTS, 'case == "unequal" and label == "b"', "fast", "stable"), REFUTED),
     ("equal-a-left", with_values(POINTS, f'{EQUAL} and label == "a"', "C1", 1.0), REFUTED),
-    ("weak-left-arms", with_values(POINTS, WEAK, "C2", 1.0), IN_PART),
     ("points-move-left", with_values(POINTS, 'case == "unequal"', ["C1", "C2"], 0.1), HOLDS),
     ("stable-point-moves-down", with_values(POINTS, 'case == "unequal" and label == "c"', "C1", 0.9), IN_PART),
     ("assesses-stability", with_values(GRID, "epsilon > 0", "exact", "stable"), IN_PART),

@@ -56,9 +56,8 @@ def test_a_ball_meets_its_wall_a_clearance_from_the_middle_of_its_box(made):
 
 
 def test_the_figure_names_every_curve_and_the_best_clearance(made):
-    response, motion = machines.draw(made).axes
+    response = machines.draw(made).axes[0]
     names = ", ".join(text.get_text() for text in response.texts).split(", ")
     expected = [f"$L = {1000 * L:g}$ mm" for L in SCENE["clearances"]]
     assert sorted(names) == sorted([*expected, *machines.LINES])
-    assert [len(response.lines), len(motion.lines)] == [len(names), 3]
     assert response.get_title("left").endswith(expected[made["summary"]["swing"].to_numpy().argmin()])
