@@ -135,32 +135,22 @@ LIBRARY_SECTION = (ROOT / "README.md").read_text(encoding="utf-8").split("## As 
 BLOCKS = re.findall(r"```(\w*)\n(.*?)```", LIBRARY_SECTION, re.DOTALL)
 
 
-@pytest.fixture(scope="module")
-def shared_code(alone, tmp_path_factory):
-    """Code of the library as it is compiled for the wheel, so that it need not be compiled again."""
-    cache = tmp_path_factory.mktemp("code")
-    compiled_code.share(alone.site / "vibroimpact", cache)
-    return {"NUMBA_CACHE_DIR": str(cache)}
-
-
 @pytest.mark.thorough
-def test_python_of_the_readme_runs_with_the_three(alone, shared_code):
+def test_python_and_commands_of_the_readme_run_with_the_three(alone, tmp_path, monkeypatch):
+    compiled_code.share(alone.site / "vibroimpact", tmp_path / "code")  # so that it need not be compiled again
+    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "code")}
     [code] = [text for language, text in BLOCKS if language == "python"]
-    printed = alone("-c", code, **shared_code).stdout
+    printed = alone("-c", code, **cache).stdout
     run = re.search(r"Run\(cycles=100, tau0=0, events=(\d+): \1 impact, 0 stick, 0 release, samples=2", printed)
     assert run, printed
     assert "Certificate(decided=True" in printed
     assert len(re.findall(r"^[\d.]+ [12] -?1 impact$", printed, re.MULTILINE)) == 5
-
-
-@pytest.mark.thorough
-def test_commands_of_the_readme_run_with_the_three(alone, shared_code, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     lines = [line for language, text in BLOCKS if not language for line in text.splitlines()]
     assert {line.split()[1] for line in lines} == {"-m", "fixed-points", "orbits", "simulate"}
     for line in lines:
         program, *arguments = shlex.split(line)
-        text = alone(*(arguments if program == "python" else ["-m", program, *arguments]), **shared_code).stdout
+        text = alone(*(arguments if program == "python" else ["-m", program, *arguments]), **cache).stdout
         text = Path("orbits.csv").read_text() if "--output" in line else text
         assert "compile" in line or len(text.splitlines()) > 3, line
 

@@ -19,7 +19,7 @@ class BoxesByHand:
     def rate(self, stuck):
         """Return the rate matrix (6, 6) of [X1, X2, X1', X2', sin, cos]; a box carries its ball if the ball sticks."""
         mass = np.where(stuck, 1 + self.epsilon, 1.0)
-        rate = np.zeros((6, 6))
+        rate = np.zeros((6, 6), dtype=mass.dtype)  # object, if the parameters are
         rate[:2, 2:4] = np.eye(2)
         rate[2:4, :2] = -self.stiffness / mass[:, None]
         rate[2:4, 2:4] = -self.damping / mass[:, None]
