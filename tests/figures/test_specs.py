@@ -7,7 +7,7 @@ import papermill
 import pytest
 
 from configs import GOOD
-from loaded_rules import SPECS, assert_compute_takes, assert_declared, drawn, made, published, rules, without
+from loaded_rules import SPECS, assert_declared, drawn, made, published, rules, without
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.html.figure_texts import words
 from vibroimpact_pipeline.specs import spec_of
@@ -27,11 +27,6 @@ def test_they_are_read_where_no_package_is_installed():
     read_alone = "import sys; sys.path.insert(0, 'src'); from vibroimpact_pipeline import specs; print(*specs.specs())"
     done = subprocess.run([sys.executable, "-I", "-S", "-c", read_alone], cwd=ROOT, capture_output=True, text=True)
     assert done.stdout.split() == list(SPECS), done.stderr
-
-
-@pytest.mark.parametrize("figure", [name for name in DRAWN if SPECS[name]["tables"]])
-def test_compute_takes_what_its_rule_gives(figure, of_the_chapter):
-    assert_compute_takes(figure, of_the_chapter[figure])
 
 
 @pytest.mark.parametrize("notebook", PAGES)

@@ -5,7 +5,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 import yaml
 from scipy.optimize import fsolve
@@ -174,19 +173,6 @@ def test_other_evidence_leads_to_the_verdict_that_it_means(evidence, claim, chan
     assert verdict(claim, change(evidence)) == expected
 
 
-def test_confusion_matrices_count_every_point(evidence, judged):
-    numbers = judged["assesses-stability"]["numbers"]
-    grid = evidence.verdict_grid.query("epsilon == 0.1")
-    # docs/studies/findings.md: one more exists only if its ball may leave the box.
-    of_all = judged["periodic-solutions"]["numbers"]["without an orbit between the walls"]
-    assert numbers["without an orbit"] + 1 == of_all
-    for name, column in (("(10.26)", "printed_10_26"), ("fast and slow", "theory")):
-        called = np.where(grid[column] == "stable", "stable", "other")
-        counts = pd.crosstab(called, grid["exact"]).loc[["stable", "other"]]
-        assert numbers[f"{name}, epsilon = 0.1"] == counts[["stable", "unstable"]].to_numpy().tolist()
-        assert numbers[f"{name}, epsilon = 0.1, no orbit"] == counts["no orbit"].tolist()
-
-
 def test_a_restitution_without_fixed_points_is_not_counted_in_favour(evidence):
     """At forces 1 and 0.3 neither theory nor exact system has a motion: nothing has been shown then."""
     claim = CLAIMS["any-restitution"] | {"arguments": {"kappas": [0.3], "forces": [1.0]}}
@@ -243,27 +229,6 @@ def test_no_exponents_make_a_misprint_of_10_26(evidence, judged, monkeypatch):
     monkeypatch.setattr(claims_manifold, "EXPONENTS", (np.log(4) / np.log(np.pi), 2.0))  # 4 / (4 + 4 rho^2) = C_min
     monkeypatch.setattr(claims_manifold, "largest_C", lambda kappa: 1.68)
     assert verdict("printed-condition", evidence) == MISPRINT
-
-
-def test_the_captions_need_another_limit_than_the_printed_one(evidence, judged):
-    """By counting stable points with both C_i above a limit, which needs no letters: two, one and none in the cases."""
-    numbers = judged["printed-condition"]["numbers"]
-    points = [np.array([p.C for p in vi.fixed_points(evidence.systems[case])]) for case in ("equal", "unequal", "weak")]
-    fold = 1 / (1 + rho(0.65) ** 2)
-
-    def fits(limit):
-        return [int((limit < C).all(axis=1).sum()) for C in points] == [2, 1, 0] and limit < fold
-
-    least, most = numbers["the captions need a limit above"], numbers["and a stable piece of the left arm one below"]
-    assert [fits(end + step) for end in (least, most) for step in (-1e-9, 1e-9)] == [False, True, True, False]
-    assert not fits(4 / (4 + np.pi * rho(0.65)))
-    limits = {(p, q): 4 / (4 + np.pi**p * rho(0.65) ** q) for p in range(4) for q in range(4)}
-    exponents = map(tuple, numbers["exponents of pi and rho that lead there"])
-    found = dict(zip(exponents, numbers["their limits"], strict=True))
-    assert found == pytest.approx({place: limit for place, limit in limits.items() if fits(limit)})
-    multipliers = [np.abs(impact_multipliers(limit, 0.65)).max() for limit in found.values()]
-    np.testing.assert_allclose(numbers["largest multipliers there"], multipliers, rtol=1e-6)
-    assert min(multipliers) > 1.009
 
 
 def test_without_an_upper_limit_there_would_be_two_branches(evidence, judged, monkeypatch):

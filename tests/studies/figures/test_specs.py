@@ -3,7 +3,7 @@
 import papermill
 import pytest
 
-from loaded_rules import SPECS, assert_compute_takes, assert_declared, drawn, made, published, rules, without
+from loaded_rules import assert_declared, drawn, made, published, rules, without
 from pipeline_trees import ROOT
 
 REFERENCE = "figures/studies"
@@ -13,11 +13,6 @@ DRAWN = drawn(REFERENCE)
 @pytest.fixture(scope="module")
 def of_the_studies(tmp_path_factory):
     return rules(tmp_path_factory.mktemp("studies"))
-
-
-@pytest.mark.parametrize("figure", [name for name in DRAWN if SPECS[name]["tables"]])
-def test_compute_takes_what_its_rule_gives(figure, of_the_studies):
-    assert_compute_takes(figure, of_the_studies[figure])
 
 
 def test_the_parameters_of_the_notebook_are_those_that_its_rule_gives(of_the_studies):
