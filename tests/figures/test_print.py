@@ -57,9 +57,9 @@ def test_same_bytes_again_whatever_the_user_has_set_and_no_date_but_the_versions
     """Matplotlib writes its own version into a picture."""
     table = tables.read(ROOT / "figures/fig10_04.csv")
     written = []
-    for size in (10, 20):
+    for size, colour in ((10, "white"), (20, "red")):
         outputs = {kind: tmp_path / f"{size}.{kind}" for kind in ("png", "pdf", "svg", "provenance")}
-        with matplotlib.rc_context({"font.size": size, "savefig.dpi": 50, "svg.hashsalt": None}):
+        with matplotlib.rc_context({"font.size": size, "axes.facecolor": colour, "svg.hashsalt": None}):
             before = dict(matplotlib.rcParams)
             style.save(fig10_04.draw(table), outputs)
             assert dict(matplotlib.rcParams) == before
