@@ -50,14 +50,11 @@ def test_the_quick_tests_are_there():
 
 def docstrings(path) -> dict[str, str]:
     """Return the docstring of each function, class and method (Class.method) of a module by name."""
-    found = {}
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
-        if isinstance(node, ast.FunctionDef | ast.ClassDef):
-            found[node.name] = ast.get_docstring(node) or ""
-        if isinstance(node, ast.ClassDef):
-            methods = (inner for inner in node.body if isinstance(inner, ast.FunctionDef))
-            found |= {f"{node.name}.{inner.name}": ast.get_docstring(inner) or "" for inner in methods}
-    return found
+    module = ast.parse(path.read_text(encoding="utf-8"))
+    nodes = {node.name: node for node in module.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    for name, node in [*nodes.items()]:
+        nodes |= {f"{name}.{inner.name}": inner for inner in node.body if isinstance(inner, ast.FunctionDef)}
+    return {name: ast.get_docstring(node) or "" for name, node in nodes.items()}
 
 
 def cited(text) -> set[int]:

@@ -1,9 +1,9 @@
 """Test docs/published.md: functions give the computed numbers, and closed forms give the published numbers."""
 
 import ast
-import importlib.util
 import math
 import re
+import runpy
 
 import numpy as np
 import pytest
@@ -11,6 +11,7 @@ import pytest
 from pipeline_trees import ROOT
 
 CODE = ROOT / "docs/published.py"
+FUNCTIONS = runpy.run_path(str(CODE))
 ROWS = [
     [cell.strip() for cell in line.strip("| ").split(" | ")]
     for line in (ROOT / "docs/published.md").read_text(encoding="utf-8").splitlines()
@@ -27,14 +28,6 @@ def texts(cell):
     return re.findall(r"-?\d+(?:\.\d+)?", cell.replace("−", "-"))
 
 
-@pytest.fixture(scope="module")
-def published():
-    spec = importlib.util.spec_from_file_location("published", CODE)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 def test_each_row_has_a_function_of_a_few_lines():
     functions = {node.name: node for node in ast.parse(CODE.read_text(encoding="utf-8")).body if hasattr(node, "args")}
     assert set(NAMES) <= set(functions)
@@ -44,8 +37,8 @@ def test_each_row_has_a_function_of_a_few_lines():
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
-def test_the_function_of_a_row_gives_the_computed_numbers_of_the_page(published, row):
-    shown, values = texts(row[3] if row[4] == SAME else row[4]), getattr(published, NAMES[ROWS.index(row)])()
+def test_the_function_of_a_row_gives_the_computed_numbers_of_the_page(row):
+    shown, values = texts(row[3] if row[4] == SAME else row[4]), FUNCTIONS[NAMES[ROWS.index(row)]]()
     assert [
         f"{float(value):.{len(text.partition('.')[2])}f}" for text, value in zip(shown, values, strict=True)
     ] == shown

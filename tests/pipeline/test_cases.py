@@ -1,7 +1,7 @@
 """Test that a case may override any parameter of the system, and that all results of the case use its values."""
 
 from chapter import FORCES, PARAMETERS
-from configs import GOOD, edited
+from configs import GOOD, SOFT, edited
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.cases import title_of
 from vibroimpact_pipeline.chapter import departures
@@ -10,18 +10,12 @@ from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.provenance import differences
 from vibroimpact_pipeline.specs import case_parameters
 
-CONFIG = checked(
-    edited(
-        "cases.soft = {f10_hat: 1, f20_hat: 0.9, kappa: 0.5, epsilon: 0.05, "
-        "simulation: {initial_state: [0, 0, 0, 0, 0, 0, 0, 0], transient_cycles: 9, window_cycles: 6, "
-        "samples_per_cycle: 8}} & figures.soft_motion = {like: fig10_08, model: float64, case: soft}"
-    )
-)
-SOFT = PARAMETERS | {"f10_hat": 1.0, "f20_hat": 0.9, "kappa": 0.5, "epsilon": 0.05}
+CONFIG = checked(edited(f"{SOFT} & figures.soft_motion = {{like: fig10_08, model: float64, case: soft}}"))
 
 
 def test_its_parameters_are_its_own_and_else_those_of_all():
-    assert case_parameters(CONFIG, "soft") == SOFT
+    own = {"f10_hat": 1.0, "f20_hat": 0.9, "kappa": 0.5, "epsilon": 0.05}
+    assert case_parameters(CONFIG, "soft") == PARAMETERS | own
     for case, forces in FORCES.items():
         assert case_parameters(CONFIG, case) == PARAMETERS | dict(zip(("f10_hat", "f20_hat"), forces, strict=True))
 

@@ -6,21 +6,22 @@ import re
 import subprocess
 import sys
 import time
-from dataclasses import fields
 
 import pytest
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from configs import FREE, GOOD, ONE_CASE, TABLE, TEXT, UNDAMPED, UNFORCED, UNUSUAL, edited, problems
-from pipeline_trees import ROOT
+from configs import GOOD, TABLE, TEXT, UNDAMPED, UNFORCED, UNUSUAL, at, edited, places, problems, with_another_number
 from vibroimpact.system import System
 from vibroimpact_pipeline.config import ConfigError, checked, merged, read
-from vibroimpact_pipeline.config.model import RULES, Config, Parameters
+from vibroimpact_pipeline.config.model import RULES, Config
 from vibroimpact_pipeline.jobs import with_key
 from vibroimpact_pipeline.specs import case_parameters
 
+ONE_CASE = "cases = {weak: {f10_hat: 0.5, f20_hat: 0.5, simulation: {initial_state: [0, 0, 0, 0, 0, 0, 0, 0], "
+ONE_CASE += "transient_cycles: 0, window_cycles: 60, samples_per_cycle: 8}}}"
+FREE = f"{UNDAMPED} & system.sigma_e_hat = 0 & system.sigma20_hat = 0 & system.alpha12_hat = 0"
 THIRD = f"system.sigma20_hat = {(3 * 1.02) ** 2 * 10 - 10}"
 """Edit with which box 2 resonates at three times the forcing frequency."""
 
@@ -28,10 +29,6 @@ THIRD = f"system.sigma20_hat = {(3 * 1.02) ** 2 * 10 - 10}"
 def test_the_config_of_the_chapter_is_as_it_is_written():
     before, made = copy.deepcopy(GOOD), checked(GOOD)
     assert {section: made[section] for section in GOOD} == GOOD == before
-
-
-def test_the_table_is_long_and_has_no_row_twice():
-    assert len(TABLE) == len({edits for edits, _ in TABLE}) > 200
 
 
 @pytest.mark.parametrize(("edits", "keys"), TABLE, ids=[edits[:60] for edits, _ in TABLE])
@@ -54,18 +51,13 @@ def test_an_undamped_system_without_isolated_responses_is_refused(edits, key):
     assert (list(found), "resonance" in found[key]) == ([key], True)
 
 
-def test_numbers_are_read_from_texts():
-    made = checked(edited("system.kappa = '4e-1' & cases.weak.simulation.digits = '60'"))
-    assert (made["system"]["kappa"], made["cases"]["weak"]["simulation"]["digits"]) == (0.4, 60)
-
-
 def combined(*texts: str) -> dict:
     """Return the config with some further files merged."""
     sources = [("config.yaml", GOOD), *((f"{n}.yaml", yaml.safe_load(text)) for n, text in enumerate(texts, 1))]
     return checked(merged(sources), sources)
 
 
-@pytest.mark.parametrize("nothing", ["null", "~", "", "'null'"])
+@pytest.mark.parametrize("nothing", ["null", "'null'"])
 def test_a_null_takes_an_entry_of_the_config_before_away(nothing):
     before = copy.deepcopy(GOOD)
     made = combined(
@@ -82,8 +74,7 @@ def test_a_null_takes_an_entry_of_the_config_before_away(nothing):
         ("cases: {weak: {f20_hat: 0,4}}", "cases.weak.4: .*; use a point as decimal separator"),
         ("system: {gamma1_hat: 1,2}", "system.2: .*; use a point as decimal separator"),
         ("figures: {fig10_010: }", "figures.fig10_010: .*, did you mean 'fig10_10'\\?"),
-        ("figures: {fig10_12: null}", "figures.fig10_12: "),
-        ("cases: {weak: {sigma_e_hat: null}}", "cases.weak.sigma_e_hat: "),
+        ("figures: {fig10_11: null}", "figures.fig10_11: null removes an entry of an earlier source, but none defines"),
         ("cases:", None),
         ("system: {kappa: null}", "system.kappa: missing"),
     ],
@@ -91,30 +82,8 @@ def test_a_null_takes_an_entry_of_the_config_before_away(nothing):
 def test_a_null_takes_nothing_else_away(text, key):
     """Entries that do not exist or are required cannot be removed; the error names the file and the key."""
     with pytest.raises(ConfigError, match=rf"\A(2.yaml|config.yaml): {key or 'cases'}") as refusal:
-        combined("cases: {weak: {kappa: 0.7}}", text)
+        combined("figures: {fig10_11: null}", text)
     assert "\n" not in str(refusal.value) or key is None
-
-
-def test_a_null_removes_once():
-    with pytest.raises(
-        ConfigError, match=r"\A2.yaml: figures.fig10_10: null removes an entry of an earlier source, but none defines"
-    ):
-        combined("figures: {fig10_10: null}", "figures: {fig10_10: null}")
-
-
-def test_a_key_that_is_a_word_for_false_is_named_as_it_is_written(tmp_path):
-    whole, other = tmp_path / "config.yaml", tmp_path / "try.yaml"
-    whole.write_text(yaml.safe_dump(GOOD))
-    other.write_text("system: {no: 1, yes: 2}\nfigures: {off: }\n")
-    sources = [(path, read(path)) for path in (whole, other)]
-    with pytest.raises(ConfigError, match=rf"\A{other}: figures.off: null removes"):
-        merged(sources)
-    sources[1] = (other, {"system": read(other)["system"]})
-    with pytest.raises(ConfigError) as refusal:
-        checked(merged(sources), sources)
-    assert [line.rpartition(": ")[0] for line in str(refusal.value).split("\n")] == [
-        f"{other}: system.no", f"{other}: system.yes"
-    ]  # fmt: skip
 
 
 def test_a_misspelt_name_is_one_problem_with_a_question():
@@ -149,10 +118,6 @@ def test_an_argument_is_named_by_its_key():
     assert with_key("something: no", decided) is None
 
 
-def test_the_config_has_every_parameter_of_a_system():
-    assert list(Parameters.model_fields) == [field.name for field in fields(System)]
-
-
 @pytest.mark.parametrize("place", ["system", "cases", "figures"])
 @pytest.mark.parametrize("entry", [1, {}])
 def test_thousands_of_problems_are_found_within_a_second(place, entry):
@@ -182,22 +147,7 @@ def test_the_import_is_light():
     assert not {"scipy", "matplotlib", "numba", "pandas", "snakemake"} & set(loaded)
 
 
-def places(value, above=()):
-    """Yield the key paths of all values in a config, including mappings and lists."""
-    yield above
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    for key, item in items:
-        yield from places(item, (*above, key))
-
-
-def at(config, place):
-    for part in place:
-        config = config[part]
-    return config
-
-
 PLACES = list(places(GOOD))[1:]
-NUMBERS = [place for place in PLACES if isinstance(at(GOOD, place), int | float)]
 SCALARS = st.one_of(
     st.none(),
     st.booleans(),
@@ -226,19 +176,11 @@ def test_whatever_is_done_to_a_config_it_is_accepted_or_refused_in_lines(changes
     problems(config)
 
 
-@given(st.sampled_from(NUMBERS), st.sampled_from([-1, 0, 0.5, 1.5, 2, 10, 1e-3, 1e6]) | st.floats(-3, 3))
+@given(with_another_number(*GOOD))
 @settings(max_examples=300)
-def test_every_number_that_is_accepted_builds_the_systems(place, factor):
-    config = copy.deepcopy(GOOD)
-    value = at(GOOD, place) * factor
-    at(config, place[:-1])[place[-1]] = round(value) if isinstance(at(GOOD, place), int) else value
+def test_every_number_that_is_accepted_builds_the_systems(config):
     if problems(config):
         return
     made = checked(config)
     for case in made["cases"]:
         System(**case_parameters(made, case))
-
-
-def test_the_editor_is_told_of_the_schema():
-    name = TEXT.splitlines()[0].removeprefix("# yaml-language-server: $schema=")
-    assert (ROOT / "config" / name).resolve() == ROOT / "workflow/schemas/config.schema.json"

@@ -10,27 +10,17 @@ from vibroimpact_pipeline.config import ConfigError, checked, read
 
 BAD = {
     "a key given twice": ("system:\n  kappa: 0.65\n  kappa: 0.7\n", "line 3, column 3"),
-    "a key given twice in a list": ("a: [{b: 1, b: 1}]\n", "line 1, column 12"),
     "a text without end": ('system: "\n', "line 2, column 1"),
-    "a tab": ("system:\n\tkappa: 0.7\n", "line 2, column 1"),
     "a list as key": ("cases: {[a, b]: {}}\n", "line 1, column 9"),
     "a program": ("a: !!python/object/apply:os.system [echo]\n", "line 1, column 4"),
-    "no date": ("a: 2001-99-99\n", ""),
     "an endless number": (f"a: {'9' * 5000}\n", ""),
     "a number beyond floats": (f"a: 1{':01' * 900}.5\n", ""),
-    "an octal number": (
-        "system:\n  kappa: 0200\n",
-        "line 2, column 10: 0200 means 128 in YAML; write a decimal number",
-    ),
-    "a negative octal number": ("a: [-0_17]\n", "line 1, column 5: -0_17 means -15 in YAML"),
-    "a number to base 60": ("a: {cycles: 3:20}\n", "line 1, column 13: 3:20 means 200 in YAML"),
+    "an octal number": ("a: -0200\n", "line 1, column 4: -0200 means -128 in YAML; write a decimal number"),
     "a fraction to base 60": ("a: 1:30.5\n", "line 1, column 4: 1:30.5 means 90.5 in YAML"),
     "a zero byte": ("a: 1\0\n", ""),
     "deep nesting": (f"a: {'[' * 4000}\n", "maximum recursion depth"),
     "a list": ("- 1\n", "[1] should be a mapping"),
-    "nothing": ("", "null should be a mapping"),
     "too much": ("# \n" * 40_000, "file is larger than 100000 bytes"),
-    "no text": (b"system: \xff\n", ""),
     "other text": (TEXT.encode("utf-16"), ""),
 }
 UNFIT = {
@@ -77,11 +67,11 @@ def test_a_file_that_cannot_be_opened_is_refused_in_a_line(name, tmp_path):
         read(tmp_path / name)
 
 
-def test_numbers_are_read_as_they_are_written(tmp_path):
-    """Numbers that YAML 1.1 would read differently may be quoted texts, which must be valid numbers."""
+def test_numbers_and_keys_are_read_as_they_are_written(tmp_path):
+    """Numbers that YAML 1.1 would read differently may be quoted texts; a key that is a word for false is a text."""
     numbers = {"0": 0, "-7": -7, "1_000": 1000, "0.25": 0.25, "1.0e-3": 0.001, "0x10": 16, "'0200'": "0200"}
-    (tmp_path / "config.yaml").write_text(f"a: [{', '.join(numbers)}]\n")
-    assert read(tmp_path / "config.yaml") == {"a": [*numbers.values()]}
+    (tmp_path / "config.yaml").write_text(f"no: [{', '.join(numbers)}]\n")
+    assert read(tmp_path / "config.yaml") == {"no": [*numbers.values()]}
 
 
 @pytest.mark.parametrize("change", [lambda text: "\ufeff" + text, lambda text: text.replace("\n", "\r\n")])

@@ -1,11 +1,14 @@
 """Test that the schema of each config file matches its model, and that validation by Snakemake and model agree."""
 
+import re
+
 import pytest
 import yaml
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import validate
 
 from configs import GOOD, TABLE, TEXT, UNUSUAL, edited
+from pipeline_trees import ROOT
 from schemas import check_of, refused_by_both
 from vibroimpact.system.chapter import CASES
 from vibroimpact_pipeline.cases import CHAPTER
@@ -28,6 +31,12 @@ def nodes(node):
 @pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.parent.name)
 def test_it_is_up_to_date(target):
     assert target.read_text(encoding="utf-8") == schema(TARGETS[target]), "python -m vibroimpact_pipeline.config.schema"
+
+
+def test_the_editor_is_told_of_the_schema_of_each_file():
+    folder = ROOT / "config"
+    told = [re.match("# yaml-language-server: [$]schema=(.*)", path.read_text())[1] for path in folder.glob("*.yaml")]
+    assert {(folder / name).resolve() for name in told} == {*TARGETS}
 
 
 @pytest.mark.parametrize("model", TARGETS.values())

@@ -3,7 +3,6 @@
 import os
 import re
 import shutil
-from pathlib import Path
 
 import pytest
 
@@ -11,7 +10,7 @@ from archives import commit
 from archives import git as run_git
 from pipeline_trees import ROOT
 from vibroimpact_pipeline import archive
-from vibroimpact_pipeline.git import GitRefused, call, changes, committed, git, origin
+from vibroimpact_pipeline.git import GitRefused, changes, committed, git, origin
 
 SETTINGS = """
 [core]
@@ -60,7 +59,7 @@ def repository(tmp_path):
 
 @pytest.fixture
 def settings_of_a_user(tmp_path, monkeypatch):
-    """Set options that change the output and files of git, and variables that select another repository."""
+    """Return a function that sets options which change the output of git, and variables for another repository."""
     home, other = tmp_path / "home", tmp_path / "other"
     for folder in (home, other):
         folder.mkdir()
@@ -71,19 +70,12 @@ def settings_of_a_user(tmp_path, monkeypatch):
     (home / "monitor").chmod(0o755)
     (other / "file").touch()
     commit(other)
-
-    def apply():
-        monkeypatch.setenv("HOME", str(home))
-        monkeypatch.setenv("GIT_DIR", str(other / ".git"))
-        monkeypatch.setenv("GIT_WORK_TREE", str(other))
-        monkeypatch.setenv("GIT_INDEX_FILE", str(other / ".git/index"))
-        monkeypatch.setenv("GIT_CONFIG_COUNT", "1")
-        monkeypatch.setenv("GIT_CONFIG_KEY_0", "core.autocrlf")
-        monkeypatch.setenv("GIT_CONFIG_VALUE_0", "true")
-        monkeypatch.setenv("TAR_OPTIONS", "--exclude=Makefile")
-
-    apply.home = home
-    return apply
+    variables = {
+        "HOME": home, "GIT_DIR": other / ".git", "GIT_WORK_TREE": other, "GIT_INDEX_FILE": other / ".git/index",
+        "GIT_CONFIG_COUNT": 1, "GIT_CONFIG_KEY_0": "core.autocrlf", "GIT_CONFIG_VALUE_0": "true",
+        "TAR_OPTIONS": "--exclude=Makefile",
+    }  # fmt: skip
+    return lambda: [monkeypatch.setenv(name, str(value)) for name, value in variables.items()]
 
 
 def answers(root):
@@ -100,7 +92,7 @@ def test_settings_of_the_user_change_no_answer_and_no_byte_of_an_archive(reposit
     archive.write(repository, [], {}, packed)
     assert packed.read_bytes() == content
     assert before[1] == (before[0], "clean")
-    assert not (settings_of_a_user.home / "started").exists()
+    assert not (tmp_path / "home/started").exists()
 
 
 def test_what_is_not_committed_is_named(repository, settings_of_a_user):
@@ -120,54 +112,33 @@ def test_results_on_another_disk_are_no_change(repository, tmp_path):
     assert changes(repository) == []
 
 
-def outside(repository, monkeypatch):
-    return repository.parent
-
-
-def inside_another(repository, monkeypatch):
-    (repository / "copy").mkdir()
-    return repository / "copy"
-
-
-def without_a_program(repository, monkeypatch):
-    monkeypatch.setenv("PATH", "/nowhere")
-    return repository
-
-
-@pytest.mark.parametrize("place", [outside, inside_another, without_a_program])
+@pytest.mark.parametrize("place", ["..", "copy", "."], ids=["outside", "inside another", "without the program"])
 def test_a_copy_without_git_is_told(repository, monkeypatch, place):
-    root = place(repository, monkeypatch)
-    assert origin(root) == (None, "without git")
-    assert changes(root) is None
+    (repository / "copy").mkdir()
+    if place == ".":
+        monkeypatch.setenv("PATH", "/nowhere")
+    assert origin(repository / place) == (None, "without git")
+    assert changes(repository / place) is None
     with pytest.raises(ValueError, match="not a git checkout"):
-        committed(root)
+        committed(repository / place)
 
 
-@pytest.fixture
-def of_another_owner(repository, tmp_path, monkeypatch):
-    """Return a checkout that seems to belong to another user; git refuses it with its own message."""
-    program = tmp_path / "bin/git"
+def test_a_refusal_is_told_in_one_line_with_what_allows_it(repository, tmp_path, monkeypatch, capsys):
+    """The checkout seems to belong to another user; git refuses it with its own message."""
+    program, home = tmp_path / "bin/git", tmp_path / "home"
     program.parent.mkdir()
     program.write_text(f'#!/bin/sh\nGIT_TEST_ASSUME_DIFFERENT_OWNER=1 exec {shutil.which("git")} "$@"\n')
     program.chmod(0o755)
-    monkeypatch.setenv("PATH", f"{program.parent}:{os.environ['PATH']}")
-    monkeypatch.setenv("HOME", str(tmp_path / "home"))
-    monkeypatch.setenv("LANGUAGE", "de")
-    return repository
-
-
-def test_a_refusal_is_told_in_one_line_with_what_allows_it(of_another_owner, tmp_path, capsys):
-    allow = f"git config --global --add safe.directory {of_another_owner}"
-    for ask in (committed, changes, lambda root: git("rev-parse", "HEAD", root=root)):
-        with pytest.raises(GitRefused, match=f"^git failed: fatal: .*{re.escape(str(of_another_owner))}.*") as refused:
-            ask(of_another_owner)
-        assert str(refused.value).endswith(allow)
-        assert "\n" not in str(refused.value)
-    assert origin(of_another_owner) == (None, "refused by git")
+    for name, value in {"PATH": f"{program.parent}:{os.environ['PATH']}", "HOME": str(home), "LANGUAGE": "de"}.items():
+        monkeypatch.setenv(name, value)
+    allow = f"git config --global --add safe.directory {repository}"
+    with pytest.raises(GitRefused, match=f"^git failed: fatal: .*{re.escape(str(repository))}.*{re.escape(allow)}$"):
+        committed(repository)
+    assert origin(repository) == (None, "refused by git")
     assert allow in capsys.readouterr().err
-    (tmp_path / "home").mkdir()
-    (tmp_path / "home/.gitconfig").write_text(f"[safe]\n    directory = {of_another_owner}\n")
-    assert origin(of_another_owner)[1] == "clean"
+    home.mkdir()
+    (home / ".gitconfig").write_text(f"[safe]\n    directory = {repository}\n")
+    assert origin(repository)[1] == "clean"
 
 
 def test_a_clone_has_the_same_bytes_whatever_is_set_for_line_ends(tmp_path):
@@ -184,24 +155,7 @@ def test_a_clone_has_the_same_bytes_whatever_is_set_for_line_ends(tmp_path):
     assert [name for name in [*names, "text.pdf"] if (clone / name).read_bytes() != (root / name).read_bytes()] == []
 
 
-CALLS = {"py": r"""["']git["']""", "sh": r"(^|[;&|($]|\bexec|\benv|\bthen|\bdo)[ \t]*git\b"}
-"""Patterns of direct git commands in Python and shell files."""
-
-
 def test_one_place_calls_git():
-    scripts = [ROOT / "Makefile", ROOT / "Dockerfile", ROOT / ".ci/run", *(ROOT / "workflow").glob("*.sh")]
-    modules = [path for top in ("src", "workflow", "tests") for path in (ROOT / top).rglob("*") if path.is_file()]
-    modules = [path for path in modules if path.suffix in (".py", ".smk") or path.name == "Snakefile"]
-    calling = [path for path in scripts if re.search(CALLS["sh"], path.read_text(), re.MULTILINE)]
-    calling += [path for path in modules if re.search(CALLS["py"], path.read_text(encoding="utf-8"))]
-    assert calling == [ROOT / "src/vibroimpact_pipeline/git.py", Path(__file__)]
-
-
-def test_a_call_has_no_variable_of_git_but_its_own(monkeypatch, tmp_path):
-    monkeypatch.setenv("GIT_DIR", "/nowhere")
-    run = call("-c", "alias.show-environment=!env", "show-environment", root=tmp_path, GIT_COMMITTER_DATE="2020-01-01")
-    told = dict(line.split("=", 1) for line in run.stdout.decode().splitlines() if line.startswith(("GIT_", "LC_ALL")))
-    assert told.keys() <= {
-        "GIT_ATTR_NOSYSTEM", "GIT_COMMITTER_DATE", "GIT_CONFIG_PARAMETERS", "GIT_EXEC_PATH", "GIT_PREFIX", "LC_ALL",
-    }  # fmt: skip
-    assert told["LC_ALL"] == "C"
+    code = [path for top in ("src", "workflow") for end in ("*.py", "*.smk") for path in (ROOT / top).rglob(end)]
+    calling = [path for path in code if re.search(r"""["']git["']""", path.read_text(encoding="utf-8"))]
+    assert calling == [ROOT / "src/vibroimpact_pipeline/git.py"]

@@ -2,14 +2,7 @@
 
 Starts are on walls or next to walls, or almost at rest. Systems are uncoupled or almost uncoupled, unforced, undamped,
 almost without rebound, stiff, or have fast or strong forcing.
-
-    .venv/bin/python tests/shared/hard_starts.py 20000 --first 0
-
-runs 20 000 examples and prints all faults, each with the number of the example.
 """
-
-import argparse
-from collections import Counter
 
 import numpy as np
 
@@ -86,16 +79,3 @@ def departures(run):
         state, tau = event["state"], event["tau"]
     left = run.tau0 + run.cycles * run.system.period - tau
     yield np.abs(flights.flow(state, walls, tau, left) - run.final).max() / size
-
-
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("number", type=int)
-    parser.add_argument("--first", type=int, default=0)
-    arguments = parser.parse_args()
-    counts = Counter()
-    for number in range(arguments.first, arguments.first + arguments.number):
-        for fault in faults(number):
-            counts[fault] += 1
-            print(number, fault, flush=True)
-    print(f"{arguments.number} starts:", dict(counts) or "no fault")

@@ -7,16 +7,8 @@ from pathlib import Path
 import axe_playwright_python
 from playwright.sync_api import sync_playwright
 
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--disable-sync",
-    "--disable-dev-shm-usage",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--no-first-run",
-]
+FLAGS = ["no-sandbox", "disable-gpu", "disable-quic", "disable-sync", "disable-dev-shm-usage", "no-first-run"]
+FLAGS += ["disable-background-networking", "disable-component-update"]
 TROUBLE = ("error", "warning", "assert")
 """Types of console messages that a page must not cause."""
 AXE = Path(axe_playwright_python.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
@@ -35,7 +27,7 @@ class Browser:
     def __init__(self, path: str):
         self.problems, self.requests = [], []
         self._playwright = sync_playwright().start()
-        self._browser = self._playwright.chromium.launch(executable_path=path, args=FLAGS)
+        self._browser = self._playwright.chromium.launch(executable_path=path, args=[f"--{flag}" for flag in FLAGS])
         self.page = self._browser.new_page()
         self.page.on("request", lambda request: self.requests.append(request.url))
         self.page.on("requestfailed", lambda request: self.problems.append(f"request failed: {request.failure}"))
@@ -46,27 +38,21 @@ class Browser:
         self._browser.close()
         self._playwright.stop()
 
-    def open(self, url: str, width: int = 1200, height: int = 900):
-        """Open a page in a window of the given size, and wait until the page is loaded and drawn."""
-        self.page.set_viewport_size({"width": width, "height": height})
+    def open(self, url: str, width: int = 1200):
+        """Open a page in a window of the given width, and wait until the page is loaded and drawn."""
+        self.page.set_viewport_size({"width": width, "height": 900})
         self.problems.clear()
         self.requests.clear()
         self.page.goto(url)
         self.run(TWO_FRAMES)
 
-    def resize(self, width: int, height: int = 900):
+    def resize(self, width: int):
         """Resize the window, and wait until the page is redrawn."""
-        self.page.set_viewport_size({"width": width, "height": height})
+        self.page.set_viewport_size({"width": width, "height": 900})
         self.run(TWO_FRAMES)
 
     def run(self, expression: str):
-        """Return the value of a JavaScript expression on the page; a promise is awaited.
-
-        Raises
-        ------
-        playwright.sync_api.Error
-            If the expression throws an error.
-        """
+        """Return the value of a JavaScript expression on the page; a promise is awaited, an error is raised."""
         return self.page.evaluate(expression)
 
     def barriers(self, **options) -> list[tuple[str, str]]:
@@ -74,17 +60,12 @@ class Browser:
         self.run(AXE)
         options = json.dumps({"resultTypes": ["violations"], **options})
         found = self.run(f"axe.run({options}).then(result => result.violations)")
-        return [
-            (rule["id"], str(node["target"]))
-            for rule in found
-            if rule["impact"] in ("serious", "critical")
-            for node in rule["nodes"]
-        ]
+        grave = [rule for rule in found if rule["impact"] in ("serious", "critical")]
+        return [(rule["id"], str(node["target"])) for rule in grave for node in rule["nodes"]]
 
-    def press(self, key: str, times: int = 1):
+    def press(self, key: str):
         """Press a key in the focused element."""
-        for _ in range(times):
-            self.page.keyboard.press(key)
+        self.page.keyboard.press(key)
 
     def _note(self, message):
         if message.type in TROUBLE:

@@ -6,7 +6,7 @@ import signal
 import socket
 import subprocess
 import time
-from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 DAEMONS = "munged", "slurmctld", "slurmd"
@@ -51,33 +51,20 @@ def missing() -> list[str]:
     return rights + [command for command in (*DAEMONS, *COMMANDS, "mungekey") if not shutil.which(command)]
 
 
-def until(true: Callable[[], object], what: str):
-    """Wait until a condition is true, which takes at most minutes on any machine."""
-    end = time.monotonic() + PATIENCE
-    while not (found := true()):
-        assert time.monotonic() < end, f"waited {PATIENCE} s for {what}"
-        time.sleep(0.1)
-    return found
-
-
 class Slurm:
     """Daemons of Slurm, and its commands."""
 
     def __init__(self, folder: Path):
-        self.folder = folder
-        self.bin = folder / "bin"
-        self.config = folder / "slurm.conf"
+        self.folder, self.bin, self.config = folder, folder / "bin", folder / "slurm.conf"
         for made in (self.bin, folder / "spool", folder / "state"):
             made.mkdir(parents=True)
-        controller_port, node_port = free_ports(2)
-        self.config.write_text(
-            CONFIG.format(
-                folder=folder,
-                host=socket.gethostname().split(".")[0],
-                controller_port=controller_port,
-                node_port=node_port,
-            )
-        )
+        free = [socket.create_server(("127.0.0.1", 0)) for _ in range(2)]
+        controller_port, node_port = (one.getsockname()[1] for one in free)
+        for one in free:
+            one.close()
+        host = socket.gethostname().split(".")[0]
+        ports = {"controller_port": controller_port, "node_port": node_port}
+        self.config.write_text(CONFIG.format(folder=folder, host=host, **ports))
         for command in COMMANDS:  # the plugin of Snakemake drops SLURM_CONF from the environment of its jobs
             path = self.bin / command
             path.write_text(f'#!/bin/sh\nSLURM_CONF={self.config} exec {shutil.which(command)} "$@"\n')
@@ -91,60 +78,30 @@ class Slurm:
         files = {"key-file": key} | {name: self.folder / f"munge.{name}" for name in ("socket", "pid-file", "log-file")}
         seed = f"--seed-file={self.folder / 'munge.seed'}"
         run("munged", "--force", seed, *(f"--{option}={path}" for option, path in files.items()))
-        self.start_controller()
-        run("slurmd", "-f", self.config)
-        until(lambda: self("sinfo", "--noheader", "--format=%T") == "idle", "the node")
-
-    def start_controller(self) -> None:
         run("slurmctld", "-f", self.config)
-        until(lambda: "UP" in self("scontrol", "ping"), "the scheduler")
+        self.until("UP", "scontrol", "ping")
+        run("slurmd", "-f", self.config)
+        self.until("idle", "sinfo", "--noheader", "--format=%T")
 
-    def stop_controller(self) -> None:
-        end(self.folder / "slurmctld.pid")
+    def until(self, answer: str, *command) -> None:
+        """Wait until a Slurm command gives an answer, which takes at most minutes on any machine."""
+        end = time.monotonic() + PATIENCE
+        while answer not in self(*command).split():
+            assert time.monotonic() < end, f"waited {PATIENCE} s for {answer} of {' '.join(command)}"
+            time.sleep(0.1)
 
     def stop(self) -> None:
-        """End all daemons and all jobs in any state."""
+        """Kill all jobs in any state, and all daemons."""
         self("scancel", "--full", "--signal=KILL", "--user=root")
         for name in ("slurmd.pid", "slurmctld.pid", "munge.pid-file"):
-            end(self.folder / name)
+            with suppress(OSError, ValueError):  # it has not started, or has ended
+                os.kill(int((self.folder / name).read_text()), signal.SIGKILL)
 
     def __call__(self, *command) -> str:
         """Return the output of a Slurm command, or an empty text if the command fails."""
-        said = subprocess.run(
-            [self.bin / command[0], *command[1:]], capture_output=True, text=True, check=False, timeout=PATIENCE
-        )
-        return said.stdout.strip()
-
-    def running(self) -> list[str]:
-        """Return the numbers of running jobs; each task of an array has its own number."""
-        return self("squeue", "--noheader", "--array", "--states=RUNNING", "--format=%i").split()
+        command = [self.bin / command[0], *command[1:]]
+        return subprocess.run(command, capture_output=True, text=True, check=False, timeout=PATIENCE).stdout.strip()
 
 
 def run(*command):
     subprocess.run([*map(str, command)], check=True, timeout=PATIENCE, stdin=subprocess.DEVNULL)
-
-
-def end(pid_file):
-    """End the process of a pid file if it is alive, and kill it if it does not end."""
-    if not pid_file.exists() or not (text := pid_file.read_text().strip()):
-        return
-    pid = int(text)
-    for patience, sent in ((30, signal.SIGTERM), (30, signal.SIGKILL)):
-        give_up = time.monotonic() + patience
-        while time.monotonic() < give_up:
-            try:
-                os.kill(pid, sent)
-            except ProcessLookupError:
-                return
-            time.sleep(0.2)
-
-
-def free_ports(count: int) -> list[int]:
-    """Return ports on which no process listens."""
-    sockets = [socket.socket() for _ in range(count)]
-    for each in sockets:
-        each.bind(("127.0.0.1", 0))
-    ports = [each.getsockname()[1] for each in sockets]
-    for each in sockets:
-        each.close()
-    return ports

@@ -8,13 +8,7 @@ from pipeline_trees import Tree
 
 SIMULATION = {"initial_state": [0.0] * 8, "transient_cycles": 300, "window_cycles": 6, "samples_per_cycle": 64}
 OWN_FIGURES = {
-    "strong_response": {
-        "like": "fig10_07",
-        "model": "slow_flow",
-        "case": "strong",
-        "fixed_point": "b",
-        "periods": 3,
-    },
+    "strong_response": {"like": "fig10_07", "model": "slow_flow", "case": "strong", "fixed_point": "b", "periods": 3},
     "strong_motion": {"like": "fig10_08", "model": "float64", "case": "strong"},
     "still_planes": {"like": "fig10_06", "model": "slow_flow", "case": "still", "C_max": [2.5, 3.5]},
     "still_motion": {"like": "fig10_08", "model": "float64", "case": "still"},

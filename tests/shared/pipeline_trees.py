@@ -3,6 +3,7 @@
 import fcntl
 import multiprocessing
 import os
+import re
 import runpy
 import shutil
 import subprocess
@@ -14,19 +15,8 @@ from pathlib import Path
 from compiled_code import share
 
 ROOT = Path(__file__).parents[2]
-NOT_COPIED = shutil.ignore_patterns(
-    ".git",
-    ".venv",
-    ".cache",
-    ".snakemake",
-    "results",
-    "tries",
-    ".*_cache",
-    ".hypothesis",
-    "*.egg-info",
-    "tests",
-    "__pycache__",
-)
+HIDDEN = [".git", ".venv", ".cache", ".snakemake", ".*_cache", ".hypothesis"]
+NOT_COPIED = shutil.ignore_patterns(*HIDDEN, "results", "tries", "*.egg-info", "tests", "__pycache__")
 CORES = ["--cores", "2"]
 SNAKEMAKE = [str(Path(sys.executable).with_name("snakemake")), *CORES]
 FORKS = multiprocessing.get_context("forkserver")
@@ -74,11 +64,7 @@ class Tree:
         """Return the rules that a build would run, without targets that only collect files."""
         output = self.dry_run(*arguments, "--quiet", "host")
         assert self.returncode == 0, output
-        rules = {
-            line.split()[1].rstrip(":")
-            for line in output.splitlines()
-            if line.startswith(("rule ", "localrule ", "checkpoint "))
-        }
+        rules = set(re.findall(r"^(?:local)?(?:rule|checkpoint) (\w+)", output, re.MULTILINE))
         return rules - {"all", "figures", "stability", "companions", "accuracy", "sweeps", "studies"}
 
     def edit(self, name, old, new):
@@ -97,11 +83,9 @@ def copied(source: Path, path: Path) -> Tree:
 def with_results(source: Path, path: Path) -> Tree:
     """Copy a tree with its results and their records, so that a build in the copy makes only the rest."""
     tree = copied(source, path)
-    if (source / "results").exists():
-        shutil.copytree(source / "results", path / "results", symlinks=True)
-    for known in (".snakemake/metadata", ".snakemake/sums"):
-        if (source / known).exists():
-            shutil.copytree(source / known, path / known)
+    for made in ("results", ".snakemake/metadata", ".snakemake/sums"):
+        if (source / made).exists():
+            shutil.copytree(source / made, path / made, symlinks=True)
     return tree
 
 

@@ -30,13 +30,6 @@ def published(name):
     return read(FOLDERS[name] / f"{name}.csv"), COLUMNS[name]
 
 
-def differs(name, change):
-    """Return True if the check detects the change of a published table, after a check of the unchanged table."""
-    old, columns = published(name)
-    assert table_differences(old, old.copy(), columns)[0] == []
-    return table_differences(old, change(old.copy()), columns)[0] != []
-
-
 def by_kind(name):
     """Yield (column, kind, rows that are not blank) for each column and kind in a published table."""
     table, columns = published(name)
@@ -52,34 +45,21 @@ def by_kind(name):
                 yield column, kind, rows
 
 
-def numbers(name):
-    """Yield (column, rows) for the numbers in a published table that do not depend on rounding."""
-    for column, kind, rows in by_kind(name):
-        if kind not in DECIDED_BY_ROUNDING and "rows" not in KINDS[kind]["limits"]:
-            yield column, rows
-
-
 def unnoticed(name, without=()):
-    """Return (column, row) of numbers that may be wrong by 1 %; in each column, largest and middle number are tried."""
+    """Return (column, row) of numbers that may be wrong by 1 %; in each column, largest and middle number are tried.
+
+    Numbers that depend on rounding are left out.
+    """
     old, columns = published(name)
     assert table_differences(old, old.copy(), columns)[0] == []
     found = []
-    for column, rows in numbers(name):
+    for column, kind, rows in by_kind(name):
+        if kind in DECIDED_BY_ROUNDING or "rows" in KINDS[kind]["limits"] or column in without:
+            continue
         sizes = old.loc[rows, column].abs().replace([0, np.inf], np.nan).dropna().sort_values()
-        for row in {sizes.index[-1], sizes.index[len(sizes) // 2]} if len(sizes) and column not in without else ():
+        for row in {sizes.index[-1], sizes.index[len(sizes) // 2]} if len(sizes) else ():
             new = old.astype({column: float})
             new.loc[row, column] *= 1.01
             if table_differences(old, new, columns)[0] == []:
                 found.append((column, row))
     return found
-
-
-def kinds_used() -> set[str]:
-    """Return the kinds of numbers that SPECs name in `compared`."""
-    used = set()
-    for spec in specs().values():
-        for table in spec["tables"].values():
-            for column in each(table["columns"]).values():
-                kinds = column.get("compared", ())
-                used |= set(kinds.values()) if isinstance(kinds, dict) else {kinds} if kinds else set()
-    return used

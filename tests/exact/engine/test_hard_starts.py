@@ -1,7 +1,4 @@
-"""Every admissible start finishes with the motion of the reference; what cannot finish is given up in words.
-
-`python tests/shared/hard_starts.py 20000` draws more of the random starts.
-"""
+"""Every admissible start finishes with the motion of the reference; what cannot finish is given up in words."""
 
 import subprocess
 import sys

@@ -10,7 +10,7 @@ from vibroimpact import tables
 from vibroimpact.figures.plotting import style
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.accept import HEADING, main
-from vibroimpact_pipeline.figure_check.check import SUMS
+from vibroimpact_pipeline.figure_check.check import SUMS, check
 
 
 @pytest.fixture
@@ -95,17 +95,9 @@ def test_a_new_figure_brings_its_tables_and_is_recorded_as_new(tree, run):
 
 
 def test_a_figure_that_is_no_longer_made_leaves_the_set(tree, run):
-    verdict = {
-        "figure": "fig10_11",
-        "stem": "results/figures/fig10_11",
-        "module": None,
-        "files": {},
-        "status": "failed",
-        "tables": [],
-    }
-    folder = tree.build / "results/figure_check"
     run("fig10_06", "--reason", "first")
-    (folder / "figure_check.json").write_text(json.dumps([verdict | {"reasons": ["not built"]}]))
+    verdict = check("fig10_11", None, tree.reference, tree.build)
+    (tree.build / "results/figure_check/figure_check.json").write_text(json.dumps([verdict]))
     assert main(["--reason", "dropped", "--build", str(tree.build), "--reference", str(tree.reference)]) == 0
     assert not list(tree.reference.glob("fig10_11*"))
     assert "fig10_11" not in json.loads((tree.reference / SUMS).read_text())

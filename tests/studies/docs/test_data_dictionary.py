@@ -2,38 +2,65 @@
 
 import json
 
+import pandas as pd
 import pytest
 
-import described_data
-from described_data import DATA, FILES
-from vibroimpact_pipeline.data_dictionary import stands_for
+from pipeline_trees import ROOT
+from vibroimpact_pipeline.data_dictionary import files, read, stands_for
 from vibroimpact_pipeline.specs import each
 
+SPECS, DATA = read(ROOT)
+FILES = files(SPECS, DATA)
 PATHS = [path for file in FILES for path in file.paths if path not in file.on_demand]
+SEPARATORS = {".csv": ",", ".tsv": "\t"}
 
 
 @pytest.fixture(scope="module")
 def made(studied):
-    return described_data.made_by(studied)
+    """Return the data files of a build, without copies in the report, by path relative to the checkout."""
+    data = [path for path in (studied / "results").rglob("*") if path.suffix in (*SEPARATORS, ".json")]
+    named = {str(path.relative_to(studied.path)): path for path in sorted(data)}
+    return {name: path for name, path in named.items() if not name.startswith("results/report/")}
+
+
+@pytest.fixture(scope="module")
+def tables(made):
+    """Return each table, as texts, with its description by its path."""
+    found = {}
+    for name, path in made.items():
+        if path.suffix in SEPARATORS:
+            table = pd.read_csv(path, sep=SEPARATORS[path.suffix], dtype=str, keep_default_na=False)
+            found[name] = table, next(file for file in FILES if file.has(name))
+    return found
 
 
 def test_every_file_of_a_build_is_in_the_dictionary_once_and_no_other(made):
     assert len(made) > 100
-    assert described_data.not_once(made) == {}
+    assert [name for name in made if sum(file.has(name) for file in FILES) != 1] == []
     assert [path for path in PATHS if not any(stands_for(path, name) for name in made)] == []
 
 
-def test_every_column_is_in_the_dictionary_in_its_place_and_no_other(made):
-    found, said = described_data.columns(made)
-    assert len(found) > 50
-    assert found == said
+def test_every_column_is_in_the_dictionary_in_its_place_and_no_other(tables):
+    assert len(tables) > 50
+    for name, (table, file) in tables.items():
+        # Columns of a sweep depend on its observations.
+        said = [column for column in file.columns if column in table or not name.startswith("results/sweeps/")]
+        assert said == list(table), name
 
 
-def test_columns_hold_the_values_and_units_that_the_dictionary_says(made):
-    number, others = described_data.other_values(made)
-    assert others == {}
-    assert number > 20
-    assert described_data.of_another_unit(made) == []
+def test_columns_hold_the_values_and_units_that_the_dictionary_says(tables):
+    listed = set()
+    for name, (table, file) in tables.items():
+        for column in table:
+            entry, cells = file.columns[column], table.loc[~table[column].isin(["", "-", "NA"]), column]
+            if entry.get("values"):
+                listed.add((file.paths[0], column))
+                assert set(table[column]) <= {*entry["values"], ""}, (name, column)
+            if entry["unit"] == "true or false":
+                assert set(cells) <= {"True", "False"}, (name, column)
+            elif entry["unit"] != "text":
+                pd.to_numeric(cells)
+    assert len(listed) > 20
 
 
 def test_every_shared_name_and_unit_is_used():
@@ -46,14 +73,11 @@ def at(node, path) -> list:
     """What a path of keys leads to; * stands for every entry."""
     nodes = [node]
     for key in path:
-        nodes = [inner for outer in nodes for inner in entries(outer, key)]
+        if key == "*":
+            nodes = [inner for outer in nodes for inner in (outer if isinstance(outer, list) else outer.values())]
+        else:
+            nodes = [outer[key] for outer in nodes if key in outer]
     return nodes
-
-
-def entries(node, key):
-    if key == "*":
-        return node if isinstance(node, list) else list(node.values())
-    return [node[key]] if key in node else []
 
 
 @pytest.mark.parametrize(

@@ -7,20 +7,14 @@ import pandas as pd
 import pytest
 
 from chapter import FORCES, PARAMETERS
-from configs import edited
+from configs import SOFT, edited
 from vibroimpact import System, fixed_points
 from vibroimpact.studies.figures import companion_regime_map
 from vibroimpact_pipeline.config import checked
 from vibroimpact_pipeline.specs import case_parameters
 from vibroimpact_pipeline.studies.report.live import live_data
 
-CONFIG = checked(
-    edited(
-        "cases.soft = {f10_hat: 1, f20_hat: 0.9, kappa: 0.5, epsilon: 0.05, "
-        "simulation: {initial_state: [0, 0, 0, 0, 0, 0, 0, 0], transient_cycles: 9, window_cycles: 6, "
-        "samples_per_cycle: 8}}"
-    )
-)
+CONFIG = checked(edited(SOFT))
 SYSTEMS = {case: System(**case_parameters(CONFIG, case)) for case in CONFIG["cases"]}
 
 

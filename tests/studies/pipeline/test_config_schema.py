@@ -1,28 +1,17 @@
 """The schema of studies.yaml agrees with its model; entries of the studies take the default case as others do."""
 
 import pytest
-import yaml
-from snakemake.exceptions import WorkflowError
-from snakemake.utils import validate
 
 from schemas import check_of, refused_by_both
-from studies.configs import FILE, TABLE, UNUSUAL, edited
+from studies.configs import TABLE, UNUSUAL, edited
 from vibroimpact_pipeline.config import checked
 from vibroimpact_pipeline.config.model import Config
-from vibroimpact_pipeline.config.schema import TARGETS
 from vibroimpact_pipeline.studies.config.model import Studies
 
 
 def of_file(config):
     """The sections of studies.yaml, and what no file has."""
     return {name: section for name, section in config.items() if name not in Config.model_fields}
-
-
-def test_snakemake_accepts_the_config_with_it():
-    (target,) = (path for path, model in TARGETS.items() if model is Studies)
-    validate(yaml.safe_load(FILE.read_text(encoding="utf-8")), str(target))
-    with pytest.raises(WorkflowError):
-        validate(of_file(edited("regimes.observation.nearness = 5")), str(target))
 
 
 @pytest.mark.parametrize("edits", UNUSUAL)

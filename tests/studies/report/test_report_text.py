@@ -99,8 +99,7 @@ def test_values_are_found_by_their_places(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("figure", "found"),
-    [("fig10_01", []), ("fig10_06", ["0", "1"]), ("fig10_10", ["2"]), ("fig10_11", ["2", "3"])],
+    ("figure", "found"), [("fig10_01", []), ("fig10_06", ["0", "1"]), ("fig10_10", ["2"]), ("fig10_11", ["2", "3"])]
 )
 def test_claims_are_found_by_the_figure_they_name(tmp_path, figure, found):
     places = ("Fig. 10.6", "figures 10.6 and 10.9", "Figs. 10.10 and 10.11", "figure 10.11", "(10.6)")
