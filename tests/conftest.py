@@ -47,6 +47,19 @@ def alone(built, tmp_path_factory) -> Tree:
     return made_once(tmp_path_factory, "alone", lambda path: without_studies(whole_copy(built, path)))
 
 
+@pytest.fixture(scope="module")
+def browser():
+    """For a module, no longer: while it runs, nobody else in this process can run an event loop, as notebooks do."""
+    from headless_browser import Browser, executable
+
+    path = executable()
+    if path is None:
+        pytest.skip("no page was opened in a browser: there is no Chromium here (Debian: apt install chromium)")
+    browser = Browser(path)
+    yield browser
+    browser.close()
+
+
 @pytest.fixture
 def tree(tmp_path) -> Tree:
     """The project before a build, which a test may change."""

@@ -7,7 +7,6 @@ import pandas as pd
 import pytest
 from IPython.display import Markdown
 
-from headless_browser import Browser, executable
 from hostile import HOSTILE, RUN, STATEMENT, TEXTS, Markup, assert_nothing_is_live
 from vibroimpact.figures.plotting.markdown import code, one_line, plain
 from vibroimpact_pipeline.figure_check.page import page as check_page
@@ -54,16 +53,6 @@ def test_any_text_is_shown_by_a_notebook_as_it_is(written):
 def test_a_page_without_a_head_gets_no_policy_and_is_refused():
     with pytest.raises(ValueError, match="head"):
         guarded("<p>text</p>")
-
-
-@pytest.fixture(scope="module")
-def browser():
-    path = executable()
-    if path is None:
-        pytest.skip("no page was opened in a browser: there is no Chromium here (Debian: apt install chromium)")
-    browser = Browser(path)
-    yield browser
-    browser.close()
 
 
 ATTACKS = [

@@ -1,5 +1,6 @@
 """Random systems and starts that try to break the error estimates of runs, and an observer with independent code."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -337,23 +338,15 @@ def _of_a_sweep(rng, count):
     return [systems[n // 2] for n in range(count)], [random_start(rng) for _ in range(count)], 8, 0.3
 
 
-def _admissible(make):
-    """Call `make` until it returns a valid system."""
-    while True:
-        try:
-            return make()
-        except ValueError:
-            continue
+def _each(make, cycles):
+    def draw(rng, count):
+        found = []
+        while len(found) < count:
+            with suppress(ValueError):  # not every system that is made is valid
+                found.append(make(rng))
+        return [one.system for one in found], [one.start for one in found], cycles, 0.0
 
-
-def _stiff(rng, count):
-    drawn = [_admissible(lambda: bred(rng.uniform(0, 1, GENES))[0]) for _ in range(count)]
-    return [one.system for one in drawn], [one.start for one in drawn], 3, 0.0
-
-
-def _fast(rng, count):
-    drawn = [_admissible(lambda: fast_attack(rng)) for _ in range(count)]
-    return [one.system for one in drawn], [one.start for one in drawn], 1, 0.0
+    return draw
 
 
 def _hostile(rng, count):
@@ -361,26 +354,24 @@ def _hostile(rng, count):
     return systems, states, 1, float(rng.choice([0.0, 0.7]))
 
 
-def _grazing(rng, count):
-    """Return starts from which a ball turns at a distance of about 1e-13 before or behind a wall."""
-    systems, states = [], []
-    while len(states) < count:
-        system = random_system(rng)
-        base, distance = vi.simulate(system, random_start(rng), 1), rng.choice([-1, 1]) * 10 ** rng.uniform(-15, -12)
-        if found := _graze(rng, base, distance, begin=0.0):
-            systems.append(system)
-            states.append(found[0])
-    return systems, states, 1, 0.0
+def _grazing(rng):
+    """Return a start from which a ball turns at a distance of about 1e-13 before or behind a wall."""
+    system = random_system(rng)
+    base, distance = vi.simulate(system, random_start(rng), 1), rng.choice([-1, 1]) * 10 ** rng.uniform(-15, -12)
+    found = _graze(rng, base, distance, begin=0.0)
+    if found is None:
+        raise ValueError("the ball would start outside of its walls")
+    return Attack("grazing", system, *found)
 
 
 ensembles = {
     **{name: _of_case(name) for name in FORCES},
     "settled": _near_a_settled_motion,
     "sweep": _of_a_sweep,
-    "stiff": _stiff,
-    "fast": _fast,
+    "stiff": _each(lambda rng: bred(rng.uniform(0, 1, GENES))[0], 3),
+    "fast": _each(fast_attack, 1),
     "hostile": _hostile,
-    "grazing": _grazing,
+    "grazing": _each(_grazing, 1),
 }
 """For each kind of scene, a function of a random generator and a number: systems, starts, cycles and tau0 of runs."""
 

@@ -41,7 +41,8 @@ class Markup(HTMLParser):
         values = dict(attrs)
         self.elements.append((tag, values))
         self.programs += [name for name in values if name.startswith("on") or name == "srcdoc"]
-        self.links += [values[name] for name in ("href", "src", "action", "formaction", "data") if values.get(name)]
+        names = ("href", "src", "srcset", "action", "formaction", "data", "poster")
+        self.links += [values[name] for name in names if values.get(name)]
         if values.get("http-equiv") == "Content-Security-Policy":
             self.policy = values["content"]
 

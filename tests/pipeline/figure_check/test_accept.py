@@ -22,7 +22,7 @@ def run(tree, capsys):
     tree.redraw("fig10_04")
     (tree.results / "fig10_04.provenance.json").write_text(json.dumps({"commit": "0123456789abcdef", "tree": "clean"}))
 
-    def run(*arguments, figures=("fig10_04", "fig10_06")):
+    def run(*arguments, figures=("fig10_04", "fig10_02")):
         folder = tree.build / "results/figure_check"
         folder.mkdir(exist_ok=True)
         (folder / "figure_check.json").write_text(json.dumps([tree.verdict(figure) for figure in figures]))
@@ -47,7 +47,7 @@ def test_a_change_is_shown_recorded_and_then_agrees(tree, run):
     status, said = run("--reason", "another\n scale")
     assert status == 0
     assert "fig10_04: failed: fig10_04.csv: B is off by " in said
-    assert "fig10_06" not in said
+    assert "fig10_02" not in said
     assert changed(before, tree.reference) == {"fig10_04.csv", "fig10_04.png", SUMS, "CHANGES.md"}
     text = (tree.reference / "CHANGES.md").read_text()
     assert text.startswith(HEADING)
@@ -58,16 +58,15 @@ def test_a_change_is_shown_recorded_and_then_agrees(tree, run):
     assert run("--reason", "for nothing")[1].startswith("Nothing to accept")
 
 
-@pytest.mark.parametrize("reason", ["", "  ", "\n"])
-def test_without_a_reason_nothing_is_written(tree, run, reason):
+def test_without_a_reason_nothing_is_written(tree, run):
     before = contents(tree.reference)
-    status, said = run("--reason", reason)
+    status, said = run("--reason", " \n")
     assert (status, "reason" in said, changed(before, tree.reference)) == (1, True, set())
 
 
 def test_only_named_figures_are_accepted(tree, run):
     before = contents(tree.reference)
-    assert run("fig10_06", "--reason", "why not")[0] == 0
+    assert run("fig10_02", "--reason", "why not")[0] == 0
     assert "fig10_04.csv" not in changed(before, tree.reference)
     status, said = run("fig99_99", "--reason", "no such figure")
     assert (status, "fig99_99" in said) == (1, True)
@@ -95,7 +94,7 @@ def test_a_new_figure_brings_its_tables_and_is_recorded_as_new(tree, run):
 
 
 def test_a_figure_that_is_no_longer_made_leaves_the_set(tree, run):
-    run("fig10_06", "--reason", "first")
+    run("fig10_02", "--reason", "first")
     verdict = check("fig10_11", None, tree.reference, tree.build)
     (tree.build / "results/figure_check/figure_check.json").write_text(json.dumps([verdict]))
     assert main(["--reason", "dropped", "--build", str(tree.build), "--reference", str(tree.reference)]) == 0

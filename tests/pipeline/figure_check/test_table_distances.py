@@ -86,28 +86,6 @@ def test_infinity_is_a_place_where_it_is_declared(monkeypatch):
     assert table_differences(old, old, VALUE)[0] == ["value: infinite value"]
 
 
-def test_classes_are_words_that_may_differ_and_others_may_not(monkeypatch):
-    monkeypatch.setitem(KINDS, "outcome", {"limits": {"rows": 0.3}})
-    monkeypatch.setitem(KINDS, "kind", {"limits": {"decades": 1.0}})
-    old = join([curve("a", "s", label=["one", "two", "two", "two"], value=np.arange(1.0, 5.0))])
-    new = old.assign(label=["one", "one", "two", "two"])
-    reasons, found = table_differences(old, new, VALUE | {"label": {"compared": "outcome"}})
-    assert reasons == []
-    assert [(one["reference"], one["new"]) for one in found if one["column"] == "label"] == [("two", "one")]
-    assert table_differences(old, new, VALUE)[0] == ["a, s: rows differ, 4 instead of 4"]
-
-
-def test_a_series_has_a_kind_of_its_own(monkeypatch):
-    monkeypatch.setitem(KINDS, "some", {"limits": {"middle": 1.0}})
-    monkeypatch.setitem(KINDS, "kind", {"limits": {"decades": 1.0}})
-    columns = {"value": {"compared": {"dots": "some", "others": "kind"}}}
-    old = join([curve("a", "line", value=[0.0, 1.0]), curve("a", "dots", value=[0.2, 0.4, 0.6])])
-    new = join([curve("a", "line", value=[0.0, 1.0]), curve("a", "dots", value=[0.3, 0.5, 0.6])])
-    reasons, found = table_differences(old, new, columns)
-    assert (reasons, {one["kind"]: one["distance"] == 0 for one in found}) == ([], {"kind": True, "some": False})
-    assert table_differences(old, new[new["series"] == "line"], columns)[0] == ["a, dots: rows differ, 0 instead of 3"]
-
-
 @pytest.mark.parametrize(
     ("change", "said"),
     [
@@ -159,8 +137,7 @@ def test_of_the_accuracy_charts_errors_orders_and_failures_are_compared_and_seco
         assert table_differences(old, old.assign(**{name: values}), columns)[0], name
 
 
-@pytest.mark.parametrize(("gamma1_hat", "caught"), [(0.2, False), (0.2 * 1.003, True)])
-def test_gamma1_off_by_three_per_mille_moves_figure_10_8_by_more_than_its_limit(gamma1_hat, caught):
+def test_gamma1_off_by_three_per_mille_moves_figure_10_8_by_more_than_its_limit():
     def settled(gamma1_hat):
         system = vi.System(**PARAMETERS | {"gamma1_hat": gamma1_hat}, f10_hat=1.0, f20_hat=1.0)
         tau = (1500 + np.arange(4 * 100 + 1) / 100) * system.period
@@ -169,4 +146,4 @@ def test_gamma1_off_by_three_per_mille_moves_figure_10_8_by_more_than_its_limit(
         events = curve("", "", **{name: run.events[name] for name in ("tau", "module", "wall")})
         return fig10_08.compute(system, samples, events.assign(X2=run.events["state"][:, 2]))
 
-    assert bool(table_differences(settled(0.2), settled(gamma1_hat), COLUMNS["fig10_08"])[0]) == caught
+    assert table_differences(settled(0.2), settled(0.2 * 1.003), COLUMNS["fig10_08"])[0]

@@ -4,9 +4,7 @@ from pathlib import Path
 
 import configs
 from configs import UNDAMPED, malformed
-from pipeline_trees import ROOT
 
-FILE = ROOT / "config/studies.yaml"
 MINE = (
     "sweeps.mine = {case: equal, axes: [{along: [epsilon], range: [0.05, 0.1], values: 3}, {along: [f10_hat, f20_hat], "
     "listed: [0.5, 0.8]}], observe: [amplitudes, regimes], starts: 5, seed: 1, cycles: 40, settle: 30}"

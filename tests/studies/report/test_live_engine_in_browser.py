@@ -57,22 +57,19 @@ def both(play):
 
 
 def test_final_states_and_events_are_those_of_the_library(both):
+    """Every impact has its time, place and state."""
     assert len(both) == STARTS
     for ours, theirs in both:
         np.testing.assert_allclose(theirs["final"], ours.final, rtol=0, atol=1e-6)
         kinds = [KINDS[kind] for kind in ours.events["kind"]]
         for kind in KINDS.values():
             assert [event["kind"] for event in theirs["events"]].count(kind) == kinds.count(kind)
-
-
-def test_every_impact_has_its_time_and_speed(both):
-    for ours, theirs in both:
-        ours = ours.events[ours.events["kind"] == IMPACT]
-        theirs = [event for event in theirs["events"] if event["kind"] == "impact"]
-        assert [event["module"] for event in theirs] == ours["module"].tolist()
-        assert [event["wall"] for event in theirs] == ours["wall"].tolist()
-        np.testing.assert_allclose([event["tau"] for event in theirs], ours["tau"], rtol=0, atol=1e-6)
-        np.testing.assert_allclose([event["state"] for event in theirs], ours["state"], rtol=0, atol=1e-6)
+        impacts = ours.events[ours.events["kind"] == IMPACT]
+        found = [event for event in theirs["events"] if event["kind"] == "impact"]
+        for name in ("module", "wall"):
+            assert [event[name] for event in found] == impacts[name].tolist()
+        for name in ("tau", "state"):
+            np.testing.assert_allclose([event[name] for event in found], impacts[name], rtol=0, atol=1e-6)
 
 
 def test_the_starts_have_chatter_sticking_and_release(both):

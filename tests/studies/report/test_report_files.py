@@ -4,7 +4,6 @@ import json
 import re
 import unicodedata
 from html import unescape
-from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 
 import pandas as pd
@@ -14,6 +13,7 @@ import yaml
 from fontTools.ttLib import TTFont
 
 from configs import GOOD as CONFIG
+from hostile import Markup
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.html.mathematics import FONT
@@ -25,24 +25,9 @@ PAGES = sorted(
 MEGABYTE = 1e6
 
 
-class Page(HTMLParser):
-    """The links of a page, what it loads, and its names."""
-
-    def __init__(self, path):
-        super().__init__()
-        self.links, self.names = [], []
-        self.feed(path.read_text(encoding="utf-8"))
-
-    def handle_starttag(self, tag, attrs):
-        attrs = dict(attrs)
-        self.links += [attrs[name] for name in ("href", "src", "srcset", "data", "poster") if attrs.get(name)]
-        if "id" in attrs:
-            self.names.append(attrs["id"])
-
-
 @pytest.fixture(scope="module")
 def pages(site):
-    return {path: Page(path) for path in [*site.glob("*.html"), *site.glob("api/*.html")]}
+    return {path: Markup(path.read_text(encoding="utf-8")) for path in [*site.glob("*.html"), *site.glob("api/*.html")]}
 
 
 def test_all_pages_are_there(site, pages):
@@ -50,9 +35,10 @@ def test_all_pages_are_there(site, pages):
 
 
 def test_links_are_alive_and_none_leads_outside(pages):
+    names = {path: [values["id"] for _, values in page.elements if "id" in values] for path, page in pages.items()}
     for path, page in pages.items():
         assert len(page.links) > len(PAGES)  # the navigation at least
-        assert len(page.names) == len(set(page.names))
+        assert len(names[path]) == len(set(names[path]))
         for link in page.links:
             parts = urlsplit(link)
             if parts.scheme == "data":
@@ -61,7 +47,7 @@ def test_links_are_alive_and_none_leads_outside(pages):
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             assert target.is_file(), f"{path}: {link} leads nowhere"
             if parts.fragment and target in pages:
-                assert parts.fragment in pages[target].names, f"{path}: {link} leads to no place on its page"
+                assert parts.fragment in names[target], f"{path}: {link} leads to no place on its page"
 
 
 def test_every_page_says_what_it_may_do_and_is_light(site):

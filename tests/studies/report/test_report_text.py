@@ -135,8 +135,10 @@ def test_predictions_of_the_page_play_are_saw_tooths_on_the_manifold():
     points = [(name, point.label, "S1", "unstable") for name, listed in found.items() for point in listed]
     tables = {"fixed_points.csv": pd.DataFrame(points, columns=["case", "label", "orbit", "exact"])}
     tables["orbits.csv"] = pd.DataFrame([{"case": "equal", "label": "S1", "modulus_1": 2.43617}])
-    data = live_data(SimpleNamespace(table=tables.get), {"system": PARAMETERS, "cases": cases})
-    shown = json.loads(data)["cases"]
+    other = {"soft": {"f10_hat": 1.0, "f20_hat": 0.9, "kappa": 0.5}}  # of another system, so it is not shown
+    data = json.loads(live_data(SimpleNamespace(table=tables.get), {"system": PARAMETERS, "cases": cases | other}))
+    shown = data["cases"]
+    assert (data["system"], shown.keys()) == (PARAMETERS, cases.keys())
     for name, multipliers in (("equal", ["2.44"] * 3), ("weak", [""])):
         assert [point["multiplier"] for point in shown[name]["points"]] == multipliers
     epsilon, r = PARAMETERS["epsilon"], rho(PARAMETERS["kappa"])
