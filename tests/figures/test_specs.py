@@ -1,4 +1,4 @@
-"""Rules and SPECs of figures: literals that need no library, arguments of `compute`, columns of published tables."""
+"""Rules and SPECs of figures: literals that need no library, arguments of `compute`."""
 
 import subprocess
 import sys
@@ -7,7 +7,7 @@ import papermill
 import pytest
 
 from configs import GOOD
-from loaded_rules import SPECS, assert_declared, drawn, made, published, rules, without
+from loaded_rules import SPECS, drawn, made, rules, without
 from pipeline_trees import ROOT
 from vibroimpact_pipeline.html.figure_texts import words
 from vibroimpact_pipeline.specs import spec_of
@@ -43,11 +43,6 @@ def test_the_parameters_of_a_notebook_are_those_that_rules_give(notebook, of_the
     if notebook != "closed_form":
         for names in given.values():
             assert {known[name]["default"] for name in known.keys() - names} <= {"None"}
-
-
-@pytest.mark.parametrize(("figure", "file"), published("figures"))
-def test_every_column_of_a_published_table_is_declared_and_every_declared_one_is_there(figure, file):
-    assert_declared("figures", figure, file)
 
 
 def test_the_config_of_the_chapter_makes_the_reference_set(of_the_chapter):

@@ -36,7 +36,8 @@ def by_kind(name):
     for column, entry in columns.items():
         kinds = entry.get("compared", ())
         series = kinds if isinstance(kinds, dict) else {OTHER_SERIES: kinds} if kinds else {}
-        words = table.iloc[:, :2].itertuples(index=False, name=None)
+        words = list(table.iloc[:, :2].itertuples(index=False, name=None))
+        assert {*series} - {OTHER_SERIES} <= {word for row in words for word in row}, f"{column}: an unknown series"
         own = [series.get(next((word for word in row if word in series), OTHER_SERIES)) for row in words]
         for kind in dict.fromkeys(series.values()):
             rows = table.index[[one == kind for one in own]]

@@ -1,9 +1,9 @@
-"""Rules and SPECs of the studies' figures: arguments of `compute`, columns of published tables."""
+"""Rules of the studies' figures: arguments of `compute`, what they make."""
 
 import papermill
 import pytest
 
-from loaded_rules import assert_declared, drawn, made, published, rules, without
+from loaded_rules import drawn, made, rules, without
 from pipeline_trees import ROOT
 
 REFERENCE = "figures/studies"
@@ -19,11 +19,6 @@ def test_the_parameters_of_the_notebook_are_those_that_its_rule_gives(of_the_stu
     known = papermill.inspect_notebook(str(ROOT / "notebooks/studies/physical_units.ipynb"))
     settings = dict(of_the_studies["machines"].params.settings)
     assert known.keys() == {"figure", "alt", "inputs", *settings.pop("plant"), *settings}
-
-
-@pytest.mark.parametrize(("figure", "file"), published(REFERENCE))
-def test_every_column_of_a_published_table_is_declared_and_every_declared_one_is_there(figure, file):
-    assert_declared(REFERENCE, figure, file)
 
 
 def test_the_config_makes_the_reference_set(of_the_studies):
