@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from pipeline_trees import ROOT
-from vibroimpact.tables import read
+from vibroimpact.tables import read, write
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.accept import accept
 from vibroimpact_pipeline.figure_check.check import check, compared_files
@@ -44,13 +44,21 @@ def redraw(build, figure):
 
 @pytest.fixture
 def tree(drawn, tmp_path):
-    """Copy the folder `drawn`; return reference, build, results (its pictures), verdict(figure) and redraw(figure)."""
+    """Copy the folder `drawn`; return its parts, and functions that change a table, redraw a figure and check one."""
     shutil.copytree(drawn, tmp_path / "tree")
     reference, build = tmp_path / "tree/figures", tmp_path / "tree/build"
+    results = build / "results/figures"
+
+    def change(file, **columns):
+        """Change columns of a table in the build, each to a value or by a function of the table, and redraw."""
+        write(read(results / file).assign(**columns), results / file)
+        redraw(build, file.partition(".")[0])
+
     return SimpleNamespace(
         reference=reference,
         build=build,
-        results=build / "results/figures",
+        results=results,
+        change=change,
         verdict=lambda figure: check(figure, SPECS[figure], reference, build),
         redraw=lambda figure: redraw(build, figure),
     )

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from vibroimpact import tables
 from vibroimpact.figures.plotting import style
 from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.accept import HEADING, main
@@ -16,10 +15,7 @@ from vibroimpact_pipeline.figure_check.check import SUMS, check
 @pytest.fixture
 def run(tree, capsys):
     """Change numbers of figure 10.4; return a function that runs `accept` and returns exit status and output."""
-    path = tree.results / "fig10_04.csv"
-    table = tables.read(path)
-    tables.write(table.assign(B=1.001 * table["B"]), path)
-    tree.redraw("fig10_04")
+    tree.change("fig10_04.csv", B=lambda table: 1.001 * table["B"])
     (tree.results / "fig10_04.provenance.json").write_text(json.dumps({"commit": "0123456789abcdef", "tree": "clean"}))
 
     def run(*arguments, figures=("fig10_04", "fig10_02")):
