@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -23,11 +24,9 @@ SlurmdUser=root
 AuthType=auth/munge
 AuthInfo=socket={folder}/munge.socket
 CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
-MpiDefault=none
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 SlurmdParameters=config_overrides
-ReturnToService=2
 SlurmctldPidFile={folder}/slurmctld.pid
 SlurmdPidFile={folder}/slurmd.pid
 SlurmdSpoolDir={folder}/spool
@@ -38,8 +37,6 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 SchedulerParameters=bf_interval=1,sched_interval=1,sched_min_interval=0,batch_sched_delay=0
 KillWait=2
-MessageTimeout=5
-SlurmctldTimeout=5
 NodeName={host} NodeAddr=127.0.0.1 CPUs=4 RealMemory=4000 State=UNKNOWN
 PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
 """
@@ -49,6 +46,14 @@ def missing() -> list[str]:
     """Return the names of requirements of Slurm that this machine lacks."""
     rights = [] if os.geteuid() == 0 else ["the rights of root"]
     return rights + [command for command in (*DAEMONS, *COMMANDS, "mungekey") if not shutil.which(command)]
+
+
+def until(true: Callable[[], object], what: str) -> None:
+    """Wait until a condition is true, which takes at most minutes on any machine."""
+    end = time.monotonic() + PATIENCE
+    while not true():
+        assert time.monotonic() < end, f"waited {PATIENCE} s for {what}"
+        time.sleep(0.1)
 
 
 class Slurm:
@@ -79,20 +84,14 @@ class Slurm:
         seed = f"--seed-file={self.folder / 'munge.seed'}"
         run("munged", "--force", seed, *(f"--{option}={path}" for option, path in files.items()))
         run("slurmctld", "-f", self.config)
-        self.until("UP", "scontrol", "ping")
+        until(lambda: "UP" in self("scontrol", "ping"), "the scheduler")
         run("slurmd", "-f", self.config)
-        self.until("idle", "sinfo", "--noheader", "--format=%T")
-
-    def until(self, answer: str, *command) -> None:
-        """Wait until a Slurm command gives an answer, which takes at most minutes on any machine."""
-        end = time.monotonic() + PATIENCE
-        while answer not in self(*command).split():
-            assert time.monotonic() < end, f"waited {PATIENCE} s for {answer} of {' '.join(command)}"
-            time.sleep(0.1)
+        until(lambda: self("sinfo", "--noheader", "--format=%T") == "idle", "the node")
 
     def stop(self) -> None:
-        """Kill all jobs in any state, and all daemons."""
-        self("scancel", "--full", "--signal=KILL", "--user=root")
+        """End all jobs in any state, then all daemons."""
+        self("scancel", "--full", "--user=root")
+        until(lambda: not self("squeue", "--noheader"), "the end of all jobs")
         for name in ("slurmd.pid", "slurmctld.pid", "munge.pid-file"):
             with suppress(OSError, ValueError):  # it has not started, or has ended
                 os.kill(int((self.folder / name).read_text()), signal.SIGKILL)
