@@ -29,13 +29,16 @@ def apart(monkeypatch):
 
 
 def test_measures_against_numbers_known_otherwise(apart):
-    assert apart("difference", [0.0, 10.0], [0.1, 13.0], BOTH) == pytest.approx(2)
+    for new in (7.0, 13.0):
+        assert apart("difference", [0.0, 10.0], [0.1, new], BOTH) == pytest.approx(2)
     assert apart("difference", [0.0, 10.0], [0.1, 10.0], BOTH) == pytest.approx(0.2)
-    assert apart("decades", [1e-3, 1e-9], [1e-3, 1e-7]) == pytest.approx(2)
+    for old, new in ((1e-9, 1e-7), (1e-7, 1e-9)):
+        assert apart("decades", [1e-3, old], [1e-3, new]) == pytest.approx(2)
     assert apart("decades", [1e-3, 0.0], [1e-3, 1e-18]) == 0
-    assert apart("mean", [0.1, 0.3, 0.8], [0.2, 0.4, 0.9]) == pytest.approx(0.25)
+    for by in (-0.1, 0.1):
+        assert apart("mean", [0.1, 0.3, 0.8], np.array([0.1, 0.3, 0.8]) + by) == pytest.approx(0.25)
     old = 10.0 ** RANDOM.uniform(-9, -3, size=101)
-    assert apart("middle", old, 1000 * old) == pytest.approx(3)
+    assert apart("middle", old, 1000 * old) == apart("middle", 1000 * old, old) == pytest.approx(3)
     assert apart("middle", old, old * 10.0 ** RANDOM.uniform(-1, 1, size=101)) < 0.5
 
 

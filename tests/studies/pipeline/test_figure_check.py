@@ -48,9 +48,8 @@ def test_a_build_that_is_rounded_otherwise_passes(name):
         assert table_differences(tables[before], tables[after], columns)[0] == [], (before, after)
 
 
-@pytest.mark.parametrize("factor", [1.1, 0.9])
 @pytest.mark.parametrize("name", STUDIES)
-def test_a_shift_of_a_column_by_a_tenth_fails(name, factor):
+def test_a_shift_of_a_column_by_a_tenth_fails(name):
     old, columns = published(name)
     for column, kind, rows in by_kind(name):
         words = not is_numeric_dtype(old[column])
@@ -61,7 +60,7 @@ def test_a_shift_of_a_column_by_a_tenth_fails(name, factor):
             common, other = new.loc[rows, column].value_counts().index[:2]
             new.loc[rows[new.loc[rows, column] == common][: int(np.ceil(0.1 * len(rows)))], column] = other
         else:  # errors that are rounding itself move by a tenth of the 16 decades of their axis
-            new.loc[rows, column] *= 10 ** (16 * (factor - 1)) if kind == "rounding" else factor
+            new.loc[rows, column] *= 10**1.6 if kind == "rounding" else 1.1
         assert table_differences(old, new, columns)[0] != [], (column, kind)
 
 
