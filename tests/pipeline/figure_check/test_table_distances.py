@@ -49,7 +49,7 @@ def test_classes_are_compared_by_the_rows_that_differ_and_by_the_balance_of_thes
     elsewhere = np.concatenate([old[-100:], old[:-100]])  # moved rows, with equal numbers in each class
     assert (apart("balance", old, elsewhere), apart("rows", old, elsewhere)) == (0, pytest.approx(0.2))
     counts, more = np.full(50, 2.0), np.repeat([2.0, 3.0], [44, 6])
-    assert apart("balance", counts, more) == pytest.approx(np.sqrt(6))
+    assert apart("balance", counts, more) == apart("balance", more, counts) == pytest.approx(np.sqrt(6))
     assert apart("rows", counts, more + 1e-9) == pytest.approx(6 / 50)
 
 
