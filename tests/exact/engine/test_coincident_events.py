@@ -11,12 +11,12 @@ import pytest
 from scipy.optimize import brentq
 
 import vibroimpact as vi
+from attacks import same_events
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.system.restitution import after_impact
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 DIGITS = 40
-SLOW = 1e-4  # impacts slower than this belong to the end of a chatter, which either side may complete
 SWAP = [2, 3, 0, 1, 6, 7, 4, 5]
 SWAPPED = pytest.mark.parametrize("swap", [False, True], ids=["as it is", "swapped"])
 SYSTEM = vi.System(
@@ -65,29 +65,18 @@ def events_of(events, module, kind):
     return events[(events["module"] == module) & (events["kind"] == kind)]
 
 
+def truth_of(system, start, cycles):
+    return reference_run(system, start, cycles, DIGITS, exact_floats=False)
+
+
 def time_of(system, start, module, kind):
     """When the reference sees a module's first event of a kind."""
-    return events_of(
-        reference_run(system, start, 4.0 / system.period, DIGITS, exact_floats=False).events, module, kind
-    )["tau"][0]
-
-
-def stories(events, kinds):
-    """Of each module: kinds and walls of its events, and their times; without the slowest impacts and the sticks at the
-    start, which the reference does not list.
-    """
-    for module in (1, 2):
-        own = events[(events["module"] == module) & np.isin(events["kind"], kinds)]
-        speed = np.abs(own["state"][:, 2 + 2 * module] - own["state"][:, 3 + 2 * module])
-        own = own[np.where(own["kind"] == IMPACT, speed > SLOW, own["tau"] > 0.0)]
-        yield own[["kind", "wall"]].tolist(), own["tau"]
+    return events_of(truth_of(system, start, 4.0 / system.period).events, module, kind)["tau"][0]
 
 
 def assert_same_motion(run, events, final, kinds=(IMPACT, STICK, RELEASE)):
     np.testing.assert_allclose(run.final, final, rtol=0, atol=1e-12)
-    for (got, times), (expected, true_times) in zip(stories(run.events, kinds), stories(events, kinds), strict=True):
-        assert got == expected
-        np.testing.assert_allclose(times, true_times, rtol=0, atol=1e-6)
+    assert same_events(*(some[np.isin(some["kind"], kinds)] for some in (run.events, events)), late=1e-6)
 
 
 @cache
@@ -119,7 +108,7 @@ def ending(problem):
     return SYSTEM.with_(sigma_e_hat=brentq(lag, 3.0, 200.0, xtol=1e-15))
 
 
-NUDGES = [-1e-6, -1e-9, -1e-12, -4e-16, 0.0, 4e-16, 1e-12, 1e-9, 1e-6]
+NUDGES = [-1e-9, -1e-12, -4e-16, 0.0, 4e-16, 1e-12, 1e-9]
 
 
 @pytest.mark.parametrize("nudge", NUDGES)
@@ -130,7 +119,7 @@ def test_two_events_in_one_instant_or_almost(pair, swap, nudge):
     start[6:] *= 1.0 + nudge
     if swap:
         system, start = swapped(system), start[SWAP]
-    run, truth = vi.simulate(system, start, 2), reference_run(system, start, 2, DIGITS, exact_floats=False)
+    run, truth = vi.simulate(system, start, 2), truth_of(system, start, 2)
     assert_same_motion(run, truth.events, truth.final)
 
 
@@ -144,7 +133,7 @@ def test_an_event_at_the_end_belongs_to_the_run_and_happens_once(problem, swap, 
     start, module = start_of(*parts), 1
     if swap:
         system, start, module = swapped(system), start[SWAP], 2
-    whole, truth = vi.simulate(system, start, 2), reference_run(system, start, 2, DIGITS, exact_floats=False)
+    whole, truth = vi.simulate(system, start, 2), truth_of(system, start, 2)
     assert_same_motion(whole, truth.events, truth.final)
     if problem == "impact that releases the other":
         assert events_of(whole.events, 3 - module, RELEASE)["tau"] == events_of(whole.events, module, IMPACT)["tau"]
@@ -208,7 +197,7 @@ def test_events_at_the_start(first, second, expected, swap):
     system, start, names = SYSTEM, start_of(first, second), {1: 1, 2: 2}
     if swap:
         system, start, names = swapped(system), start[SWAP], {1: 2, 2: 1}
-    run, truth = vi.simulate(system, start, 1), reference_run(system, start, 1, DIGITS, exact_floats=False)
+    run, truth = vi.simulate(system, start, 1), truth_of(system, start, 1)
     assert {(names[e["module"]], e["kind"]) for e in run.events if e["tau"] == 0.0} == expected
     assert_same_motion(run, truth.events, truth.final)
     instant = vi.simulate(system, start, 0, sample_times=[0.0])  # the start is also the end, and a sample

@@ -9,6 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
+from by_hand import FlightsByHand
 from vibroimpact.exact.engine.exclusion import LOOKAHEAD, gap, gap_rounding, own_remainder, push, remainder
 from vibroimpact.exact.engine.flow import CONTACT_STATES, flow_of, jet
 from vibroimpact.system.matrices import rate_matrix
@@ -22,14 +23,14 @@ unit = st.floats(-1, 1)
     forces=st.tuples(unit, unit), size=st.floats(0.01, 10), mode=st.integers(0, 3), tie=st.sampled_from([0, 1e-6, 1]),
 )  # fmt: skip
 @pytest.mark.parametrize("damping", [0.0, 0.2])
-def test_derivatives_stay_below_their_bounds(chapter, auditor, damping, state, tau, horizon, forces, size, mode, tie):
+def test_derivatives_stay_below_their_bounds(chapter, damping, state, tau, horizon, forces, size, mode, tie):
     """Derivatives of matrix exponentials, sampled over the horizon."""
     system = chapter(
         10 * forces[0], 10 * forces[1], gamma1_hat=damping, gamma2_hat=damping, gamma12_hat=damping * tie,
         alpha12_hat=tie, sigma_e_hat=20.0,
     )  # fmt: skip
-    audit, q, state = auditor(system), flow_of(system).coefficients, size * np.array(state)
-    rate = audit.rate(CONTACT_STATES[mode])
+    flights, q, state = FlightsByHand(system), flow_of(system).coefficients, size * np.array(state)
+    rate = flights.rate(CONTACT_STATES[mode])
     walls = [int(stuck) for stuck in CONTACT_STATES[mode]]
     phase = system.Omega * tau
     sine, cosine = np.sin(phase), np.cos(phase)
@@ -41,7 +42,7 @@ def test_derivatives_stay_below_their_bounds(chapter, auditor, damping, state, t
     assert max(own) <= both
     bounds = {7: math.factorial(7) * np.array(own), 9: math.factorial(7) * np.array(force)}
     for t in np.linspace(0.0, horizon, 40):
-        lifted = audit.lifted(audit.flow(state, walls, tau, t), tau + t)
+        lifted = flights.lifted(flights.flow(state, walls, tau, t), tau + t)
         for order, bound in bounds.items():
             derivative = np.linalg.matrix_power(rate, order) @ lifted
             assert (np.abs(derivative[:2]) <= bound * (1 + 1e-9) + 1e-9).all()

@@ -1,15 +1,63 @@
-"""The engine against an auditor, other integrators, symmetries and the laws it claims to keep."""
+"""The engine against flights by hand, other integrators, symmetries and the laws it claims to keep."""
 
 import numpy as np
-import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
+from scipy.linalg import expm
 
 import vibroimpact as vi
+from by_hand import FlightsByHand
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 START = np.array([0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2])
+
+
+def audit(run, tolerance=2e-12, grid=40):
+    """Check a run flight by flight, with matrix exponentials of the equations written out.
+
+    Every flight keeps the gaps open and the contact forces pushing, every event happens at the wall, impacts obey
+    restitution and conserve momentum, a release leaves the state as it is and happens where the force vanishes, or at
+    an impact of the other module, a stick joins the velocities. What a completed chatter leaves out (the flights
+    between its last impact and the stick) is judged elsewhere.
+    """
+    epsilon, kappa, flights = run.system.epsilon, run.system.kappa, FlightsByHand(run.system)
+    end = np.zeros(1, run.events.dtype)
+    end["tau"], end["state"] = run.tau0 + run.cycles * run.system.period, run.final
+    walls, state, tau = [0, 0], run.start, run.tau0
+    for event in np.concatenate([run.events, end]):
+        i, kind, wall, after = int(event["module"]) - 1, event["kind"], event["wall"], event["state"]
+        t = event["tau"] - tau
+        assert t >= -1e-12
+        rate, lifted = flights.rate([w != 0 for w in walls]), flights.lifted(state, tau)
+        step = expm(rate * t / grid)
+        for n in range(grid + 1 if t > 1e-9 else 0):
+            pushes = (rate @ lifted)[2:4]
+            for k in range(2):
+                gap = lifted[k] - state[2 * k + 1] - n * t / grid * state[2 * k + 5]
+                assert abs(gap) < 1 + tolerance or walls[k] or (k == i and kind == STICK)
+                assert walls[k] * pushes[k] > -1e-9
+            lifted = step @ lifted
+        before = flights.flow(state, walls, tau, t)
+        if i >= 0:
+            x, y, v, u = 2 * i + np.array([0, 1, 4, 5])
+            assert abs(after[x] - after[y] - wall) < tolerance
+            if kind == IMPACT:
+                assert walls[i] == 0
+                assert (before[v] - before[u]) * wall > -tolerance, "an impact from inside"
+                kept = [after[v] - after[u], after[v] + epsilon * after[u]]
+                expected = [kappa * (before[u] - before[v]), before[v] + epsilon * before[u]]
+                np.testing.assert_allclose(kept, expected, rtol=0, atol=tolerance)
+                before[[v, u]] = after[[v, u]]
+            elif kind == STICK:
+                assert after[v] == after[u]
+                walls[i], before = int(wall), after
+            else:
+                assert walls[i] == wall
+                assert t < 1e-9 or abs(pushes[i]) < 1e-11
+                walls[i] = 0
+        np.testing.assert_allclose(after, before, rtol=0, atol=tolerance)
+        state, tau = after, event["tau"]
 
 
 def test_long_runs_never_penetrate_and_meet_every_kind_of_event(chapter):
@@ -22,51 +70,42 @@ def test_long_runs_never_penetrate_and_meet_every_kind_of_event(chapter):
 
 def test_dimensional_equations_integrated_by_a_library_agree():
     """(10.1) in physical units with scipy's DOP853 and events, scaled afterwards."""
-    physical = vi.PhysicalSystem(
+    p = vi.PhysicalSystem(
         M=2.0, m=0.2, k1=50.0, k2=52.5, k12=5.0, c1=0.2, c2=0.25, c12=0.3, F10=0.4, F20=0.35, omega1=5.1, omega2=5.1,
         L=0.08, kappa=0.65,
     )  # fmt: skip
-    system = physical.dimensionless()
-    p = physical
+    scale, cycles, hits = np.repeat([p.L, p.L * p.omega10], 4), 6, []
 
     def rates(t, z):
         x1, _, x2, _, u1, v1, u2, v2 = z
-        spring, damper = p.k12 * (x2 - x1), p.c12 * (u2 - u1)
-        a1 = (p.F10 * np.sin(p.omega1 * t) - p.c1 * u1 - p.k1 * x1 + damper + spring) / p.M
-        a2 = (p.F20 * np.sin(p.omega2 * t) - p.c2 * u2 - p.k2 * x2 - damper - spring) / p.M
+        link = p.k12 * (x2 - x1) + p.c12 * (u2 - u1)
+        a1 = (p.F10 * np.sin(p.omega1 * t) - p.c1 * u1 - p.k1 * x1 + link) / p.M
+        a2 = (p.F20 * np.sin(p.omega2 * t) - p.c2 * u2 - p.k2 * x2 - link) / p.M
         return [u1, v1, u2, v2, a1, 0.0, a2, 0.0]
 
-    def wall(i, side):
+    def room(i):
         def event(t, z):
-            return p.L - side * (z[2 * i] - z[2 * i + 1])
+            return p.L - abs(z[2 * i] - z[2 * i + 1])
 
         event.terminal, event.direction = True, -1
         return event
 
-    walls = [(i, side) for i in range(2) for side in (1, -1)]
-    cycles = 6
-    z = START.copy()
-    z[:4] *= p.L
-    z[4:] *= p.L * p.omega10
-    t, end, hits = 0.0, cycles * 2 * np.pi / p.omega1, []
+    t, end, z = 0.0, cycles * 2 * np.pi / p.omega1, START * scale
     while t < end:
         flight = solve_ivp(
-            rates, (t, end), z, method="DOP853", rtol=1e-12, atol=1e-14, max_step=0.02, events=[wall(*w) for w in walls]
+            rates, (t, end), z, method="DOP853", rtol=1e-12, atol=1e-14, max_step=0.02, events=[room(0), room(1)]
         )
         t, z = flight.t[-1], flight.y[:, -1]
-        for (i, side), times in zip(walls, flight.t_events, strict=True):
-            if len(times):
-                u, v = z[4 + 2 * i], z[5 + 2 * i]
-                momentum, relative = p.M * u + p.m * v, -p.kappa * (u - v)
-                z[4 + 2 * i] = (momentum + p.m * relative) / (p.M + p.m)
-                z[5 + 2 * i] = (momentum - p.M * relative) / (p.M + p.m)
-                z[2 * i + 1] = z[2 * i] - side * p.L * (1 - 1e-13)
-                hits.append(t * p.omega10)
-    run = vi.simulate(system, START, cycles)
+        for i in (i for i in range(2) if len(flight.t_events[i])):
+            u, v = z[4 + 2 * i], z[5 + 2 * i]
+            common, apart = (p.M * u + p.m * v) / (p.M + p.m), p.kappa * (v - u) / (p.M + p.m)
+            z[4 + 2 * i], z[5 + 2 * i] = common + p.m * apart, common - p.M * apart
+            z[2 * i + 1] = z[2 * i] - np.sign(u - v) * p.L * (1 - 1e-13)
+            hits.append(t * p.omega10)
+    run = vi.simulate(p.dimensionless(), START, cycles)
     assert len(run.events) == len(hits) > 15
     np.testing.assert_allclose(run.events["tau"], hits, atol=1e-9)
-    scaled = np.concatenate([z[:4] / p.L, z[4:] / (p.L * p.omega10)])
-    np.testing.assert_allclose(run.final, scaled, atol=1e-8)
+    np.testing.assert_allclose(run.final, z / scale, atol=1e-8)
 
 
 def test_mirror_symmetry(case):
@@ -77,58 +116,29 @@ def test_mirror_symmetry(case):
     np.testing.assert_array_equal(mirrored.events["wall"], -run.events["wall"])
 
 
-def test_samples_agree_with_flow_and_events(case, auditor):
+def test_samples_agree_with_flow_and_events(case):
     times = np.sort(np.random.default_rng(1).uniform(0, 5 * case.period, 300))
-    run = vi.simulate(case, START, 5, sample_times=times)
-    audit = auditor(case)
+    run, flights = vi.simulate(case, START, 5, sample_times=times), FlightsByHand(case)
     for tau, sample in zip(times, run.samples, strict=True):
         k = np.searchsorted(run.events["tau"], tau, side="right") - 1
         start, state = (0.0, START) if k < 0 else (run.events["tau"][k], run.events["state"][k])
-        np.testing.assert_allclose(sample, audit.flow(np.array(state), [0, 0], start, tau - start), atol=1e-12)
+        np.testing.assert_allclose(sample, flights.flow(state, [0, 0], start, tau - start), atol=1e-12)
     at_event = vi.simulate(case, START, 5, sample_times=run.events["tau"][:3])
     np.testing.assert_allclose(at_event.samples[:, :4], run.events["state"][:3, :4], atol=1e-12)
 
 
-SPECTRA = {
-    "chapter": {},
-    "uncoupled and identical": dict(alpha12_hat=0.0, gamma12_hat=0.0, sigma20_hat=0.0),
-    "uncoupled": dict(alpha12_hat=0.0, gamma12_hat=0.0),
-    "undamped": dict(gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0),
-    "undamped, uncoupled and identical": dict(
-        alpha12_hat=0.0, gamma12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, sigma20_hat=0.0
-    ),
-    "defective: critically damped": dict(
-        alpha12_hat=0.0, gamma12_hat=0.0, gamma1_hat=20.0, gamma2_hat=20.0, sigma20_hat=0.0
-    ),
-    "stiff": dict(alpha12_hat=4000.0, sigma20_hat=900.0),
-    "heavy balls": dict(epsilon=1.0),
-    "nearly elastic": dict(kappa=0.995),
-    "nearly plastic": dict(kappa=0.004),
-}
-
-
-@pytest.mark.parametrize("changes", SPECTRA.values(), ids=SPECTRA)
-def test_any_spectrum(chapter, auditor, changes):
-    system = chapter(1.0, 0.7, **changes)
-    cycles = 25
-    run = vi.simulate(system, START, cycles)
-    auditor(system).audit(run, START, 0.0, cycles, tolerance=2e-11)
-    assert np.isfinite(run.final).all()
-
-
-def test_undamped_resonance_while_a_ball_sticks(chapter, auditor):
+def test_undamped_resonance_while_a_ball_sticks(chapter):
     """A sticking ball tunes its box to the forcing: the response grows linearly, nothing may divide by zero."""
     tuned = 1 / np.sqrt(1.1)
     system = chapter(
         0.3, 0.0, alpha12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0, sigma_e_hat=(tuned - 1) / 0.1
     )
-    start = np.array([-2.0, -3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])  # the box accelerates into the ball at wall +1
-    run = vi.simulate(system, start, 3)
-    assert run.events["kind"][0] == STICK
-    auditor(system).audit(run, start, 0.0, 3)
+    run = vi.simulate(system, [-2, -3, 0, 0, 0, 0, 0, 0], 3)  # the box accelerates into the ball at wall +1
+    assert [*run.events["kind"][:2]] == [STICK, RELEASE]
+    audit(run)
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60)
 @given(
     epsilon=st.floats(0.005, 1.0),
     kappa=st.floats(0.05, 0.95),
@@ -138,15 +148,14 @@ def test_undamped_resonance_while_a_ball_sticks(chapter, auditor):
     force=st.tuples(st.floats(-2, 2), st.floats(-2, 2)),
     start=st.tuples(*[st.floats(-0.9, 0.9)] * 8),
 )
-def test_random_systems_pass_the_audit(auditor, epsilon, kappa, alpha, damping, detuning, force, start):
+def test_random_systems_pass_the_audit(epsilon, kappa, alpha, damping, detuning, force, start):
     system = vi.System(
         epsilon=epsilon, kappa=kappa, alpha12_hat=alpha, gamma1_hat=damping[0], gamma2_hat=damping[1],
         gamma12_hat=damping[2], sigma20_hat=detuning[0], sigma_e_hat=detuning[1], f10_hat=force[0], f20_hat=force[1],
     )  # fmt: skip
     state = np.array(start)
     state[[1, 3]] = state[[0, 2]] - state[[1, 3]]  # |W| = |start| <= 0.9
-    run = vi.simulate(system, state, 8, tau0=0.3)
-    auditor(system).audit(run, state, 0.3, 8, tolerance=5e-12, grid=40)
+    audit(vi.simulate(system, state, 8, tau0=0.3), tolerance=5e-12)
 
 
 def test_zero_cycles_and_no_force(chapter):
