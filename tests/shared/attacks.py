@@ -209,18 +209,18 @@ def truth(attack, digits=40, cycles=1):
     return reference_run(attack.system, attack.start, cycles, digits, tau0=attack.tau0)
 
 
-def same_events(one, other, late=np.inf):
+def same_events(one, other, late=np.inf, slow=SLOW):
     """Return True if each module has the same events in the same order in both runs, at times that differ by <= late.
 
-    The slowest impacts are ignored, with either of the two bounds SLOW, and so is a stick as the first event, which the
-    reference does not list for a ball that sticks from the start.
+    Slow impacts are ignored, with any of the bounds `slow`, and so is a stick as the first event, which the reference
+    does not list for a ball that sticks from the start.
     """
 
     def alike(mine, theirs):
         same = mine[["kind", "wall"]].tolist() == theirs[["kind", "wall"]].tolist()
         return same and np.abs(mine["tau"] - theirs["tau"]).max(initial=0.0) <= late
 
-    return any(all(map(alike, _stories(one, slow), _stories(other, slow))) for slow in SLOW)
+    return any(all(map(alike, _stories(one, bound), _stories(other, bound))) for bound in slow)
 
 
 def _stories(events, slow):

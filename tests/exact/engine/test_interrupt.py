@@ -13,11 +13,9 @@ from chapter import PARAMETERS
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell in the background has its commands ignore it
 system, start, call = vi.System(**PARAMETERS, f10_hat=1, f20_hat=1), [0, 0, 0, 0, 0, 0.5, 0, 0.5], sys.argv[1]
 long = {
-    "simulate": lambda cycles: vi.simulate(system, start, cycles),
     "short": lambda cycles: [vi.simulate(system, start, 100) for _ in range(max(cycles, 100) // 100)],
     "simulate_many": lambda cycles: vi.simulate_many(system, [start] * 4, cycles),
     "ensemble": lambda cycles: vi.ensemble(system, [start] * 4, cycles, settle=cycles),
-    "one": lambda cycles: vi.ensemble(system, start, cycles, settle=cycles),
 }[call]
 long(1)  # compiled, or read
 sent = []
@@ -54,22 +52,20 @@ print(running, len(runs))
 """
 
 
-@pytest.mark.parametrize("call", ["simulate", "short", "simulate_many", "ensemble", "one"])
+def words_of(program, *arguments):
+    environment, command = {"PYTHONPATH": ":".join(sys.path)}, [sys.executable, "-c", program, *arguments]
+    run = subprocess.run(command, env=environment, stdout=subprocess.PIPE, text=True, check=True, timeout=300)
+    return run.stdout.split()
+
+
+@pytest.mark.parametrize("call", ["short", "simulate_many", "ensemble"])
 def test_an_interrupt_ends_a_long_run_soon(call):
     """Ten million cycles would take half a minute at least."""
-    environment = {"PYTHONPATH": ":".join(sys.path)}
-    run = subprocess.run(
-        [sys.executable, "-c", PROGRAM, call], env=environment, capture_output=True, text=True, check=True, timeout=300
-    )
-    word, seconds = run.stdout.split()
+    word, seconds = words_of(PROGRAM, call)
     assert word == "after"
     assert float(seconds) < 5  # half a second and less on an idle machine
 
 
 def test_a_main_thread_is_interrupted_while_another_simulates():
     """It is the main thread's interrupt, as always in Python; the run of the other thread goes on and is sound."""
-    environment = {"PYTHONPATH": ":".join(sys.path)}
-    run = subprocess.run(
-        [sys.executable, "-c", IN_A_THREAD], env=environment, capture_output=True, text=True, check=True, timeout=300
-    )
-    assert run.stdout.split() == ["True", "1"]
+    assert words_of(IN_A_THREAD) == ["True", "1"]
