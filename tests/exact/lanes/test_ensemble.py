@@ -5,7 +5,6 @@ import pytest
 
 import vibroimpact as vi
 from attacks import MAX_ERROR_RATIO, ensembles, unlike_single_runs
-from hard_starts import example
 from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.exact.engine.event_loop import integrate
 from vibroimpact.exact.lanes.ensemble import INADMISSIBLE, MOST_RUNS
@@ -34,76 +33,49 @@ def mixed(chapter, n):
     ]  # fmt: skip
 
 
-def test_a_thousand_runs_of_mixed_systems_are_those_of_simulate(chapter):
-    systems, states = mixed(chapter, 200), starts(1000)
-    owners = [systems[n // 5] for n in range(1000)]
-    assert unlike_single_runs(owners, states, 12, 0.4) == []
+REPEATED = {
+    # forces, changes of the chapter's system, start, cycles; faults that showed here
+    "a polynomial of too low an order in the last fifth of a step": (
+        (9.974, -24.43), dict(
+            epsilon=0.07825, kappa=0.7236, alpha12_hat=0.9508, gamma1_hat=0.2008, gamma2_hat=0.1993, gamma12_hat=0.1896,
+            sigma20_hat=12.78, sigma_e_hat=8.471,
+        ), [0.2251, -0.394, -0.9909, -1.575, 0.3667, 0.05323, 0.1308, -0.1263], 10,
+    ),
+    "rounded entries of the matrix of a step, in hundreds of steps without an impact": (
+        (-0.07168, 3.84), dict(
+            epsilon=1.486, kappa=0.7927, alpha12_hat=40.63, gamma1_hat=0.02832, gamma2_hat=0.3031, gamma12_hat=0.5076,
+            sigma20_hat=1.378, sigma_e_hat=2.093,
+        ), [0.325, 0.8211, 0.3438, -0.2701, 0.1695, -0.1961, -0.2541, -0.05388], 9,
+    ),
+    "rounded places of a slow ball next to a wall, in hundreds of short flights": (
+        (0.75, 0.0), dict(
+            epsilon=0.25, kappa=0.3, alpha12_hat=0.0, gamma1_hat=0.1, gamma2_hat=0.1, gamma12_hat=0.0, sigma20_hat=1.0,
+            sigma_e_hat=5.0,
+        ), [0.0, 0.0, 0.0, -1.0 + 1e-12, 0.717, 0.01, 0.0, 1e-7], 8,
+    ),
+}  # fmt: skip
 
 
-@pytest.mark.parametrize("kind", ensembles)
-def test_runs_of_every_scene_are_those_of_simulate(kind):
-    rng = np.random.default_rng([3, len(kind)])
-    systems, states, cycles, tau0 = ensembles[kind](rng, 60)
-    assert unlike_single_runs(systems, states, cycles, tau0) == []
-
-
-def test_the_order_is_enough_for_velocities(chapter):
-    """Impacts in the last fifth of a step show what a polynomial leaves out (4.7 times the estimate with order 14)."""
-    system = chapter(
-        9.974314351413797, -24.425732101170137, epsilon=0.07825003409352436, kappa=0.7236116545856075,
-        alpha12_hat=0.9507573965132918, gamma1_hat=0.20078335412476744, gamma2_hat=0.19929457740366413,
-        gamma12_hat=0.189584374040057, sigma20_hat=12.78164479262053, sigma_e_hat=8.470885979620524,
-    )  # fmt: skip
-    start = [
-        0.22513947365076552, -0.39396496754177773, -0.9908861139895444, -1.5751163005554978,
-        0.3667377292729382, 0.05322632141505045, 0.13081064865789185, -0.12626233154957594,
-    ]  # fmt: skip
-    assert error_ratio(system, start, 10) < MAX_ERROR_RATIO
-
-
-def test_roundings_that_repeat_in_every_step_do_not_add_up(chapter):
-    """Hundreds of steps without an impact: rounded entries of their matrix gave 2.9 times the estimate."""
-    system = chapter(
-        -0.07167641114976606, 3.8396220762427684, epsilon=1.4862053092344494, kappa=0.7926788279848186,
-        alpha12_hat=40.63349914929098, gamma1_hat=0.028322338652852004, gamma2_hat=0.30308681273109084,
-        gamma12_hat=0.5075912960268201, sigma20_hat=1.3777544643324167, sigma_e_hat=2.093072523678039,
-    )  # fmt: skip
-    start = [
-        0.32495989355551574, 0.8211185444534765, 0.34380572189191405, -0.2701199930059267,
-        0.16950600282073186, -0.19608391814989234, -0.254105187216902, -0.05387950388101945,
-    ]  # fmt: skip
-    assert error_ratio(system, start, 9) < MAX_ERROR_RATIO
-
-
-def test_roundings_of_a_slow_ball_that_repeat_in_every_flight_do_not_add_up(chapter):
-    """Next to a wall it takes hundreds of short flights, as the other box swings: 4.6 times the estimate."""
-    system = chapter(
-        0.75, 0.0, epsilon=0.25, kappa=0.3, alpha12_hat=0.0, gamma1_hat=0.1, gamma2_hat=0.1, gamma12_hat=0.0,
-        sigma20_hat=1.0, sigma_e_hat=5.0,
-    )  # fmt: skip
-    start = [0.0, 0.0, 0.0, -1.0 + 1e-12, 0.717, 0.01, 0.0, 1e-7]
-    assert error_ratio(system, start, 8) < MAX_ERROR_RATIO
-
-
-def error_ratio(system, start, cycles):
-    """True error of an ensemble's final state over the estimate of a single run, the number of impacts being true."""
+@pytest.mark.parametrize(("forces", "changes", "start", "cycles"), REPEATED.values(), ids=REPEATED)
+def test_errors_that_repeat_in_every_step_or_flight_do_not_add_up(chapter, forces, changes, start, cycles):
+    """True errors of ensembles over the estimate of a single run; they were 2.9 to 4.7 times as large."""
+    system = chapter(*forces, **changes)
     run, outcome = vi.simulate(system, start, cycles), vi.ensemble(system, start, cycles)
-    assert run.certificate.decided
     true = reference_run(system, start, cycles, 40)
+    assert run.certificate.decided
     assert outcome["impacts"].sum() == np.count_nonzero(true.events["kind"] == vi.IMPACT)
-    return np.abs(outcome["final"] - true.final).max() / run.certificate.error
+    assert np.abs(outcome["final"] - true.final).max() < MAX_ERROR_RATIO * run.certificate.error
 
 
-@pytest.mark.parametrize("seed", [0, 3, 5, 8, 9, 13, 14])
+@pytest.mark.parametrize("seed", [0, 5, 13])
 def test_grazes_that_other_steps_decide_otherwise_are_not_decided(seed):
     """Of these starts a decided run had other impacts than its ensemble, or ended elsewhere."""
     assert unlike_single_runs(*ensembles["grazing"](np.random.default_rng([seed, 7]), 100)) == []
 
 
-@pytest.mark.parametrize("damping", [1e-300, 1e-308, 5e-324])
-def test_the_least_damping_causes_no_warning(chapter, damping, recwarn):
+def test_the_least_damping_causes_no_warning(chapter, recwarn):
     system = chapter(
-        -0.01, 90.0, epsilon=2.0, alpha12_hat=18.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=damping,
+        -0.01, 90.0, epsilon=2.0, alpha12_hat=18.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=5e-324,
         sigma20_hat=0.1, sigma_e_hat=5.7,
     )  # fmt: skip
     undamped = vi.ensemble(system.with_(gamma12_hat=0.0), np.zeros(8), 1)
@@ -112,34 +84,24 @@ def test_the_least_damping_causes_no_warning(chapter, damping, recwarn):
     assert not recwarn.list
 
 
-def flights(run, opening):
-    """Ends of the flights of a run, cut where observation begins."""
-    times = run.events["tau"]
-    return np.unique([opening, *times[times > opening], float(run.end)])
-
-
 def told(system, state, cycles, tau0, settle):
     """What a run amounts to, by its events and by Gauss's rule and a fine grid in every flight."""
     run = vi.simulate(system, state, cycles, tau0)
-    opening = tau0 + settle * system.period
-    ends = flights(run, opening)
-    middle, half = (ends[1:] + ends[:-1]) / 2, (ends[1:] - ends[:-1]) / 2
-    pieces = np.ceil(half / 0.2).astype(int)  # short ones: polynomials of degree 39 know them to rounding
-    cut = [m + h * np.linspace(-1, 1, k + 1) for m, h, k in zip(middle, half, pieces, strict=True)]
-    edges = np.unique(np.concatenate(cut))
-    half = np.diff(edges) / 2
-    times = ((edges[1:] + edges[:-1]) / 2)[:, None] + half[:, None] * POINTS
-    samples = vi.simulate(system, state, cycles, tau0, np.sort(times.ravel())).samples.reshape(*times.shape, 8)
-    seconds, weights = ends[-1] - ends[0], half[:, None, None] * WEIGHTS[:, None]
+    opening, closing = tau0 + settle * system.period, float(run.end)
     events = run.events[run.events["tau"] >= opening]
-    counts = {kind: [np.sum((events["kind"] == kind) & (events["module"] == m)) for m in (1, 2)] for kind in vi.KINDS}
-    boxes, balls = samples[..., BOXES[:2]], samples[..., BALLS[2:]]
+    # short pieces: polynomials of degree 39 know them to rounding
+    edges = np.unique([*np.arange(opening, closing, 0.3), *events["tau"], closing])
+    half = np.diff(edges)[:, None] / 2
+    times = edges[:-1, None] + half * (1 + POINTS)
+    samples = vi.simulate(system, state, cycles, tau0, times.ravel()).samples.reshape(*times.shape, 8)
+    boxes, balls, weights = samples[..., BOXES[:2]], samples[..., BALLS[2:]], half * WEIGHTS / (closing - opening)
+    counts = {kind: np.bincount(events["module"][events["kind"] == kind], minlength=3)[1:] for kind in vi.KINDS}
     return {
         "impacts": counts[vi.IMPACT],
         "sticks": counts[vi.STICK],
         "largest": abs(boxes).max(axis=(0, 1)),
-        "mean_square": (weights * boxes**2).sum(axis=(0, 1)) / seconds,
-        "ball_speed": (weights * abs(balls)).sum(axis=(0, 1)) / seconds,
+        "mean_square": np.einsum("ij,ijk", weights, boxes**2),
+        "ball_speed": np.einsum("ij,ijk", weights, abs(balls)),
     }
 
 
@@ -152,9 +114,8 @@ def test_what_runs_amount_to(chapter, settle):
         for name in ("impacts", "sticks"):
             np.testing.assert_array_equal(outcome[name], expected[name])
         np.testing.assert_allclose(outcome["mean_square"], expected["mean_square"], rtol=1e-11)
-        np.testing.assert_allclose(
-            outcome["ball_speed"], expected["ball_speed"], rtol=1e-3
-        )  # |Y'| of a stuck ball bends
+        # |Y'| of a stuck ball bends
+        np.testing.assert_allclose(outcome["ball_speed"], expected["ball_speed"], rtol=1e-3)
         assert (outcome["largest"] >= expected["largest"] * (1 - 1e-15)).all()
         np.testing.assert_allclose(outcome["largest"], expected["largest"], rtol=2e-3)
 
@@ -178,18 +139,6 @@ def test_the_largest_excursion_is_where_the_box_turns(case):
     above = outcome["largest"] - abs(boxes).max(axis=0)
     assert (above >= -1e-15).all()
     assert (above <= bend * step**2 / 8).all()
-
-
-def test_hard_starts_are_all_told():
-    systems, states, _ = zip(*map(example, range(60)), strict=True)
-    outcomes = vi.ensemble(systems, states, 1)
-    for system, state, outcome in zip(systems, states, outcomes, strict=True):
-        if outcome["status"]:
-            with pytest.raises(ArithmeticError, match=vi.STATUSES[outcome["status"]]):
-                vi.simulate(system, state, 1)
-            assert np.isnan(outcome["final"]).all()
-        else:
-            assert np.isfinite([*outcome["final"], *outcome["mean_square"]]).all()
 
 
 def test_systems_and_starts_combine_as_arrays_do(case):
@@ -234,20 +183,14 @@ def test_a_periodic_motion_amounts_to_the_same_from_any_cycle_on_and_from_each_o
     case = chapter(1.0, 0.89)
     orbit = next(one for one in vi.orbits(case) if one.admissible and max(abs(one.multipliers)) < 1)
     run = vi.simulate(case, orbit.state, 200)
-    outcomes = np.stack(
-        [
-            [vi.ensemble(case, event["state"], 40, event["tau"], settle) for settle in range(1, 39)]
-            for event in run.events[-4:]
-        ]
-    )
+    begun = [(event["state"], 40, event["tau"]) for event in run.events[-4:]]
+    outcomes = np.array([[vi.ensemble(case, *begin, settle) for settle in range(1, 39)] for begin in begun])
     assert (outcomes["status"] == 0).all()
     for name in ("largest", "mean_square", "ball_speed"):
-        np.testing.assert_allclose(
-            outcomes[name], np.broadcast_to(outcomes[name][0, 0], outcomes[name].shape), rtol=1e-9
-        )
+        np.testing.assert_allclose(outcomes[name] / outcomes[name][0, 0], 1.0, rtol=1e-9)
 
 
-@pytest.mark.parametrize("settle", [1, 2, 7, 30])
+@pytest.mark.parametrize("settle", [1, 30])
 def test_what_is_seen_from_a_cycle_on_is_what_a_run_from_there_shows(chapter, settle):
     """A flight without an event over the whole run, many times as long as the tables."""
     quiet = chapter(0.05, 0.0)

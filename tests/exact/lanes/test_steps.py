@@ -11,7 +11,6 @@ from mpmath import mp
 from scipy.linalg import expm
 
 from attacks import GENES, bred, random_system
-from vibroimpact.exact.engine.compiled import compiled
 from vibroimpact.exact.engine.flow import numbers_of
 from vibroimpact.exact.lanes import loop, rows, steps
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
@@ -19,18 +18,12 @@ from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 GRID = 400
 
 
-@compiled
-def begun(numbers, rates, potentials, drifts, starts, memory):
-    """Put the first start into the first lane."""
-    owners, phases, seen = np.zeros(1, np.int64), np.zeros((1, 2)), np.zeros((1, 1, 1))
-    status, systems = np.zeros(1, np.int64), (numbers, rates, phases, potentials, drifts)
-    loop.begin_run(loop.Piece(*systems, owners, starts, (1, 1, 0), status, seen, seen), 0, 0, memory)
-
-
 def constants(system):
-    """Constants of a system in the lanes."""
+    """Constants of a system in the lanes, left there by a run."""
     memory, unobserved = loop.memory(), (np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0)))
-    begun(*numbers_of([system], loop.TABLE), *unobserved, np.zeros((1, 8)), memory)
+    systems = *numbers_of([system], loop.TABLE), np.zeros((1, 2)), *unobserved
+    results = np.zeros(1, np.int64), np.zeros((1, 1, 8)), np.zeros((1, 1, rows.STATISTICS))
+    loop.run_lanes(loop.Piece(*systems, np.zeros(1, np.int64), np.zeros((1, 8)), (1, 1, 0), *results), memory)
     return memory.constants[:, 0]
 
 
