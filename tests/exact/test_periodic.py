@@ -135,20 +135,6 @@ def test_the_motion_that_a_long_run_settles_on(system, periods, impacts, symmetr
     assert np.isnan(orbit.amplitudes).sum() == 2 - len(moving)
 
 
-@pytest.mark.parametrize(("system", "periods", "impacts", "symmetric"), SETTLED[:5])
-def test_multipliers_are_those_of_finite_differences_of_runs(system, periods, impacts, symmetric):
-    orbit = vi.periodic_orbit(system, vi.simulate(system, np.zeros(8), 3000).final, periods)
-    begin, start = orbit.run.tau0, orbit.run.start
-    part = np.isin([1, 1, 2, 2] * 2, system.modules)
-    steps = 1e-6 * np.eye(8)[part]
-    ends = [
-        [vi.simulate(system, start + sign * step, periods, begin).final[part] for sign in (1, -1)] for step in steps
-    ]
-    monodromy = np.array([(plus - minus) / 2e-6 for plus, minus in ends]).T
-    expected = np.linalg.eigvals(monodromy)
-    assert np.sort(abs(orbit.multipliers))[::-1][:2] == pytest.approx(np.sort(abs(expected))[::-1][:2], rel=1e-4)
-
-
 def test_an_unstable_motion_among_the_period_doubled_ones_is_found_by_its_own_period():
     system = MACHINE.with_(f10_hat=1.9)
     state = vi.simulate(system, np.zeros(8), 3000).final

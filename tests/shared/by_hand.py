@@ -1,5 +1,6 @@
 """Equations (10.2) of the boxes written out, so that checks of the engine share no code with the engine."""
 
+import mpmath as mp
 import numpy as np
 from scipy.linalg import expm
 
@@ -50,3 +51,19 @@ class FlightsByHand(BoxesByHand):
     def acceleration(self, state, walls, tau):
         """Return the accelerations of both boxes, shape (2,)."""
         return (self.rate([w != 0 for w in walls]) @ self.lifted(state, tau))[2:4]
+
+
+def exact_rate(system, stuck=(False, False)):
+    """Return the rate matrix of `BoxesByHand.rate` to the digits of mpmath, from the floats of a system."""
+    e = mp.mpf(system.epsilon)
+    k, couple = e * system.alpha12_hat, e * system.gamma12_hat
+    rate = mp.matrix(6)
+    rate[0, 2] = rate[1, 3] = 1
+    rate[4, 5], rate[5, 4] = system.Omega, -mp.mpf(system.Omega)
+    ground = system.gamma1_hat, system.gamma2_hat
+    for i, (detuning, force) in enumerate(((0.0, system.f10_hat), (system.sigma20_hat, system.f20_hat))):
+        mass = 1 + e if stuck[i] else mp.mpf(1)
+        rate[2 + i, i], rate[2 + i, 1 - i] = -(1 + e * detuning + k) / mass, k / mass
+        rate[2 + i, 2 + i], rate[2 + i, 3 - i] = -(e * ground[i] + couple) / mass, couple / mass
+        rate[2 + i, 4] = e * force / mass
+    return rate

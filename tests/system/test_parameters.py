@@ -36,8 +36,8 @@ def test_definitions_below_10_2():
 @pytest.mark.parametrize(
     ("coupled", "forces", "modules"),
     [
-        (True, (1.0, 1.0), (1, 2)), (True, (1.0, 0.0), (1, 2)), (True, (0.0, 1.0), (1, 2)), (True, (0.0, 0.0), ()),
-        (False, (1.0, 1.0), (1, 2)), (False, (1.0, 0.0), (1,)), (False, (0.0, 1.0), (2,)), (False, (0.0, 0.0), ()),
+        (True, (1.0, 0.0), (1, 2)), (True, (0.0, 1.0), (1, 2)), (True, (0.0, 0.0), ()), (False, (1.0, 1.0), (1, 2)),
+        (False, (1.0, 0.0), (1,)), (False, (0.0, 1.0), (2,)), (False, (0.0, 0.0), ()),
     ],
 )  # fmt: skip
 def test_modules_that_a_force_or_the_other_module_moves_take_part(coupled, forces, modules):

@@ -48,7 +48,7 @@ def test_derivatives_stay_below_their_bounds(chapter, damping, state, tau, horiz
             assert (np.abs(derivative[:2]) <= bound * (1 + 1e-9) + 1e-9).all()
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", range(12))
 def test_a_gap_is_above_its_polynomial_in_spite_of_rounding(seed):
     """Stiff, strongly forced systems and boxes that move almost as one, in 40 digits."""
     rng = np.random.default_rng(seed)

@@ -22,17 +22,14 @@ PAIRED = dict(
 LONG = dict(kappa=0.9, alpha12_hat=0, sigma_e_hat=-2.5, f10_hat=2, f20_hat=0)
 HARD = {
     # changes of the chapter's system, start, tau0
-    "a slow ball next to a driven module": (ALONE, [0, 0, 0, -1, 0, 0, 0, -1e-50], 0.0),
-    "a slower one": (ALONE, [0, 0, 0, -1, 0, 0, 0, -1e-300], 0.0),
+    "a slow ball next to a driven module": (ALONE, [0, 0, 0, -1, 0, 0, 0, -1e-300], 0.0),
     "a box hardly out of rest": (ALONE, [0, 0, 1e-60, -1, 0, 0, 0, 0], 0.0),
     "a slow ball, hardly driven": (ALONE | dict(alpha12_hat=1e-20), [0, 0, 0, -1, 0, 0, 0, -1e-50], 0.0),
     "at rest but for rounding": (PAIRED, [2, 2.999999999, 1, 2, 0, 1e-16, 0, 1e-9], 1.427996660722633),
     "long chatter, slow ball": (LONG, [2, 2, 0, 1, 0, -1e-9, 0, -1e-30], 4.1887902047863905),
-    "long chatter, slow ball, uncoupled": (LONG | ALONE, [2, 2, 0, 1, 0, -1e-9, 0, -1e-30], 4.1887902047863905),
     "two on their walls": (dict(kappa=0.1), [-0.5, -1.5, -0.5, -1.5, 0, 0, 0, -1e-5], 0.0),
     "nothing moves": (dict(f10_hat=0.0, f20_hat=0.0), [0, 1, 0, 0, 0, 0, 0, 0], 0.0),
     "ball of an undriven module on a wall": (ONE, [0, 0, 0, 1, 0, 0, 0, 0], 0.0),
-    "on the other wall": (ONE, [0, 0, 0, -1, 0, 0, 0, 0], 0.0),
     "coupled by a spring alone": (ONE | dict(gamma12_hat=0.0), [0, 0, 0, 1, 0, 0, 0, 0], 0.0),
     "coupled by a damper alone": (ONE | dict(alpha12_hat=0.0), [0, 0, 0, -1, 0, 0, 0, 0], 0.0),
     "uncoupled": (ALONE, [0, 0, 0, -1, 0, 0, 0, 0], 0.0),
@@ -51,8 +48,8 @@ def test_a_hard_start_finishes_with_the_motion_of_the_reference(chapter, changes
     np.testing.assert_allclose(run.final, truth.final, rtol=0, atol=1e-14)
 
 
-@pytest.mark.parametrize("kappa", [1e-300, 1e-17, 1e-16, 2e-16, 1e-15])
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("kappa", [1e-300, 1e-16, 1e-15])
+@pytest.mark.parametrize("seed", range(4))
 def test_a_rebound_that_is_rounding_is_none(chapter, kappa, seed):
     rng = np.random.default_rng(seed)
     start = np.round([*rng.uniform(-1, 1, 4), *rng.uniform(-1, 1, 4)], 3)

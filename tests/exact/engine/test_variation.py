@@ -60,9 +60,8 @@ def test_carried_perturbations_are_those_times_the_jacobian(chapter):
     np.testing.assert_array_equal(frame, given)
 
 
-@pytest.mark.parametrize("kappa", [1e-8, 1e-12])
-def test_jacobian_of_impacts_that_leave_hardly_any_velocity(chapter, kappa):
-    system, start = chapter(kappa=kappa), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
+def test_jacobian_of_impacts_that_leave_hardly_any_velocity(chapter):
+    system, start = chapter(kappa=1e-12), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
     run = vi.simulate(system, start, 3)
     assert set(run.events["kind"]) == {IMPACT, STICK, RELEASE}
     expected = jacobian_in_high_precision(system, start, 3, digits=80)

@@ -11,6 +11,7 @@ from mpmath import mp
 from scipy.linalg import expm
 
 from attacks import GENES, bred, random_system
+from by_hand import exact_rate
 from vibroimpact.exact.engine.flow import numbers_of
 from vibroimpact.exact.lanes import loop, rows, steps
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
@@ -43,21 +44,10 @@ def test_a_step_of_the_boxes_is_known_beyond_rounding():
     for system in systems(3):
         c = constants(system)
         with mp.workdps(60):
-            step = mp.expm(exact_rate_matrix(system) * c[rows.STEP]) - mp.eye(6)
+            step = mp.expm(exact_rate(system) * c[rows.STEP]) - mp.eye(6)
             for i, k in np.ndindex(4, 4):
                 left = step[i, k] - mp.mpf(c[6 * i + k]) - mp.mpf(c[rows.LOW_PARTS + 4 * i + k])
                 assert abs(left) < 2.0**-90 * max(abs(step[i, j]) for j in range(4))
-
-
-def exact_rate_matrix(system):
-    """The rates of (10.2), both balls flying, without the forcing."""
-    e, omega = mp.mpf(system.epsilon), mp.mpf(system.Omega)
-    a, c1, c2, c, shift = (
-        e * mp.mpf(getattr(system, name))
-        for name in ("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", "sigma20_hat")
-    )
-    one, two = [-1 - a, a, -c1 - c, c, 0, 0], [a, -1 - shift - a, c, -c2 - c, 0, 0]
-    return mp.matrix([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], one, two, [0] * 5 + [omega], [0] * 4 + [-omega, 0]])
 
 
 def test_the_fourth_derivative_stays_below_its_bound_throughout_a_flight():

@@ -9,11 +9,9 @@ from stroboscope import ORDER, Stroboscope
 from vibroimpact.exact.orbits.floquet import floquet, impact_saltation, multipliers, restitution_matrix, vector_field
 from vibroimpact.exact.orbits.search import half_period_multipliers, orbits, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.system.restitution import after_impact
 
 BEFORE = np.array([0.3, -0.7, 0.2, 0.1, 0.9, -0.4, -0.3, 0.6])
 TAU = 1.7
-MODULES = pytest.mark.parametrize("module", [1, 2])
 
 
 def least_unstable(case):
@@ -35,14 +33,7 @@ def test_monodromy_matrix_and_multipliers_in_extended_precision(case):
             assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-9
 
 
-@MODULES
-def test_impact_matrix_is_the_impact_law(chapter, module):
-    system, box, ball, expected = chapter(), 2 * module + 2, 2 * module + 3, BEFORE.copy()
-    expected[[box, ball]] = after_impact(system.epsilon, system.kappa, BEFORE[box], BEFORE[ball])
-    np.testing.assert_allclose(restitution_matrix(system, module) @ BEFORE, expected, rtol=1e-15)
-
-
-@MODULES
+@pytest.mark.parametrize("module", [1, 2])
 @pytest.mark.parametrize("gamma12_hat", [0.0, 0.2])
 @pytest.mark.parametrize("kappa", [0.1, 0.65, 0.99])
 def test_what_defines_the_saltation_matrix(chapter, module, gamma12_hat, kappa):

@@ -99,24 +99,3 @@ def test_without_damping_it_is_solved_by_impact_modes(chapter):
             expected = modes @ (np.sin(wa * s) / (wa * np.cos(wa)) * (modes.T @ time.kick))
             np.testing.assert_allclose(time.box(s, 1.0)[0], expected, rtol=0, atol=1e-12)
             np.testing.assert_allclose(time.box(s, -1.0)[0], expected, rtol=0, atol=1e-12)
-
-
-def test_an_asymmetric_motion_needs_the_skewed_saw_tooth(chapter):
-    """A ball is linear in the saw-tooth whose two sides last as its flights, and in no triangular wave."""
-    system = chapter()
-    phases = np.linspace(0.0, 1.0, 201)
-    found = [orbit for orbit in vi.orbits(system) if orbit.admissible]
-    assert {orbit.symmetric for orbit in found} == {True, False}
-    for orbit in found:
-        run = vi.simulate(system, orbit.state, 1, sample_times=phases * system.period)
-        plus, minus = orbit.impact_phases[1]
-        ball, share = run.samples[:, 3], (minus - plus) % 1.0
-
-        def misfit(first, share, ball=ball):
-            wave = np.interp((phases - first) % 1.0, [0.0, share, 1.0], [1.0, -1.0, 1.0])
-            columns = np.column_stack([wave, np.ones_like(wave)])
-            return np.abs(columns @ np.linalg.lstsq(columns, ball)[0] - ball).max()
-
-        assert misfit(plus, share) < 1e-10
-        triangular = min(misfit(first, 0.5) for first in np.linspace(0.0, 0.5, 100))
-        assert (triangular < 0.01) == orbit.symmetric
