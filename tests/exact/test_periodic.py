@@ -181,18 +181,8 @@ def test_a_strongly_unstable_motion_repeats_after_one_period_and_not_after_more(
             vi.periodic_orbit(system, motion.state, periods)
 
 
-def test_what_went_wrong_is_said():
-    system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.9)
-    far = vi.simulate(system, np.zeros(8), 2000).final
-    with pytest.raises(
-        ValueError,
-        match=r"\Astate: no motion of period 1 found; where Newton's method stops, start and end of the run still "
-        r"differ by 0.\d+\Z",
-    ):
-        vi.periodic_orbit(system.with_(kappa=0.2), vi.simulate(system.with_(kappa=0.2), np.zeros(8), 2000).final)
-    with pytest.raises(ValueError, match=r"\Aperiods: "):
-        vi.periodic_orbit(system, far, 0)
-    with pytest.raises(ValueError, match=r"\Astate: \|X1 - Y1\| = 3.0 is above 1"):
-        vi.periodic_orbit(system, [3.0, *[0.0] * 7])
-    with pytest.raises(ValueError, match=r"\Asystem: "):
-        vi.periodic_orbit(None, far)
+def test_a_start_from_which_no_motion_is_found_is_refused():
+    system = vi.System(**PARAMETERS | {"kappa": 0.2}, f10_hat=1.0, f20_hat=0.9)
+    said = r"\Astate: no motion of period 1 found; where Newton's method stops, start and end of the run still differ"
+    with pytest.raises(ValueError, match=said):
+        vi.periodic_orbit(system, vi.simulate(system, np.zeros(8), 2000).final)

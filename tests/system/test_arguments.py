@@ -41,6 +41,7 @@ CALLS = {
     "ensemble": (vi.ensemble, dict(systems=SYSTEM, states=REST, cycles=3)),
     "fixed_points": (vi.fixed_points, {}),
     "orbits": (vi.orbits, {}),
+    "periodic_orbit": (vi.periodic_orbit, dict(system=SYSTEM, state=REST, periods=1)),
     "search": (search, dict(system=SYSTEM)),
     "reference_run": (reference_run, dict(system_parameters=CHAPTER, state=REST, cycles=1, digits=30)),
     "errors": (vi.simulate(SYSTEM, REST, 1).errors, {}),
@@ -53,6 +54,7 @@ BAD = {
     "ensemble": dict(systems=["equal", [None]], states=[np.zeros(7)], cycles=[-1], settle=[4, -1], tau0=[np.nan]),
     "fixed_points": dict(system=NO_SYSTEMS),
     "orbits": dict(system=NO_SYSTEMS),
+    "periodic_orbit": dict(system=[None], state=[BEYOND[0]], periods=[0]),
     "search": dict(starts=[0, -1, 2.5, "many"]),
     "reference_run": dict(
         state=[BEYOND[0], [0.0] * 7, [np.nan, *REST[1:]], [0, 0, 0, "1.0000000000000000001", 0, 0, 0, 0]], digits=[10],

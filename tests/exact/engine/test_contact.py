@@ -11,7 +11,6 @@ from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.exact.engine.contact import impact
 from vibroimpact.exact.engine.exclusion import acceleration_rounding
 from vibroimpact.exact.engine.flow import SCALARS, Coefficients, flow_of, numbers_of
-from vibroimpact.system.restitution import after_impact, energy_lost
 from vibroimpact.system.state import IMPACT, STICK
 
 ALONE = dict(alpha12_hat=0.0, gamma12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0)
@@ -64,17 +63,6 @@ def rebounds(events):
     for event in events[events["kind"] == IMPACT]:
         box, ball = event["state"][[2 + 2 * event["module"], 3 + 2 * event["module"]]]
         yield abs(box - ball)
-
-
-def test_an_impact_conserves_momentum_and_loses_what_is_told():
-    rng = np.random.default_rng(0)
-    box, ball = rng.normal(size=(2, 1000))
-    epsilon, kappa = rng.uniform(0.001, 1, 1000), rng.uniform(0.001, 0.999, 1000)
-    new_box, new_ball = after_impact(epsilon, kappa, box, ball)
-    np.testing.assert_allclose(new_box + epsilon * new_ball, box + epsilon * ball, atol=1e-14)
-    np.testing.assert_allclose(new_box - new_ball, -kappa * (box - ball), atol=1e-14)
-    energy = 0.5 * (box**2 + epsilon * ball**2) - 0.5 * (new_box**2 + epsilon * new_ball**2)
-    np.testing.assert_allclose(energy, energy_lost(epsilon, kappa, box - ball), atol=1e-14)
 
 
 def test_an_impact_is_rounded_no_more_than_its_velocities_are(chapter):

@@ -89,14 +89,3 @@ def test_what_happens_at_once_counts_without_any_cycle(case):
     np.testing.assert_allclose([energy.impacts[0], energy.stored], [lost, -lost], rtol=1e-12)
     assert energy.per_cycle.shape == (0,)
     assert not energy.work.any()
-
-
-def test_long_flights_are_followed_beyond_the_tables(chapter):
-    """A ball that meets nothing for many periods; with neither force nor damper nothing is spent."""
-    still = chapter(0.0, 0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
-    energy = vi.simulate(still, [0.2, 0.2, 0.1, 0.1, 0.0, 0.0, 0.1, 0.0], 40).energy
-    assert abs(energy.stored) < 1e-14
-    assert not energy.work.any()
-    damped = vi.simulate(chapter(0.0, 0.0), [0.2, 0.2, 0.1, 0.1, 0.0, 0.0, 0.1, 0.0], 40).energy
-    assert not damped.impacts.any()
-    assert damped.ground.sum() + damped.coupling == pytest.approx(-damped.stored, rel=1e-12)
