@@ -21,6 +21,7 @@ from attacks import (
     truth,
     unlike_single_runs,
 )
+from hard_starts import faults
 from vibroimpact.accuracy.reference.roots import Undecidable
 
 PER_SYSTEM = 10
@@ -80,6 +81,11 @@ def test_no_true_error_exceeds_the_promise(request, ratio, genes, per_attack, ma
         seed += 1
     print(f"{len(ratios)} decided runs, worst ratio {max(ratios):.3g}, median {np.median(ratios):.3g}")
     assert max(ratios) < MAX_ERROR_RATIO
+
+
+def test_random_hard_starts_finish_with_rows_that_follow_from_one_another(request):
+    for number in range(max(request.config.getoption("--attack"), 120)):
+        assert list(faults(number)) == [], number
 
 
 @pytest.mark.parametrize("kind", ensembles)
