@@ -11,7 +11,16 @@ from matplotlib.lines import Line2D
 from vibroimpact.accuracy.model_choice import motions
 from vibroimpact.figures.plotting.manifold import branches, draw_branches
 from vibroimpact.figures.plotting.names import name_curves
-from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import (
+    BLACK,
+    GREY,
+    SINGLE_COLUMN,
+    STABLE,
+    UNSTABLE,
+    heading,
+    new_figure,
+    styled,
+)
 from vibroimpact.tables import curve, join, select
 from vibroimpact.theory.fixed_points.balance import singular_points
 from vibroimpact.theory.fixed_points.table import labelled_points
@@ -56,8 +65,8 @@ NAME = {"fontsize": 10, "color": BLACK}
 ZOOM = {"xlim": (0.85, 1.25), "ylim": (0.0, 0.34)}
 """Part of a plane around the fold; if it contains several points, it is drawn enlarged in INSET."""
 INSET = (0.13, 0.5, 0.44, 0.46)
-KEY = {"P": "fixed point $P_i$", "S": "singular point $S_i$"}
-ROW_HEIGHT, MARGINS = 38.0, 18.0
+KEY = "fixed point $P_i$", "singular point $S_i$", "stable by (10.26)", "unstable by (10.26)"
+ROW_HEIGHT, MARGINS = 38.0, 23.0
 """Height in mm of one row of planes, and of all headings and labels together."""
 MARKERS = {
     "S": {"marker": "s", "color": "0.3", "markersize": 4.6, "markerfacecolor": "0.75", "markeredgewidth": 0.7},
@@ -139,8 +148,9 @@ def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({}))
         axes.set_title(f"module {module}\n", pad=4)  # one line above the heading of the row
     for axes, module in zip(grid[-1], MODULES, strict=True):
         axes.set_xlabel(f"$C_{module}$")
-    handles = [Line2D([], [], linestyle="none", **MARKERS[kind]) for kind in KEY]
-    figure.legend(handles, KEY.values(), loc="outside lower center", ncols=2)
+    handles = [Line2D([], [], linestyle="none", **MARKERS[kind]) for kind in "PS"]
+    handles += [Line2D([], [], **look) for look in (STABLE, UNSTABLE)]
+    figure.legend(handles, KEY, loc="outside lower center", ncols=2)
     name_curves(figure, names, **NAME)
     return figure
 

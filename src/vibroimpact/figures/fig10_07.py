@@ -50,6 +50,7 @@ WORDS = {
     "X": "box $X_i$",
     "W": "$W_i = X_i - Y_i$",
     "Y": "ball $Y_i$",
+    "walls": r"walls, $W_i = \pm 1$",
 }
 """COORDINATES: U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style separates curves
 of one colour. WORDS: names in the key."""
@@ -120,5 +121,6 @@ def draw_response(axes, table: pd.DataFrame, module: int) -> None:
 
 def key(figure) -> None:
     """Draw a legend of the coordinates below the panels, since the curves are too close for direct labels."""
-    handles = [Line2D([], [], **look, label=WORDS[name]) for name, look in COORDINATES.items()]
+    looks = COORDINATES | {"walls": {"color": BLACK, "linewidth": 0.4}}
+    handles = [Line2D([], [], **look, label=WORDS[name]) for name, look in looks.items()]
     figure.legend(handles=handles, loc="outside lower center", ncols=2, handlelength=2.4)

@@ -64,7 +64,7 @@ COMPARED = 120
 """Largest number of forcing periods over which simulations are compared."""
 ERROR_MIN, ERROR_MAX = 1e-3, 100.0
 """Smallest and largest error [percent] that is drawn to scale."""
-AXIS_MIN, LANE_ERROR = 1e-4, 3e-4
+AXIS_MIN, LANE_ERROR = 1e-5, 1e-4
 """Lower end of the axis, and position of errors below ERROR_MIN, such as the error 0 of the reference."""
 MARK = {"color": BLACK, "marker": "o", "markersize": 5}
 KEY = "model in use", "other model", "tolerance", "less than 0.001 %"
@@ -191,8 +191,9 @@ def draw(table: pd.DataFrame) -> Figure:
             place = row.seconds, LANE_ERROR if row.error < ERROR_MIN else min(row.error, ERROR_MAX)
             axes.plot(*place, **MARK | {"markerfacecolor": BLACK if row.in_use else "white"})
             left = row.seconds > np.sqrt(ends[0] * ends[1])
-            aside = {"xytext": (-5, -2), "ha": "right"} if left else {"xytext": (5, -2)}
-            axes.annotate(row.model.replace("_", " "), place, textcoords="offset points", va="center", **aside)
+            aside = {"xytext": (-5, 4), "ha": "right"} if left else {"xytext": (5, 4)}
+            words = f"{row.model.replace('_', ' ')}\n{row.seconds:.2g} s"
+            axes.annotate(words, place, textcoords="offset points", va="top", fontsize=8, linespacing=1.0, **aside)
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=(AXIS_MIN, 1.5 * ERROR_MAX))
         axes.set_yticks(10.0 ** np.arange(-3, 3), ["0.001", "0.01", "0.1", "1", "10", "100"])
         axes.minorticks_off()

@@ -28,8 +28,9 @@ SPEC = {
         r"points of the slow flow; filled marks: exact asymmetric orbits at the :math:`\varepsilon` of the cases, each "
         "joined to the fixed point that is its limit, if there is one. Other panels, one per case: asymmetry of the "
         "flights of each exact pair of mirror images (:math:`v`: difference of the flight times over the period) as "
-        r":math:`\varepsilon` decreases, down to that fixed point. Labels: verdict at the :math:`\varepsilon` of the "
-        "case. The stable pair of the equal case, A3 in `orbits.csv`, is the response of Fig. 10.8.",
+        r":math:`\varepsilon` decreases, down to that fixed point. Labels and lines: verdict at the "
+        r":math:`\varepsilon` of the case. A circle with :math:`v^2 < 0` is no motion: that pair ends before "
+        r":math:`\varepsilon = 0`. The stable pair of the equal case, A3 in `orbits.csv`, is the response of Fig. 10.8.",
     "alt": "First panel: a V-shaped curve of B against C, bold where stable. A green curve rises steeply from its "
         "right arm, with circles on it and diamonds and triangles beside it. Other panels: lines of v squared "
         "against epsilon from these marks, labelled stable or unstable, to circles at epsilon 0; the lowest line "
@@ -283,7 +284,7 @@ def draw(tables: dict) -> Figure:
         heading(axes, letter, f"exact pairs, {_title(case)}")
         _draw_case(axes, pairs[pairs["case"] == case], mark)
     if marks:
-        others[0].set_ylabel("inequality of flights, $v^2$")
+        others[0].set_ylabel("squared flight asymmetry, $v^2$")
     figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     name_curves(figure, names)
     return figure
@@ -319,7 +320,7 @@ def _draw_manifold(axes, pieces, modules, marks):
 
 def _draw_case(axes, pairs, mark):
     for (_, verdict), way in pairs.groupby(["label", "exact"], sort=False):
-        axes.plot(way["epsilon"], way["squared"], color=BLACK, linewidth=0.8)
+        axes.plot(way["epsilon"], way["squared"], **STABLE if verdict == "stable" else UNSTABLE)
         start = way.iloc[0][["epsilon", "squared"]]
         axes.plot(*start, clip_on=False, **mark)
         axes.annotate(verdict, start, (-5, 4), textcoords="offset points", ha="right")

@@ -127,7 +127,6 @@ ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", VANI
 _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
 BAND = (14.0, 16.5)
 """Lower and upper edge of the band above the errors that marks couplings with missing orbits, in %."""
-_BELOW = {"ha": "right", "va": "top", "fontsize": 8.5}
 _KEY = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.18), "fontsize": 8}
 _KEY |= {"handlelength": 1.3, "handletextpad": 0.4, "columnspacing": 0.6}
 """Place of the key of a panel, below its axis label."""
@@ -357,7 +356,7 @@ def draw(tables: dict) -> Figure:
     table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 88.0)
     grid = figure.subplots(1, 3)
-    heads = "error of leading order", "both balls asymmetric", "power at the impacts"
+    heads = "error of leading order", "both balls asymmetric", "power, coupling 1"
     for axes, letter, words in zip(grid, "abc", heads, strict=True):
         heading(axes, letter, words)
     _draw_errors(grid[0], table)
@@ -368,7 +367,7 @@ def draw(tables: dict) -> Figure:
 
 def _draw_errors(axes, table):
     axes.axhspan(*BAND, color=LIGHT_GREY, linewidth=0)
-    axes.text(0.98, BAND[0] - 0.15, "grey: a point has no exact motion", transform=axes.get_yaxis_transform(), **_BELOW)
+    axes.text(8.0, np.mean(BAND), "no exact motion", ha="center", va="center", fontsize=8)
     looks = {PROPORTION: ("o", BLACK, 3.2, "-"), HELD: ("s", "white", 3.8, (0, (3, 1.5)))}
     for (name, (marker, face, size, style)), row in zip(looks.items(), np.linspace(*BAND, 4)[2:0:-1], strict=True):
         look = {"marker": marker, "markerfacecolor": face, "markersize": size, "color": BLACK, "markeredgewidth": 0.7}

@@ -32,8 +32,7 @@ SPEC = {
     "caption": "Displacement per static deflection, :math:`|X_i|/f`, of the box that moves more, where :math:`f` is "
         r"the larger of the forces :math:`\varepsilon\hat f_{i0}`. a to c: against the frequency, with forces on both "
         "boxes and on one; d: against the force. Dots: with balls, largest value of three starts, filled if most of "
-        "the motions repeat; grey: between 5 % and 95 % of the cycles; lines: linear systems in closed form, named "
-        "in the key.",
+        "the motions repeat; grey: between 5 % and 95 % of the cycles; lines: linear systems in closed form.",
     "alt": "Four panels. a to c: response against the detuning, with a high resonance peak without balls. With balls, "
         "dots and a grey band lie below it near resonance and above it elsewhere. A flat line of the best absorbers "
         "lies below nearly all dots. d: with increasing force, the dots fall from the line without balls to a minimum "
@@ -242,7 +241,7 @@ def draw(tables: dict) -> Figure:
     without = tables["linear"].query("series == 'without balls'")["ratio"].max()
     logarithmic(last, "y", LEAST, MOST * without)
     for axes in panels[: len(pairs) + 1 : columns]:
-        axes.set_ylabel("largest $|X_i|\\,/\\,f$")
+        axes.set_ylabel("displacement, $|X_i|\\,/\\,f$")
     figure.legend(*last.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
     return figure
 
