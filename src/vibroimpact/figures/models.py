@@ -191,9 +191,10 @@ def draw(table: pd.DataFrame) -> Figure:
             place = row.seconds, LANE_ERROR if row.error < ERROR_MIN else min(row.error, ERROR_MAX)
             axes.plot(*place, **MARK | {"markerfacecolor": BLACK if row.in_use else "white"})
             left = row.seconds > np.sqrt(ends[0] * ends[1])
-            aside = {"xytext": (-5, 4), "ha": "right"} if left else {"xytext": (5, 4)}
+            up = row.error > row.tolerance
+            aside = {"xytext": (-5 if left else 5, -4 if up else 4), "ha": "right" if left else "left"}
             words = f"{row.model.replace('_', ' ')}\n{row.seconds:.2g} s"
-            axes.annotate(words, place, textcoords="offset points", va="top", fontsize=8, linespacing=1.0, **aside)
+            axes.annotate(words, place, textcoords="offset points", va="bottom" if up else "top", fontsize=8, **aside)
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=(AXIS_MIN, 1.5 * ERROR_MAX))
         axes.set_yticks(10.0 ** np.arange(-3, 3), ["0.001", "0.01", "0.1", "1", "10", "100"])
         axes.minorticks_off()

@@ -30,7 +30,7 @@ SPEC = {
         "flights of each exact pair of mirror images (:math:`v`: difference of the flight times over the period) as "
         r":math:`\varepsilon` decreases, down to that fixed point. Labels and lines: verdict at the "
         r":math:`\varepsilon` of the case. A circle with :math:`v^2 < 0` is no motion: that pair ends before "
-        r":math:`\varepsilon = 0`. The stable pair of the equal case, A3 in `orbits.csv`, is the response of Fig. 10.8.",
+        r":math:`\varepsilon = 0`. The stable pair of the equal case, A3 in `orbits.csv`, is that of Fig. 10.8.",
     "alt": "First panel: a V-shaped curve of B against C, bold where stable. A green curve rises steeply from its "
         "right arm, with circles on it and diamonds and triangles beside it. Other panels: lines of v squared "
         "against epsilon from these marks, labelled stable or unstable, to circles at epsilon 0; the lowest line "
