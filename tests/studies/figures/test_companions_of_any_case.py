@@ -47,9 +47,8 @@ def test_forces_too_weak_for_a_response_are_drawn_without_one():
 
 
 def test_couplings_without_fixed_points_have_no_errors(monkeypatch):
-    monkeypatch.setattr(companion_coupling, "FORCES", (0.05, 0.4))
-    monkeypatch.setattr(companion_coupling, "STARTS", 2)
-    monkeypatch.setattr(companion_coupling, "ALIKE", {})
+    for name, value in {"FORCES": (0.05, 0.4), "STARTS": 2, "ALIKE": {}, "TRIED": (1.0,)}.items():
+        monkeypatch.setattr(companion_coupling, name, value)
     tables = companion_coupling.compute({"equal": STILL})
     assert set(tables["csv"]["panel"]) == {"power"}  # whose forces are the figure's own
     assert tables["summary"].set_index("quantity")["value"]["points, damper held"] == 0
