@@ -32,7 +32,6 @@ def slurm(tmp_path):
         pytest.skip(f"no Slurm of one machine here: without {', '.join(lacking)} (.ci/run installs it)")
     if not find_spec("snakemake_executor_plugin_slurm"):
         pytest.skip("Snakemake has no Slurm plugin here: make cluster-tools")
-    (tmp_path / "slurm").mkdir()
     slurm = Slurm(tmp_path / "slurm")
     try:
         try:
