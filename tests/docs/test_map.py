@@ -32,13 +32,6 @@ def is_of_studies(path) -> bool:
     return any(name.partition(".")[0] == "studies" for name in path.parts) and not LAYER.exists()
 
 
-def test_the_map_names_what_is_there():
-    rooms = re.findall(r"^\| (`.*?`) \|(?: (`.*?`) \|)?", CONTRIBUTING, re.MULTILINE)
-    names = [name for row in rooms for cell in row for name in re.findall(r"`([^`]+)`", cell)]
-    assert len(names) > 8
-    assert [name for name in names if not (ROOT / name).exists() and not is_of_studies(ROOT / name)] == []
-
-
 def test_the_quick_tests_are_there():
     """The paths that `make test-quick` passes to pytest exist."""
     told = subprocess.run(["make", "-n", "test-quick"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
