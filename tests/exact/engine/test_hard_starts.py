@@ -105,9 +105,13 @@ def test_chatters_of_symmetric_modules_that_end_at_once(chapter, changes, number
         assert early.max() < 2e-5
 
 
-def test_a_chatter_without_end_in_sight_is_given_up(chapter):
+@pytest.mark.parametrize("sigma_e_hat", [0.2, 50.0], ids=["in a lane", "alone"])
+def test_a_chatter_without_end_in_sight_is_given_up(chapter, sigma_e_hat):
+    system = chapter(0.0, 0.0, **UNCOUPLED, kappa=1 - 1e-9, sigma_e_hat=sigma_e_hat)
+    start = [-1.5, -2.5, 0, 0, 0, 1e-7, 0, 0]
     with pytest.raises(ArithmeticError, match="there are too many events"):
-        vi.simulate(chapter(0.0, 0.0, **UNCOUPLED, kappa=1 - 1e-9), [-1.5, -2.5, 0, 0, 0, 1e-7, 0, 0], 1)
+        vi.simulate(system, start, 1)
+    assert vi.STATUSES[int(vi.ensemble(system, start, 1)["status"])] == "there are too many events"
 
 
 def test_a_run_with_too_many_exclusions_is_given_up():
