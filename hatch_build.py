@@ -9,7 +9,7 @@ from pathlib import Path
 from hatchling.metadata.plugin.interface import MetadataHookInterface
 
 LINK = re.compile(r"(!?)\[([^\]]*)\]\((?!\w+:|#)([^)]+)\)")
-"""Matches a relative link or picture in Markdown; the groups are the mark of a picture, the text and the target."""
+"""Matches a relative link or picture in Markdown; the groups are the "!" of a picture, the text and the target."""
 REPOSITORY = re.compile(r'^repository-code: "?([^"\s]+)"?$', re.MULTILINE)
 
 

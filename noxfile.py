@@ -8,7 +8,7 @@ import nox
 ROOT = Path(__file__).parent
 PYTHONS = nox.project.python_versions(nox.project.load_toml(ROOT / "pyproject.toml"))
 PACKAGES = [nox.param(None, id="lock"), nox.param("lowest-direct", id="lowest"), nox.param("highest", id="newest")]
-"""For each set of packages, the resolution strategy of uv; None means that the locks are used."""
+"""Sets of packages, each given by the resolution strategy of uv; None means the locked versions."""
 PIN = (
     *("pip", "compile", "pyproject.toml", "--output-file", "environment.lock", "--upgrade", "--all-extras"),
     *("--generate-hashes", "--no-annotate", "--no-emit-find-links", "--no-emit-index-url", "--quiet"),

@@ -7,7 +7,7 @@ import vibroimpact as vi
 
 
 def wall(F, omega, c, kappa):
-    """Return an oscillator with mass and stiffness 1 and a ball of mass 1e12 as wall; the unit of length is 50."""
+    """Return an oscillator with mass and stiffness 1, and a ball of mass 1e12 as wall; lengths are divided by 50."""
     return vi.PhysicalSystem.single(M=1, m=1e12, k=1, c=c, F=F, L=50, kappa=kappa, omega=omega).dimensionless()
 
 
@@ -17,7 +17,7 @@ def speeds(orbit):
 
 
 def sector(r, clearance=0.3):
-    """Return one sector of the chain without coupling, which has no effect if all sectors move in phase."""
+    """Return one sector of the chain, uncoupled, since the coupling has no effect if all sectors move in phase."""
     given = dict(M=0.98, m=0.02, k=1, c=0.002, F=0.002, kappa=0.8)
     return vi.PhysicalSystem.single(**given, L=clearance, omega=r).dimensionless()
 
@@ -28,7 +28,7 @@ def resonant(system):
 
 
 def flight(stiffness, x, V):
-    """Return time and box displacement of the next impact; the last impact was at x, and the ball flies at speed V."""
+    """Return time and box displacement at the next impact, given box displacement x and ball speed V at the last."""
     cell = vi.PhysicalSystem.single(M=1, m=0.3, k=stiffness, c=0, F=0, kappa=1 - 1e-12).dimensionless()
     v = V / stiffness**0.5  # the unit of time follows from the frequency of the box
     impact = vi.simulate(cell, [x, x - 1, 0, 0, -0.3 * v, v, 0, 0], 9).events[0]
@@ -36,7 +36,7 @@ def flight(stiffness, x, V):
 
 
 def half_period(stiffness, V, low, high):
-    """Return the time between impacts in a free motion that is mirrored after half a period; x is in [low, high]."""
+    """Return half the period of a free motion with mirrored halves; low < x < high for the box position at impact."""
     x = brentq(lambda x: flight(stiffness, x, V)[1] + x, low, high)
     return flight(stiffness, x, V)[0]
 

@@ -13,7 +13,7 @@ for name in "${!PIP_@}"; do
     [[ ${key//_/-} =~ ^($reach|cache-dir|config-file)$ ]] || unset "$name"
 done
 # Read the settings from configuration files. The section [install] overrides [global], and variables override both.
-# PIP_USER=0 is set because `user` has another meaning for `pip config`.
+# PIP_USER=0 is set because `pip config` would take `user` as its option --user and list the user's file only.
 while IFS== read -r key value; do
     name=${key^^}
     name=PIP_${name//-/_}

@@ -1,4 +1,4 @@
-"""Compare all methods on the same motion: time per impact, its ratio to the time of this engine, and errors."""
+"""Compare all methods on the same motion: time per impact, its ratio to that of the package's engine, errors."""
 
 from fractions import Fraction
 
@@ -14,12 +14,12 @@ COLUMNS = "method", "setting", "us_per_impact", "error_state", "error_time", "mi
 def measure(problem: Problem, methods, seconds: float) -> list[dict]:
     """Measure every setting of each method on one motion, and return one row per setting.
 
-    Columns: those of COLUMNS, and ratio, the time per impact relative to the fastest setting of this engine.
+    Columns: those of COLUMNS, and ratio, the time per impact relative to the fastest setting of the package's engine.
 
     Parameters
     ----------
     seconds : float
-        Time [s] for which each setting is repeated, as in `work_precision.measure`.
+        Time [s] for which the run with each setting is repeated, as in `work_precision.measure`.
     """
     impacts = len(reference_run(problem.system, problem.state, problem.cycles, DIGITS, exact_floats=False).events)
     rows = [row for row in work_precision(problem, methods, seconds) if row["outcome"] != "unavailable"]
@@ -44,5 +44,5 @@ def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
 
 
 def _after_one_cycle(system, state, digits):
-    """Return the state (8,) one forcing period later, as rational numbers accurate to `digits` decimal digits."""
+    """Return the state (8,) one forcing period after `state`, as rational numbers accurate to `digits` decimals."""
     return [Fraction(text) for text in reference_run(system, state, 1, digits, exact_floats=False).final_text]

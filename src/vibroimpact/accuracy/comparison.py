@@ -12,11 +12,12 @@ OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDL
 
 
 def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per method, in the order of the chart: relative cost, and counts of stress test results.
+    """Return one row per method: relative cost, and counts of stress test results.
 
-    Columns method, family, problems (number of problems solved with an error of at most 1e-6 and without missed or
-    spurious impacts), times (largest ratio, over the problems, of the run time to the run time of the first method;
-    blank unless all problems are solved), right, wrong (silently), stopped (by an error, or not finished), tests.
+    The methods have the order of `work_precision`. Columns method, family, problems (number of problems solved with an
+    error of at most 1e-6 and without missed or spurious impacts), times (largest ratio, over the problems, of the run
+    time to the run time of the first method; blank unless all problems are solved), right, wrong (silently), stopped
+    (by an error, or not finished), tests.
 
     Parameters
     ----------
@@ -37,10 +38,11 @@ def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> p
 
 
 def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
-    """Return the two cheapest methods for each problem and each error of GOALS, among methods with stress tests.
+    """Return the two cheapest methods for each problem and each error in GOALS.
 
-    `compared` is the `methods_table`. Columns problem, error (largest allowed error of the final state), choice (1, 2),
-    method, setting, seconds_per_cycle, wrong (number of stress tests with a silently wrong result), tests.
+    `compared` is the result of `methods_table`; methods in it without stress tests are left out. Columns problem, error
+    (largest allowed error of the final state), choice (1, 2), method, setting, seconds_per_cycle, wrong (number of
+    stress tests with a silently wrong result), tests.
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]
@@ -55,7 +57,7 @@ def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFram
 
 
 def _cheapest(runs, goal):
-    """Return the cheapest run of each of the two cheapest methods that reach the error `goal`, as named tuples."""
+    """Return, for each of the two cheapest methods that reach the error `goal`, its cheapest run, as a named tuple."""
     by_cost = _good(runs, goal).sort_values("seconds_per_cycle", kind="stable")
     return by_cost.drop_duplicates("method").head(2).itertuples()
 

@@ -10,7 +10,7 @@ FAINT = 1e-3
 """Largest rebound speed |W'| of impacts in the tail of a chatter. Every method truncates this tail, so that its impacts
 are neither required nor counted as spurious."""
 WINDOW = 0.05
-"""Largest time difference, in forcing periods, between an impact of a run and the matching impact of the reference."""
+"""Largest time difference, in forcing periods, between an impact of a run and its match in the reference run."""
 
 
 @dataclass(frozen=True)
@@ -18,8 +18,8 @@ class Errors:
     """Errors of a run against a reference.
 
     final: largest difference of a coordinate of the final state (inf if the run has no final state). times: largest
-    time difference [tau] between matching impacts (0 if no impacts match). missed, spurious: numbers of impacts without
-    a match, in the reference and in the run.
+    time difference [tau] between matching impacts (0 if no impacts match). missed: number of impacts of the reference
+    without a match in the run. spurious: number of impacts of the run without a match in the reference.
     """
 
     final: float
@@ -45,7 +45,7 @@ def run_errors(run, reference, period: float, faint: float = FAINT, events: bool
     faint : float, default FAINT
         Impacts with at most this rebound speed need not be found.
     events : bool, default True
-        False to compare only the final states, because the reference does not have all events.
+        False to compare only the final states, for a reference that does not have all events.
     """
     if run.final is None:
         return Errors(np.inf, np.inf, 0, 0)
@@ -73,7 +73,7 @@ def rebound_speeds(events) -> np.ndarray:
 
 
 def _near(times, others, window) -> np.ndarray:
-    """Return True for each of `times` that differs by at most `window` from one of `others`."""
+    """Return True for each time in `times` that differs by at most `window` from some time in `others`, else False."""
     apart = np.abs(np.subtract.outer(np.asarray(times, dtype=float), others))
     return apart.min(axis=1, initial=np.inf) <= window
 

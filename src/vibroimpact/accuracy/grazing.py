@@ -17,8 +17,9 @@ def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float
     """Return an initial state (8,) from which ball 1 clears the wall +1 by `clearance` at its first approach.
 
     Before the first impact the boxes do not depend on the ball, so that W_1 = X_1 - Y_1 is stationary where X_1' equals
-    the velocity of the ball. The initial position of the ball is set so that W_1 = 1 - clearance there. With a negative
-    clearance the ball hits the wall. Rounding the state to float64 changes the clearance by up to 1e-16.
+    the velocity of the ball. The initial position of the ball is set so that W_1 = 1 - clearance at the time when W_1
+    is stationary. With a negative clearance the ball hits the wall. Rounding the state to float64 changes the clearance
+    by up to 1e-16.
 
     Parameters
     ----------
@@ -32,7 +33,7 @@ def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float
     Raises
     ------
     ValueError
-        If W_1 has no maximum near the guess.
+        If W_1 has no maximum near `guess`.
     """
     rates = rate_matrix(ExactSystem.of(system), (False, False))
     with ctx.workprec(BITS):

@@ -30,8 +30,9 @@ MODELS = {
 }
 """Description of each model, keyed by its name in the config, in order of ascending cost.
 
-The slow flow solves (10.23). The exact orbit also solves the symmetric conditions, and the second term solves these
-conditions at three values of epsilon. A reference run repeats a float64 run at least twice, with more digits.
+The slow flow solves (10.23). The exact orbit also solves the conditions of a symmetric orbit, and the second term
+solves these conditions at three values of epsilon. A reference run repeats a float64 run at least twice, with more
+digits.
 """
 CHOICES = {
     "fixed_points": ("slow_flow", "exact_orbit"),
@@ -40,8 +41,8 @@ CHOICES = {
 }
 """Models for a figure, keyed by the name of its notebook, in order of ascending cost."""
 SAMPLES = 400
-"""Samples per period from which the first harmonic of U is computed. The n-th harmonic of U falls like 1/n^3, so that
-aliasing is negligible."""
+"""Samples per period from which the first harmonic of U = X + epsilon Y is computed. The n-th harmonic of U falls like
+1/n^3, so that aliasing is negligible."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,12 +101,12 @@ def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
     labelled_point(points, label)
     found = {one.point.label: one for one in motions(system, labelled_points(points), model)}
     if label not in found:
-        raise ValueError(f"model: fixed point {label!r} has no {model} next to it; use slow_flow")
+        raise ValueError(f"model: no exact orbit lies next to fixed point {label!r}; use slow_flow")
     return found[label]
 
 
 def _exact(system, point, root) -> Motion:
-    """Return the motion of the exact orbit that is given as a root of the symmetric conditions."""
+    """Return the motion of the exact orbit given by `root`, the solution (4,) of the symmetric conditions."""
     impacts, C = np.where(np.isfinite(point.C), root.reshape(2, 2), np.nan)
     return _motion(system, point, C, impacts, lambda tau: _exact_U(system, root, tau))
 

@@ -11,7 +11,9 @@ from vibroimpact.system import System
 from vibroimpact.theory.response import impact_times
 
 STEP = 2e-4
-"""Smallest epsilon of the finite differences; with this value, the sum of the first two terms is accurate to 1e-8."""
+"""Smallest epsilon of the finite differences; with this value, the sum of the first two terms of (10.7) is accurate to
+1e-8.
+"""
 
 
 class NoOrbit(ValueError):
@@ -46,12 +48,12 @@ def at_zero(slope):
 
 
 def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
-    """Return the system with another epsilon, and the root (4,) of its symmetric conditions next to a fixed point.
+    """Return the system with the given epsilon, and the root (4,) of its symmetric conditions next to a fixed point.
 
     Raises
     ------
     NoOrbit
-        If Newton's method finds no root from the fixed point.
+        If Newton's method, started at the fixed point, finds no root.
     """
     here = system.with_(epsilon=epsilon)
     start = np.nan_to_num(np.concatenate([impact_times(here, point), point.C]))

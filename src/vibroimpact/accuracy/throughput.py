@@ -83,7 +83,9 @@ def _around(state, count, distance):
 
 
 def throughput(equal: System, weak: System, settled, seconds: float) -> list[dict]:
-    """Return one row per scene: time per impact [ns] of each method, ratios to a single long run, and errors.
+    """Return one row per scene: time per impact [ns] of each method, ratios of two of these times, and errors.
+
+    A ratio is the time per impact of `ensemble`, in one of its two uses, divided by that of a single long run.
 
     In each scene, all methods and the single long run are timed in turn on one core.
 
@@ -102,9 +104,9 @@ def throughput(equal: System, weak: System, settled, seconds: float) -> list[dic
 
 
 def ranges(rows: list[dict]) -> list[str]:
-    """Return lines of text with the ranges, over all scenes, of the ratios to a single long run.
+    """Return lines of text with the ranges, over all scenes, of the ratios in `rows`, the result of `throughput`.
 
-    `rows` is the result of `throughput`.
+    A ratio is the time per impact of `ensemble` divided by that of a single long run.
     """
     found = {name: [row[f"{name} / long run"] for row in rows] for name in ("final", "observed")}
     return [
@@ -118,7 +120,10 @@ def _long_run(system, state):
 
 
 def _timed(scene, long_run, seconds):
-    """Return the time per impact [ns] of every method in a scene, and the ratios of ensembles to the long run."""
+    """Return the time per impact [ns] of every method in a scene.
+
+    For both uses of `ensemble`, the ratio of this time to that of `long_run` is also returned.
+    """
     impacts, systems, states = _impacts(scene), *scene.runs(SAMPLE)
     short = Scene(systems, states, SHORT)
     few = _impacts(short)
@@ -153,7 +158,7 @@ def _each(method, systems, states):
 
 
 def _compared(scene):
-    """Compare an ensemble with single runs: share of equal impact counts per run, median error of the final state."""
+    """Compare an ensemble with single runs: share of runs with equal impact counts, median error of the final state."""
     systems, states = scene.runs(CHECKED)
     outcomes = ensemble(systems, states, SHORT)
     singles = [simulate(system, state, SHORT) for system, state in zip(systems, states, strict=True)]

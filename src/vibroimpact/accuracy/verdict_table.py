@@ -71,10 +71,11 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
 
 
 def partners(points, orbits) -> list[int | None]:
-    """Match fixed points with orbits by their C, (n, 2) and (m, 2); return the orbit's index for each point, or None.
+    """Return, for each fixed point, the index of the exact orbit next to it, or None.
 
-    C of an inactive module (`System.modules`) is NaN and is ignored. A point is matched with its nearest orbit, unless
-    another point is nearer to that orbit or the distance is above REACH.
+    `points` (n, 2) and `orbits` (m, 2) contain C of both modules; the NaN of an inactive module (`System.modules`) is
+    ignored. A point is matched with its nearest orbit, unless another point is nearer to that orbit or the distance is
+    REACH or more.
     """
     points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
     if not len(orbits):

@@ -21,7 +21,7 @@ from vibroimpact.theory.criteria import CRITERIA, of_fixed_point
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 NAMES = {**PARAMETERS, "f10_hat": None, "f20_hat": None}
-"""Every parameter with its default, or None where the case sets it."""
+"""Default of each parameter; None for the forces, which have the values of the case."""
 MACHINE = {
     "M": "mass of the machine with its box, without the ball [kg]",
     "m": "mass of the ball [kg]; A..B compares designs for masses from A to B",
@@ -106,7 +106,7 @@ def _orbits(system, options):
     """Return one row per admissible orbit.
 
     Phases [forcing periods] are those of the impacts at walls +1 and -1. Speeds are those of the ball on the flights
-    that start at these walls. modulus_1 is the largest modulus of a multiplier.
+    that start at these walls. modulus_1 is the largest modulus of a Floquet multiplier.
     """
     measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
     columns = ("symmetric", "C1", "C2", *measures, "modulus_1", "residual", "exact")

@@ -59,7 +59,7 @@ def _compile(options) -> int:
 
 
 def _run(options) -> int:
-    """Compute the table of a command and write it to its destination."""
+    """Compute the table of a command, save or print the result, and save its plot if one is asked for; return 0."""
     try:
         _check_folders(options)
         command = COMMANDS[options.command]

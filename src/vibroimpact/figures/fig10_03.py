@@ -63,7 +63,7 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(amplitude: float, theta: float, tau0_max: float) -> str:
-    """Return a sentence on the exact system, in Markdown; the arguments are those of `compute`."""
+    """Return a sentence in Markdown on the saw-tooth in the exact system; arguments as in `compute`."""
     return (
         f"{EXACTLY} between its impacts a ball flies freely, so that $Z = W - U = -(1 + \\varepsilon)Y$ consists of "
         "straight lines there, too. Its corners are half a period apart only in symmetric motions."
@@ -91,5 +91,5 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def _instant(j: int) -> str:
-    """Return the tick label of the impact that follows the first one by j half periods."""
+    """Return the tick label of the impact that occurs j half periods after the first impact."""
     return r"$\theta_i$" if j == 0 else rf"$\theta_i+{'' if j == 1 else j}\pi$"

@@ -63,7 +63,7 @@ SPEC = {
 MODULES = (1, 2)
 NAME = {"fontsize": 10, "color": BLACK}
 ZOOM = {"xlim": (0.85, 1.25), "ylim": (0.0, 0.34)}
-"""Part of a plane around the fold; if it contains several points, it is drawn enlarged in INSET."""
+"""Part of a plane around the fold; if this part contains several points, it is drawn enlarged in INSET."""
 INSET = (0.13, 0.5, 0.44, 0.46)
 KEY = "fixed point $P_i$", "singular point $S_i$", "stable by (10.26)", "unstable by (10.26)"
 ROW_HEIGHT, MARGINS = 38.0, 23.0

@@ -28,7 +28,7 @@ __all__ = ["compute", "draw"]
 CHAPTER = {"a": "unstable", "b": "unstable", "c": "stable"}
 """Verdicts by label, from the chapter's caption of Fig. 10.9."""
 PLACE_OF_B = {"b1": 0.957, "b2": 1.665}
-"""C of point b in the planes of both modules, at the chapter's parameters, to which the verdicts of CHAPTER apply."""
+"""C of fixed point b at the chapter's parameters, by plane. The verdicts of CHAPTER apply only to these parameters."""
 
 
 def draw(table: pd.DataFrame) -> Figure:

@@ -40,7 +40,7 @@ def compute(
     Raises
     ------
     ValueError
-        If one of these two functions raises it.
+        If `fig10_06.compute` or `fig10_07.compute` raises it.
     """
     point = motion(system, points, fixed_point, model).point
     return join(

@@ -59,7 +59,8 @@ SPEC = {
 TOLERANCE = {"fixed_points": 10.0, "theoretical_response": 10.0, "simulation": 0.5}
 """Largest error allowed in a figure [percent of the axis], keyed by its notebook. For the theory it is epsilon = 10 %,
 the order of magnitude of the theory's error; for a simulation it is about the width of a line. In a chaotic window,
-rounding alone changes the statistics by more (4 % in figure 10.11), so that two processors would draw two figures."""
+rounding alone changes the statistics by more than that (4 % in figure 10.11); different processors would draw different
+figures."""
 COMPARED = 120
 """Largest number of forcing periods over which simulations are compared."""
 ERROR_MIN, ERROR_MAX = 1e-3, 100.0
@@ -93,7 +94,7 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
 
 
 def _motions(module, system, settings, models, seconds):
-    """Yield, for each model of a figure of fixed points, its name, the reference, the error and the cost [s].
+    """Yield, for each model of a figure of fixed points: its name, what it is compared with, its error, its cost [s].
 
     The cost is the run time of the whole computation from the parameters.
     """
@@ -111,11 +112,11 @@ def _motions(module, system, settings, models, seconds):
 
 
 def _simulations(module, system, settings, models, seconds):
-    """Return, for each model of a simulated motion, its name, the reference, the error and the cost [s].
+    """Return, for each model of a simulated motion: its name, what it is compared with, its error, its cost [s].
 
     The runs in float64 and in arbitrary precision both start where the transient in float64 ends, since the transient
-    takes a minute in arbitrary precision. This time is estimated from the time of a window with few samples, in
-    proportion to the number of periods, and added to the cost.
+    takes a minute in arbitrary precision. The run time of the transient in arbitrary precision is estimated from that
+    of a window with few samples, in proportion to the number of periods, and added to the cost.
     """
     whole = window(system, settings | {"model": "float64"})
     part = settings | {"initial_state": whole.samples[list(NAMES)].iloc[0].tolist(), "transient_cycles": 0}
@@ -137,7 +138,7 @@ def _simulations(module, system, settings, models, seconds):
 
 
 def largest_error(table, reference) -> float:
-    """Return the largest difference between two tables of a figure [percent of the range of its axis].
+    """Return the largest difference between two tables of a figure [percent of the range of the axis].
 
     Points P_i of planes are compared, and curves at the times that both tables have. The result is inf if a table is
     None, or if the tables show different points.
@@ -164,7 +165,8 @@ def _plotted(table, column):
 def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
     """Return statistics of the bursts [percent]: share of time in bursts of ball 2, and amplitudes of X_2.
 
-    The smallest, mean and largest amplitude of a forcing period are in percent of the range of X_2 in the reference.
+    X_2 has one amplitude in each forcing period. The smallest, the mean and the largest of these amplitudes are given
+    in percent of the range of X_2 in `reference`.
     """
     impacts = run.events[(run.events["module"] == 2) & (run.events["kind"] == "impact")]
     bursts = modulation.bursts(impacts["tau"], impacts["wall"], system.period)

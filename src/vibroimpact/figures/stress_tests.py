@@ -40,8 +40,8 @@ VERDICTS = {  # in order of increasing severity
     "did not finish": ("∞", "#A68FC4"),
     "silently wrong": ("×", "#DB5A45"),
 }
-"""Mark and colour of each verdict; either alone identifies it. In a cell, the colour of a failure is paler the smaller
-the share of tests that failed (`shade`)."""
+"""Mark and colour of each verdict; the mark alone or the colour alone identifies the verdict. In a cell, the colour of
+a failure is paler the smaller the share of tests that failed (`shade`)."""
 PALEST = 0.3
 """Share of the full colour in a cell where almost no test fails."""
 ROW, HEAD, FOOT = 7.4, 18.0, 9.0

@@ -1,4 +1,4 @@
-"""The engine of this package as a method."""
+"""Use the engine of this package as a method for comparison with other integrators."""
 
 from functools import partial
 

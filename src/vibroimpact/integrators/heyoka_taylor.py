@@ -1,9 +1,9 @@
 """Integrate with heyoka's adaptive Taylor method; the callbacks of events at the walls apply the impact law.
 
-This is the fastest form found. Two states for the forcing phase avoid transcendental functions in the recursion. There
-is one directed event per wall, and no compact mode. Each contact state of the balls has its own integrator, which is
-compiled once, since all parameters are set at run time. After an event heyoka ignores the same event during a cooldown,
-in which a short flight could end undetected. So rebounds slower than SLOWEST are not followed.
+This is the fastest way found to use heyoka here. Two states for the forcing phase avoid transcendental functions in the
+recursion. There is one directed event per wall, and no compact mode. Each contact state of the balls has its own
+integrator, which is compiled once, since all parameters are set at run time. After an event heyoka ignores the same
+event during a cooldown, in which a short flight could end undetected. So rebounds slower than SLOWEST are not followed.
 """
 
 from functools import lru_cache
@@ -74,7 +74,7 @@ def right_hand_side(numbers, stuck=(False, False)):
 
 
 class _Flight:
-    """End of a flight.
+    """Result of a flight up to its end.
 
     module: module whose event ended the flight, or None. failure: outcome of heyoka if it failed, or None.
     """
@@ -132,7 +132,8 @@ class _Integrator:
     def _impact(self, i, wall):
         """Return the callback that applies the impact law to the state in place.
 
-        If a ball is stuck, or so slow that it may stick, the callback only stops the flight; `Contacts` takes over.
+        If a ball is stuck, or so slow that it may stick, the callback only stops the flight, and `Contacts` then
+        updates the state.
         """
         s_box, s_ball = 4 + BOXES[i], 4 + BALLS[i]
 

@@ -188,7 +188,10 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, signs):
-    """Bisect a step to the shortest fraction that ends beyond a jump; return it and the coordinates at its end."""
+    """Bisect the fraction `part` of a step to the shortest fraction of the step that ends beyond a jump.
+
+    Return this fraction and the coordinates at its end.
+    """
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, signs, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)
@@ -215,7 +218,7 @@ def _beyond(z, boxes, signs):
 
 @disk_cached()
 def _ahead_of(z, i, boxes, signs):
-    """Return the distance to the next wall, and |v|; beyond a jump one of them is negative."""
+    """Return the distance of ball i to the wall ahead, and |v|; beyond a jump one of the two values is negative."""
     return 1.0 - signs[i] * (z[4 * i] - 2.0 * boxes[i]), signs[i] * z[4 * i + 1]
 
 

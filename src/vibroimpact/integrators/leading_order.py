@@ -12,7 +12,7 @@ from vibroimpact.theory.response import impact_times, leading_order
 
 
 class LeadingOrder(Method):
-    """Steady response of the stable fixed point nearest to the initial state; its error is O(epsilon)."""
+    """Steady response of the stable fixed point nearest to the initial state, at leading order: the error is O(epsilon)."""
 
     name, family, knob, settings, careful = "leading order", "multiple scales", "order", (0,), 0
 
@@ -30,7 +30,7 @@ class LeadingOrder(Method):
 
 
 def steady_state(system, point, tau) -> np.ndarray:
-    """Return the leading-order state (8,) at a time; its velocities are the derivatives of its displacements."""
+    """Return the leading-order state (8,) at time `tau`; the velocities are the derivatives of the displacements."""
     response = leading_order(system, point, [tau])
     phase = system.Omega * tau - point.psi
     U_rate = system.Omega * point.B * np.cos(phase)

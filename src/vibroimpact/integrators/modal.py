@@ -1,4 +1,4 @@
-"""Compute flights exactly as sums of modes of the boxes; find impacts by sampling the gaps and Newton's method.
+"""Compute flights exactly as sums of modes of the boxes; find impacts from samples of 1 - |W| by Newton's method.
 
 This is the best simple method. In flight it is as exact as the engine, but it has no proof that no event occurs between
 two samples. The code is compiled.
@@ -26,11 +26,13 @@ from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 WORST = 1e8
 """Condition number of the eigenvectors at which the modes have lost half of their digits."""
 TRIES, LAST_STEP = 60, 3e-8
-"""Largest number of Newton steps for an event, and the step length [tau] that ends them: its square is negligible."""
+"""Largest number of Newton steps for an event, and length [tau] of a step after which none follows, as its square is
+negligible.
+"""
 
 
 class Modal(Method):
-    """Sampling of the modal solution; the setting is the number of samples of the gaps per cycle."""
+    """Modal solution with sampled distances to the walls; the setting is the number of samples per cycle."""
 
     name, family, knob = "modal scan", "exact flow", "samples per cycle"
     settings = (8, 16, 32, 64, 128, 256)
@@ -75,7 +77,7 @@ def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
 
 @inlined()
 def _turn(rates, count, t, turns):
-    """Write into `turns`, (2, 5), real and imaginary parts of the factors by which amplitudes change over a time t."""
+    """Write real and imaginary parts of the factors by which amplitudes of modes change over a time t into `turns`."""
     for k in range(count):
         size, angle = math.exp(rates[0, k] * t) if rates[0, k] != 0.0 else 1.0, rates[1, k] * t
         turns[0, k], turns[1, k] = size * math.cos(angle), size * math.sin(angle)
@@ -106,7 +108,10 @@ def _amplitudes(s, tau, omega, count, inverse, shape, amplitudes):
 
 @inlined()
 def _state(s, walls, count, shape, amplitudes, t, there):
-    """Write into `there` the state (8,) at a time t after the start s of a flight, from the amplitudes at that time."""
+    """Write the state (8,) at a time t after the start of a flight into `there`; s is the state at the start.
+
+    `amplitudes` are those of the modes at the time t after the start.
+    """
     for j in range(4):
         total = 0.0
         for k in range(count):
@@ -120,9 +125,10 @@ def _state(s, walls, count, shape, amplitudes, t, there):
 
 @inlined()
 def _guess(before, there, i, low, high):
-    """Interpolate the gap of module i and its slope between two states by a cubic; return the time of its zero.
+    """Return the time between `low` and `high` at which ball i reaches a wall, from a cubic through two states.
 
-    Newton's method for this zero starts with the tangent in the later state.
+    The cubic interpolates the distance to the wall and its rate in the states `before` and `there`. Newton's method for
+    the zero of the cubic starts with the tangent in the state `there`.
     """
     x = 2 * i
     wall = 1.0 if there[x] - there[x + 1] > 0.0 else -1.0
@@ -166,10 +172,10 @@ def _march(q, tables, s, tau, end, step, limit):
 
 @inlined_source()
 def _fly(q, flight, tau, length, stride, most, memory):
-    """Sample a flight until an event, its end or `most` samples; return (module of the event or -1, time, samples).
+    """Sample a flight up to an event, to its end `length` or to `most` samples; return (module or -1, time, samples).
 
-    stride: time between samples, and the factors of the amplitudes over it. The state at the returned time is written
-    to memory[2].
+    The returned module is that of the event, or -1. The state at the returned time is written to memory[2]. stride:
+    time between samples, and the factors by which amplitudes change over this time.
     """
     (s, walls, count, shape, rates, amplitudes), (step, ahead), (modes, states, reached) = flight, stride, memory
     (now, trial, turns), (before, there, event) = modes, states
@@ -204,8 +210,8 @@ def _fly(q, flight, tau, length, stride, most, memory):
 def _event(q, flight, tau, i, times, states, memory, event):
     """Return the time between two samples at which the guard of module i falls through zero.
 
-    The state at that time is written to `event`. Newton's method starts at the zero of a cubic through both samples;
-    bisection is the fallback.
+    The state at that time is written to `event`. For a flying ball, Newton's method starts at the zero of a cubic
+    through both samples. Bisection is the fallback.
     """
     (s, walls, count, shape, rates, amplitudes), (turns, trial) = flight, memory
     (low, high), (before, there) = times, states

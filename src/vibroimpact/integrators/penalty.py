@@ -1,8 +1,8 @@
 """Integrate with compliant walls of springs and dampers (contact_laws); contact forces are part of the equations.
 
-The method of Dormand and Prince (1980) is used. It is explicit: an implicit method could not take longer steps, since
-they must resolve the oscillation of a contact. It is compiled, since a general solver would spend most of its time
-outside the evaluation of the force.
+The method of Dormand and Prince (1980) is used. This method is explicit: an implicit method could not take longer
+steps, since its steps must also resolve the oscillation of a contact. The code is compiled, since a general solver
+would spend most of its time outside the evaluation of the force.
 """
 
 import math
@@ -27,9 +27,9 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
 SLOWEST = 1e-3
-"""Speed V that sets the damping of slower contacts too, since damping proportional to 1 / V has no limit at V = 0."""
+"""Slower contacts have the damping of this speed V, since damping proportional to 1 / V has no limit at V = 0."""
 SLOWEST_COUNTED = 0.01
-"""Lowest speed, in the middle of the box, of a ball whose impact is counted, for a spring over the whole box."""
+"""For a spring over the whole box: lowest speed of a ball, in the middle of the box, for its impact to be counted."""
 SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
 HALVINGS = 40  # bisections that make a step end where a contact begins
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
@@ -209,7 +209,7 @@ def _march(q, law, stages, s, tau, end, limit):
 
 @disk_cached()
 def _until_contact(stages, tau, s, h, ahead, contact, touching):
-    """Shorten a step to end just after the first contact in it begins; return its length and the state at its end."""
+    """Shorten a step so that it ends just after its first contact begins; return the new length and end state."""
     least = 0.0
     for _ in range(HALVINGS):
         if not _begins(ahead, contact[1], touching) or least == h:

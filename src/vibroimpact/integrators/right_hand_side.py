@@ -14,7 +14,9 @@ NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon"
 inlined = partial(disk_cached, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
 """Decorator for functions that run at every step; Numba inlines cached code only if this is requested."""
 inlined_source = partial(disk_cached, inline="always")
-"""Decorator for functions that round like their caller. In SciPy's integrators they use no fused multiply-add."""
+"""Decorator for functions that round like their caller. When these functions are called from SciPy's integrators, they
+use no fused multiply-add.
+"""
 
 
 def coefficients(system) -> np.ndarray:
@@ -56,7 +58,7 @@ def rates(tau, s, q, walls):
 def jacobian(system, stuck) -> np.ndarray:
     """Return the derivative of `rates` with respect to the state, shape (8, 8).
 
-    It is constant in each contact state.
+    The derivative is constant in each contact state; `stuck`, (2,) bool, is True for a ball that sticks to a wall.
     """
     boxes = rate_matrix(system, stuck)[2:4, :4]
     matrix = np.zeros((8, 8))

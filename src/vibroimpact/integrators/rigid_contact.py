@@ -1,9 +1,9 @@
 """Contact logic shared by the event-driven integrators, applied where an integrator has stopped at an event.
 
-General integrators cannot treat the end of a chatter, a ball at rest on a wall. So a ball whose rebound is slower than
-`slow` sticks if the box presses it against the wall; the omitted impacts change the state by less than slow^3. The
-result of the integrator is not checked: if it misses an impact, the ball continues beyond the wall. The code is
-compiled. Coefficients q: see `right_hand_side`; impact law: see `vibroimpact.system.restitution`.
+General integrators cannot treat the end of a chatter, when a ball comes to rest on a wall. So a ball whose rebound is
+slower than `slow` sticks if the box presses it against the wall; the omitted impacts change the state by less than
+slow^3. The result of the integrator is not checked: if it misses an impact, the ball continues beyond the wall. The
+code is compiled. Coefficients q: see `right_hand_side`; impact law: see `vibroimpact.system.restitution`.
 """
 
 import math
@@ -29,7 +29,7 @@ def acceleration(tau, s, q, walls, i):
 def guard(tau, s, q, walls, i):
     """Return the value of the function that falls below zero at the next event of module i.
 
-    This function is the gap of a flying ball, or the contact force of a sticking ball.
+    This function is 1 - |W| for a flying ball, and the contact force for a sticking ball.
     """
     if walls[i] != 0.0:
         return walls[i] * acceleration(tau, s, q, walls, i)
@@ -69,9 +69,9 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 
 @inlined()
 def first_sample_time(tau, s, q, walls, step):
-    """Return the time from now at which to evaluate the gaps first, so that no short flight is missed.
+    """Return the time of the first sample, counted from `tau`, so that no short flight is missed.
 
-    This time is `step`, or half the expected duration of a flight that begins at a wall now, if that is shorter.
+    This time is `step` or, if shorter, half the expected duration of a flight that begins at a wall at `tau`.
     """
     for i in range(2):
         x = 2 * i
@@ -87,7 +87,8 @@ def first_sample_time(tau, s, q, walls, step):
 def newton_or_middle(t, value, slope, low, high):
     """Return the time after a Newton step from t, or the middle of [low, high] if this time lies outside.
 
-    The function, with the given value and slope at t, falls below zero within the interval. At a zero, t is returned.
+    The function with this value and slope at t falls below zero within the interval. If the value is 0 and the slope is
+    not, t is returned.
     """
     after = t - value / slope if slope != 0.0 else math.inf
     return after if low <= after <= high else 0.5 * (low + high)
@@ -105,7 +106,7 @@ class Contacts:
         self.walls, self.impacts = np.zeros(2), []
 
     def start(self, tau, s):
-        """Resolve the contact of each ball that is on a wall at the start: it impacts, sticks or leaves."""
+        """Let each ball that is on a wall at the start impact, stick or leave the wall, according to the state `s`."""
         self.resolve(tau, s, [-1])
 
     def resolve(self, tau, s, due):

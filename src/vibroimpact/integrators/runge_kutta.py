@@ -20,7 +20,7 @@ from vibroimpact.integrators.rigid_contact import (
 )
 
 TRIES, LAST_STEP = 60, 1e-14
-"""Largest number of Newton steps for an event, and the step length [tau] that ends them."""
+"""Largest number of Newton steps for an event, and length [tau] of a step after which none follows."""
 
 
 class RungeKutta4(Method):
@@ -41,7 +41,7 @@ class RungeKutta4(Method):
 
 @inlined()
 def _step(tau, s, q, walls, h, slopes, there):
-    """Write the state after one step of length h into `there`; `slopes` (4, 8) is workspace for the stages."""
+    """Write the state after one step of length h into `there`; `slopes` (4, 8) is work memory for the four stages."""
     omega = q[8]
     middle = math.sin(omega * (tau + 0.5 * h))
     derivative(math.sin(omega * tau), s, q, walls, slopes[0])
@@ -56,9 +56,9 @@ def _step(tau, s, q, walls, h, slopes, there):
 
 @inlined()
 def _event(tau, s, q, walls, i, high, slopes, event):
-    """Return the length of the step, below `high`, after which the guard of module i is zero.
+    """Return the length of the step, at most `high`, after which the `guard` of module i is zero.
 
-    The state at that time is written to `event`.
+    The state after this step is written to `event`.
     """
     low, t, x = 0.0, 0.5 * high, 2 * i
     for _ in range(TRIES):

@@ -32,7 +32,7 @@ class Chatter:
         return self._row[-1]
 
     def add(self, coordinates) -> bool:
-        """Add the state after the next impact; return True if this has improved the limit.
+        """Add the state after the next impact; return True if the limit is now more accurate.
 
         `change` is then the largest difference of a coordinate between the new and the previous limit. In practice it
         bounds the error of the previous limit and the much smaller error of the new limit.

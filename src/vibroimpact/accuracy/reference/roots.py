@@ -4,14 +4,14 @@ from flint import arb, ctx
 
 
 class Undecidable(ArithmeticError):
-    """Raised if the working precision does not determine a sign that decides the next event."""
+    """Raised if the working precision is too low for a sign on which the next event depends."""
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
     """Return an interval (arb) that contains only the first root of the series in (0, end], or None if it has none.
 
-    series: arb_poly, positive at 0. Its mean-value enclosures prove that no root comes before the interval. hint
-    (< end): point at which (0, end] is first split, for a root much nearer than end.
+    series: arb_poly, positive at 0. Its mean-value enclosures prove that no root comes before the interval. hint (<
+    end): point at which (0, end] is first split, useful for a root much nearer to 0 than to end.
 
     Raises
     ------
@@ -45,9 +45,10 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
 
 
 def refine(series, ball: arb) -> arb:
-    """Return, to working precision, the root in the interval `ball`, in which the series falls and has one root.
+    """Return the root of a series in the interval `ball`, to working precision.
 
-    The interval Newton method is used, with bisection as the fallback.
+    The series must fall in this interval and have one root there. The interval Newton method is used, with bisection as
+    the fallback.
     """
     slope = series.derivative()
     while True:

@@ -1,9 +1,9 @@
 """Simulate (10.1) in arbitrary precision, as the reference for all other methods.
 
-Parameters and initial state are rational numbers. Between events the motion of the boxes is a Taylor series with
-an enclosed tail, and the next event is found with proof in ball arithmetic. Each flight starts from an exact
-(rational) state, so that the error of a single flight is enclosed. The growth of these errors along the
-trajectory is checked by another run with more digits: see proven_run.
+Parameters and initial state are rational numbers. Between events the motion of the boxes is a Taylor series with an
+enclosed tail, and the next event is found with proof in ball arithmetic. Each flight starts from an exact (rational)
+state, so that the error of a single flight is enclosed. To check how these errors grow along the trajectory,
+`proven_run` repeats the run with more digits.
 """
 
 from dataclasses import dataclass
@@ -56,7 +56,7 @@ class ProvenRun:
     """Run confirmed by another run with half the digits.
 
     run: run with more digits. coarse: run with fewer digits. agreement: largest absolute difference between both runs
-    in event times, event states, samples and final state; in practice it bounds the error of `coarse`.
+    in event times, event states, samples and final state; in practice, a bound on the error of `coarse`.
     """
 
     run: ReferenceRun
@@ -70,7 +70,7 @@ def reference_run(
     """Simulate (10.1) over a number of forcing periods from tau0, with the given decimal digits in each flight.
 
     A ball that rests on a wall w at the start sticks if the wall pushes it: w X'' > 0, or, if w X'' vanishes within the
-    digits, its first derivative that does not vanish is positive. Otherwise the ball leaves the wall at once.
+    digits, its first nonzero derivative is positive. Otherwise the ball leaves the wall at once.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def reference_run(
     cycles, tau0
         Length and start of the window, rational numbers.
     digits : int
-        Decimals of a single flight, at least 20.
+        Decimal digits to which each flight is computed, at least 20.
     sample_times : sequence, optional
         Ascending times in the window; floats among them have their binary value. A sample at an event is the state
         after the event.
@@ -134,8 +134,8 @@ def proven_run(
     system_parameters, state, cycles, tau0, sample_times, exact_floats
         As in `reference_run`.
     digits : int, optional
-        Initial number of digits. The default is 40 plus 0.33 per forcing period, the loss of digits measured in the
-        modulated case.
+        Initial number of digits. The default is 40 plus 0.33 per forcing period; the modulated case was measured to
+        lose 0.33 digits per period.
 
     Raises
     ------
@@ -158,10 +158,10 @@ def proven_run(
 
 
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
-    """Return the event times of the fine run (n,), and the difference between two runs at each event (n,).
+    """Return the event times of `fine` (n,), and the difference between `coarse` and `fine` at each event (n,).
 
-    The difference is the largest in time and coordinates; it is inf from the first event on whose module, wall or kind
-    differs between the runs.
+    The difference at an event is the largest of the differences in time and in each coordinate. It is inf for the first
+    event whose module, wall or kind is not the same in both runs, and for all later events.
     """
     error = np.full(len(fine.events), np.inf)
     for i, (one, other) in enumerate(zip(coarse.events, fine.events, strict=False)):

@@ -114,18 +114,21 @@ class Flow:
 
     @property
     def longest_step(self) -> Fraction:
-        """Longest time for which the series is accurate to `bits`."""
+        """Longest time from the initial state for which the series is accurate to `bits` binary digits."""
         return Fraction(REACH) / self.norm
 
     def size(self, vector) -> arb:
-        """Return an upper bound of the weighted norm of s; multiplied by `norm`, it bounds |X1''| and |X2''|."""
+        """Return an upper bound of the weighted norm of `vector`, a value of s.
+
+        The bound times `norm` is a bound of |X1''| and |X2''|.
+        """
         largest = arb(0)
         for weight, entry in zip(self._weights, vector, strict=True):
             largest = largest.max(abs(weight * entry))
         return largest.upper()
 
     def series(self, vector) -> tuple[arb_poly, arb_poly]:
-        """Return X1 and X2 as power series in time, for the initial vector s (6,)."""
+        """Return X1 and X2 as power series in time; `vector` (6,) is the initial value of s."""
         with ctx.workprec(self.bits):
             entries = (self._table * arb_mat(6, 1, vector)).entries()
             tail = arb(0, (self._tail * self.size(vector)).upper())
@@ -133,7 +136,7 @@ class Flow:
 
 
 def rate_matrix(system: ExactSystem, stuck) -> list:
-    """Return the exact rate matrix A (6 rows) of s = [X1, X2, X1', X2', sin, cos].
+    """Return the exact rate matrix A (6 rows) of s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)].
 
     `stuck`, (2,) bool, is True for a ball that sticks to a wall.
     """
@@ -150,9 +153,10 @@ def rate_matrix(system: ExactSystem, stuck) -> list:
 
 
 def _weighted_norm(rate):
-    """Return weights >= 1 for the six entries of s, and the row-sum norm of the rate matrix with these weights.
+    """Return weights >= 1 for the six entries of a state vector, and the norm of `rate` with these weights.
 
-    Weighting displacements by about the highest natural frequency keeps the norm near that frequency.
+    The norm is the largest weighted row sum. Displacements are weighted by about the highest natural frequency, so that
+    the norm is near this frequency.
     """
     stiffness = max(sum(abs(entry) for entry in row[:2]) for row in rate[2:4])
     frequency = Fraction(max(1, math.ceil(8 * math.sqrt(stiffness)) / 8))

@@ -21,8 +21,9 @@ SEARCH_BITS = 96  # sufficient to exclude and bracket most events; otherwise the
 class _Ball:
     """Motion of one ball relative to its box: W (`gap`), W' (`rate`), and the wall that the ball touches, or 0.
 
-    order: number of leading Taylor coefficients that vanish. They are coefficients of the contact force of a stuck ball
-    (None: the force is always zero), or of 1 - wall W for a ball that leaves its wall (1 after an impact, else more).
+    order: number of leading Taylor coefficients that vanish. For a stuck ball they belong to the contact force (None:
+    the force is always zero). For a ball that leaves its wall they belong to the distance 1 - wall W (order 1 after an
+    impact, else more).
     """
 
     gap: arb
@@ -43,7 +44,7 @@ class _Ball:
 
 @dataclass(frozen=True)
 class _Candidate:
-    """Event that may end the flight: the first root of a distance or contact force of a module."""
+    """Event that may end the flight: the first root of the distance to a wall, or of a contact force."""
 
     module: int
     wall: int
@@ -108,7 +109,7 @@ class Trajectory:
         self.samples += [self.state() for _ in self.pending]
 
     def _fly(self):
-        """Advance to the next event, the end of the window or the longest step, whichever comes first."""
+        """Advance to the next event, to the end of the window or by the longest step, whichever comes first."""
         self.flights += 1
         self._settle()
         flow, search_flow = self._flow(self.bits + GUARD_BITS), self._flow(SEARCH_BITS)
@@ -150,7 +151,7 @@ class Trajectory:
         self.record.append((self.tau, module, self.balls[module].wall, kind, tuple(self.state())))
 
     def _point(self, value):
-        """Return the midpoint of an enclosure, from which the next flight starts; update local_error by the radius."""
+        """Return the midpoint of an enclosure, as start of the next flight; update local_error by the radius."""
         if not value.rad() < self.tolerance:
             raise Undecidable(f"a flight's enclosure has radius {value.rad()}, too wide for the requested digits")
         self.local_error = self.local_error.max(value.rad())
@@ -175,7 +176,7 @@ class Trajectory:
         return self.box[i] - self.balls[i].gap + speed * t, speed
 
     def _sample(self, series, step):
-        """Append the states at the sample times before the end of the flight."""
+        """Append the states at the sample times within a flight of length `step`."""
         stop = self.tau + step - self.tolerance
         if not (self.pending and self.pending[-1] < stop):
             return
@@ -193,7 +194,7 @@ class Trajectory:
     # -- the next event ----------------------------------------------------------------------------------
 
     def _next_events(self, series, search_series, longest):
-        """Return the earliest event within the longest step, and all events at the same time within the digits."""
+        """Return the earliest event within the time `longest`, and all events at the same time within the digits."""
         try:
             with ctx.workprec(SEARCH_BITS):
                 found = self._bracket(search_series, longest)
@@ -207,7 +208,7 @@ class Trajectory:
     def _bracket(self, series, longest):
         """Return a list of ((module, wall), interval) for the distances whose first root may be the earliest.
 
-        The interval (arb) contains the first root of the distance, and no other.
+        Each interval (arb) contains only the first root of the distance. The distance is that of `_distance`.
         """
         keys = [(module, wall) for module in range(2) for wall in self.balls[module].walls_ahead()]
         distances = [(key, self._distance(key, series)) for key in keys]
@@ -225,7 +226,7 @@ class Trajectory:
         """Return the power series of the distance to a wall, or of the contact force of a stuck ball.
 
         The series is positive until the event. If `order` leading coefficients vanish (see `_Ball`), the series is
-        divided by that power of the time.
+        divided by time to the power `order`.
         """
         module, wall = key
         ball = self.balls[module]
@@ -275,8 +276,9 @@ class Trajectory:
     def _settle(self, *modules, started=False):
         """Release each stuck ball, in the given modules or in both, whose contact force w X'' no longer pushes it.
 
-        The sign of the first Taylor coefficient of the force that does not vanish within the digits decides. This works
-        after the force falls through zero, after it jumps due to an impact of the other module, and at the start.
+        The force just after this instant has the sign of its first nonzero Taylor coefficient (nonzero within the
+        digits). This rule holds after the force falls through zero, after it jumps due to an impact of the other
+        module, and at the start.
         """
         for module in modules or range(2):
             ball = self.balls[module]
@@ -295,7 +297,10 @@ class Trajectory:
     # -- chatter -----------------------------------------------------------------------------------------
 
     def _follow_chatter(self, contacts):
-        """Add the impacts of this instant to the chatter, or start a new one; complete it once its limit is known."""
+        """Add the simultaneous impacts `contacts` to the chatter, or start a new one.
+
+        A chatter is completed as soon as its limit is known.
+        """
         if self.chatter is None or self.chatter.contacts != contacts:
             self.chatter = Chatter(contacts, self.system.kappa) if contacts else None
         if not contacts or any(self.balls[module].stuck for module, _ in contacts):
@@ -307,7 +312,7 @@ class Trajectory:
             self._complete(contacts, others)
 
     def _is_complete(self, contacts):
-        """Return True if the limit of the chatter is known to the digits, and no sample or other event precedes it."""
+        """Return True if the end of the chatter is known to the digits and precedes every sample and other event."""
         if not self.chatter.change < self.tolerance:
             return False
         if any(abs(self.balls[module].rate) > to_ball(LISTED_SPEED) for module, _ in contacts):
@@ -319,7 +324,10 @@ class Trajectory:
         return bool(time > 0 and self.tau + time < next_stop + self.tolerance and self._is_undisturbed(contacts, time))
 
     def _is_undisturbed(self, contacts, time):
-        """Return True if, during this time, contact forces stay positive and other balls stay far from the walls."""
+        """Return True if it is certain that nothing disturbs the chatter of `contacts` within `time`.
+
+        Then the contact forces of chattering and stuck balls stay positive, and all other balls stay off the walls.
+        """
         flow, vector = self._flow(SEARCH_BITS), self._vector()
         acceleration = flow.size(vector) * to_ball(flow.norm)
         series = flow.series(vector)
@@ -367,9 +375,10 @@ def _force(ball, motion):
 
 
 def _parabola_hint(distance, longest):
-    """Return twice the root of the linear part of the distance if this is far below the longest step, else None.
+    """Return twice the root of the linear part of `distance`, or None unless this time is far below `longest`.
 
-    A search that is first split at this time finds the short flights of a chatter in one split.
+    If the search for the root of the whole series is first split at this time, one split suffices to find the end of a
+    short flight of a chatter.
     """
     height, slope = distance[0], distance[1]
     if not (height > 0 and slope < 0):
@@ -379,7 +388,7 @@ def _parabola_hint(distance, longest):
 
 
 def _earliest(found, tolerance):
-    """Return the pairs (key, root interval) whose root may be the earliest, or within the tolerance of the earliest."""
+    """Return the pairs (key, root interval) in `found` whose root may be earliest, or at most `tolerance` later."""
     if not found:
         return []
     first = min(ball.upper() for _, ball in found)

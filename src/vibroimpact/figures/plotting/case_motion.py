@@ -1,6 +1,7 @@
-"""Provide the motion that a notebook shows, simulated with its parameters or read from files of a build.
+"""Provide the motion that a notebook shows: simulate it, or read it from files of a build.
 
-The files are given by `inputs`. A file that was computed with other parameters is an error.
+The argument `inputs` gives the paths of the files. If they were computed with parameters that differ from those of the
+notebook, an error is raised.
 """
 
 import json
@@ -22,7 +23,7 @@ AS_ASYMMETRIC = "as in no motion of the chapter's theory"
 
 
 def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Return the samples and events of the simulated window of a case, read from the files in `inputs` if given.
+    """Return the samples and events of the window of a case, read from the files in `inputs` if any, else simulated.
 
     Parameters
     ----------

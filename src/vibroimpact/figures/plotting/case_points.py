@@ -1,6 +1,7 @@
-"""Provide the fixed points that a notebook shows, computed from its parameters or read from files of a build.
+"""Provide the fixed points that a notebook shows: compute them, or read them from files of a build.
 
-The files are given by `inputs`. A file that was computed with other parameters is an error.
+The argument `inputs` gives the paths of the files. If they were computed with parameters that differ from those of the
+notebook, an error is raised.
 """
 
 import numpy as np

@@ -7,7 +7,9 @@ import numpy as np
 from vibroimpact.figures.plotting.style import GREY, HALO
 
 STEP, GAP = 4.0, 1.6
-"""Distance between places that are tried, and smallest distance from a name to a line or marker, in points."""
+"""Distance between the places that are tried for a name, and smallest distance from a name to a line or marker, in
+points.
+"""
 LEADER = 5.0
 """Distance in points between a name and its curve above which a leader line connects them."""
 CLEAR_DISTANCE = 50.0
@@ -16,8 +18,8 @@ LEAD_MARGIN = 3.0
 """Points by which a name without a leader line must be nearer to its own curve than to other named curves."""
 
 UNCLEAR, OVERLAPS = 1, 2
-"""Defects of a place. A place with a defect is used only if there is no better place. UNCLEAR: it is not
-obvious to which curve the name belongs. OVERLAPS: the name covers something."""
+"""Defects of a place. A place with a defect is used only if no better place is found. UNCLEAR: it is not obvious to
+which curve the name belongs. OVERLAPS: the name covers something."""
 
 
 def name_curves(figure, panels: dict, **style) -> None:
@@ -66,7 +68,11 @@ class _Names:
                 self.avoided[leader] = _outline(leader, self.point)
 
     def _place(self, half, own, others):
-        """Return the nearest good place for a box with the half-size `half`, and both ends of its leader line."""
+        """Return the place of a name near its curve, and both ends of the leader line.
+
+        The name fills a box of half-size `half`. `own` and `others` are the discs of this curve and of the other
+        curves.
+        """
         frame, margin = self.axes.get_window_extent(), half + GAP * self.point
         x = np.arange(frame.x0 + margin[0], frame.x1 - margin[0], STEP * self.point)
         y = np.arange(frame.y0 + margin[1], frame.y1 - margin[1], STEP * self.point)
@@ -96,7 +102,10 @@ class _Names:
 
 
 def _outline(line, point):
-    """Return discs that cover a line and its markers: centre x, centre y and radius in pixels, (n, 3)."""
+    """Return discs that cover a line and its markers: centre x, centre y and radius in pixels, (n, 3).
+
+    point: one typographic point in pixels.
+    """
     corners = line.get_transform().transform(line.get_xydata())
     corners = corners[np.isfinite(corners).all(axis=1)]
     marked = line.get_marker() not in ("", "None", None)
@@ -109,7 +118,7 @@ def _outline(line, point):
 
 
 def _gaps(place, half, points):
-    """Return the distances of discs (n, 3) from a box with its centre at `place` and the half-size `half`."""
+    """Return the distances of the discs `points` (n, 3) from a box with its centre at `place` and half-size `half`."""
     apart = np.maximum(np.abs(points[:, :2] - place) - half, 0.0)
     return np.hypot(apart[..., 0], apart[..., 1]) - points[:, 2]
 

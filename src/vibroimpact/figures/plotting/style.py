@@ -94,7 +94,10 @@ def save(figure: Figure, outputs: dict) -> None:
 
 
 def draw_tables(figure, read: dict) -> Figure:
-    """Draw the figure of a module from its tables, keyed by name; `draw` gets a single table without its name."""
+    """Draw a figure from its tables, keyed by name; `figure` is its Python module.
+
+    `figure.draw` gets a single plotted table without its name, and no argument if there are no tables.
+    """
     if not read:
         return figure.draw()
     several = list(read) != ["csv"] or getattr(figure, "SPEC", {}).get("tables")
@@ -107,7 +110,7 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
     Parameters
     ----------
     figure
-        Module of the figure.
+        Python module of the figure.
     computed
         Result of its `compute`.
     outputs : dict
@@ -126,7 +129,7 @@ def shown(figure, inputs: dict, *args, **settings) -> tuple:
     Parameters
     ----------
     figure
-        Module of the figure.
+        Python module of the figure.
     inputs : dict
         Paths of its tables and "png" in a build. If empty, the figure is computed and drawn.
     args, settings

@@ -84,7 +84,7 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
         If no cycle would be observed, or as for `ensemble`.
     """
     if not cycles > settle:
-        raise ValueError(f"cycles: {cycles} with {settle} to settle leave no cycle to observe")
+        raise ValueError(f"cycles: {cycles} should exceed settle = {settle}, so that a cycle is left to observe")
     systems, states = np.array(systems, dtype=object), np.array([inactive_at_rest(one, states) for one in systems])
     runs = ensemble(systems[:, None], states, cycles, settle=settle, by_cycle=True)
     largest, final, squares = runs["largest"].max(axis=-1), runs["final"][..., -1, :], runs["mean_square"].sum(axis=-2)
