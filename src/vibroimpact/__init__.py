@@ -71,7 +71,7 @@ __all__ = [*_PUBLIC, "__version__"]
 
 
 def __getattr__(name: str):
-    """Load a public name on first use, so that the import itself stays light."""
+    """Load a public name on first use, so that `import vibroimpact` is fast."""
     if name == "__version__":
         return version("vibroimpact")
     if name not in _PUBLIC:

@@ -47,7 +47,7 @@ def certificates() -> None:
 
 
 def results_of_runs() -> None:
-    """Compile the other results of runs: energies, errors and the growth of perturbations."""
+    """Compile energies, errors and the growth of perturbations, which are computed from finished runs."""
     import numpy as np
 
     from vibroimpact.exact.engine.variation import growth
@@ -57,9 +57,9 @@ def results_of_runs() -> None:
 
 
 def ensembles() -> None:
-    """Compile ensembles, which compute runs in lanes, or one by one if the system is undamped.
+    """Compile ensembles, both for runs in lanes and for the runs of an undamped system, one by one.
 
-    This comes last because ensembles use all other code.
+    Call this last, because ensembles use all other compiled code.
     """
     from vibroimpact.exact.lanes.ensemble import ensemble
 

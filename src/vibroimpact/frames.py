@@ -126,7 +126,7 @@ def plot_times(run) -> np.ndarray:
 def plot(system, times, samples):
     """Return a Matplotlib Figure of the states (n, 8) at the given times.
 
-    It shows X_i of the box and W_i = X_i - Y_i of the ball, for both modules.
+    The figure shows X_i of the box and W_i = X_i - Y_i of the ball, for both modules.
     """
     need("figures", "matplotlib")
     from matplotlib.figure import Figure
@@ -146,7 +146,7 @@ def _has_rows(one):
 
 
 def _rows(one, number):
-    """Return the rows of one result, whose index in the list of results is `number`."""
+    """Return the table rows of the result `one`, whose index in the list of results is `number`."""
     if isinstance(one, dict):
         return [one]
     return one.rows(number) if hasattr(one, "rows") else [one.row()]

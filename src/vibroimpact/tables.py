@@ -14,11 +14,11 @@ import pandas as pd  # noqa: E402 (after the dependency check)
 
 TEXT = ("panel", "series", "label")
 BLANK_TEXT = (*TEXT, "failed")
-"""Text columns, in which a blank field is an empty text; in other columns, a blank field is a missing value."""
+"""Text columns. A blank field is an empty text in these columns, and a missing value in all other columns."""
 
 
 def curve(panel: str, series: str, **quantities) -> pd.DataFrame:
-    """Return the rows of one curve or point set; quantities are arrays (n,), or scalars for all rows."""
+    """Return the rows of one curve or point set; `quantities` are arrays (n,), or scalars that hold for all rows."""
     values = np.broadcast_arrays(*(np.atleast_1d(quantity) for quantity in quantities.values()))
     columns = dict(zip(quantities, values, strict=True))
     return pd.DataFrame({"panel": panel, "series": series, **columns})

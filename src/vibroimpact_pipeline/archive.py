@@ -47,8 +47,8 @@ def _job(record):
 def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, list[str]]]) -> Iterator[str]:
     """For each result that the current rules would make differently, yield a line with the reason.
 
-    The targets and all existing results on which they depend are checked. Results for which only an input has changed
-    come last, since another line may state why the input has changed.
+    The targets and all existing results on which they depend are checked. A result of which only an input has changed
+    comes last, since the line of another result may state why the input has changed.
 
     Parameters
     ----------

@@ -1,4 +1,7 @@
-"""Assign a case to every config entry: the case that the entry names, or `default_case`. Standard library only."""
+"""Assign a case to every config entry: the case that the entry names, or else `default_case`.
+
+This module needs only the standard library.
+"""
 
 import copy
 

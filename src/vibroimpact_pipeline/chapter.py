@@ -20,7 +20,7 @@ CASE_OF = {
 
 
 def departures(config: dict) -> list[str]:
-    """Return one line for each difference between a config and section 10.4; additional cases are ignored."""
+    """Return one line for each difference between a config and section 10.4 of the chapter, except for added cases."""
     found = _differences("system", config["system"], PARAMETERS)
     for case, forces in CASES.items():
         if case in config["cases"]:

@@ -1,8 +1,8 @@
 """Compute the fingerprint of the code of a job: its script, the modules that it imports, and their data files.
 
 The `params` of each rule contain the fingerprint. It covers the parsed code without comments and docstrings. Editing a
-comment therefore reruns nothing, and editing a formula reruns every job that imports its module, directly or
-indirectly. Standard library only.
+comment therefore reruns nothing, and editing a formula reruns every job that imports the module of the formula,
+directly or indirectly. This module needs only the standard library.
 """
 
 import ast
@@ -14,7 +14,7 @@ from pathlib import Path
 SOURCES = Path(__file__).resolve().parents[1]
 """Folder that contains the packages: `src` of a checkout, or the installation folder."""
 PACKAGED = Path(__file__).resolve().with_name("checkout")
-"""Folder in a wheel for files of the checkout other than packages (listed in pyproject.toml)."""
+"""Folder in a wheel that contains the files of the checkout outside its packages (listed in pyproject.toml)."""
 INSTALLED = PACKAGED.is_dir()
 ROOT = PACKAGED if INSTALLED else SOURCES.parent
 """Root of the checkout; for an installed pipeline, the folder that contains files of the checkout."""
@@ -78,7 +78,7 @@ def _paths(root: str) -> list[Path]:
 
 
 def is_source(path: Path) -> bool:
-    """Return True if no part of a path, relative to a source folder, is hidden or a bytecode folder."""
+    """Return True if no part of a path, relative to a source folder, is hidden or the name of a bytecode folder."""
     return not any(name.startswith(".") or name == "__pycache__" for name in path.parts)
 
 
@@ -98,7 +98,7 @@ def modules() -> dict[str, Path]:
 
 @cache
 def module_files(name: str) -> list[Path]:
-    """Return the files of a module, its parent packages and the data in its folder; none for other projects."""
+    """Return the files of a module, its parent packages and the data in its folder; none if it is from elsewhere."""
     if name not in modules():
         return []
     parts = name.split(".")
@@ -141,5 +141,5 @@ def changed(code: dict) -> bool:
 
 
 def code_of(*roots: str) -> dict:
-    """Return the value of `params.code` for a rule: the arguments of `code_files` and their fingerprint."""
+    """Return the value of `params.code` for a rule: `roots` as in `code_files`, and the fingerprint of their files."""
     return {"of": sorted(roots), "fingerprint": fingerprint(*roots)}

@@ -74,7 +74,7 @@ def files(known: dict, data: dict) -> list[File]:
 
 
 def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
-    """Return the data dictionary in Markdown for tables of figures (`of_figures=True`), other files (False) or all."""
+    """Return the data dictionary in Markdown, for tables of figures (`of_figures` True), other files (False) or both."""
     parts = [
         "## Units",
         _table(["unit", "meaning"], data["units"].items()),

@@ -12,7 +12,7 @@ CACHES = {
     "IPYTHONDIR": "ipython",
     "HEYOKA_CACHE_DIR": "heyoka",
 }
-"""Cache folder below `.cache` for each environment variable; by default libraries use the home directory."""
+"""Cache folder below `.cache` for each environment variable; without these, libraries write to the home directory."""
 
 REMOVED = ("JUPYTER_", "MPLBACKEND", "PYTHONSTARTUP")
 """Prefixes of variables to remove, since they change kernels, page templates, the backend or start-up code."""

@@ -68,7 +68,7 @@ def running(job) -> Iterator[SimpleNamespace]:
 
 
 def with_key(error, decided: dict) -> str | None:
-    """Return the text of an error with the full config key of its argument, or None if the config has no such key.
+    """Return the text of an error with the full config key of the argument that it names, or None without such a key.
 
     Parameters
     ----------

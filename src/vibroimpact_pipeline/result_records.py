@@ -110,7 +110,7 @@ def is_result(path) -> bool:
 
 
 def checked_digests(paths: Iterable) -> dict[str, str]:
-    """Check that those inputs of a job that are results match their records; return the SHA-256 of each by path.
+    """Check that all results among the inputs of a job match their records; return the SHA-256 of each result by path.
 
     Raises
     ------
@@ -126,9 +126,9 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
 
 
 def distrust(outputs: Iterable) -> list[str]:
-    """Mark results without complete records and modified results as incomplete; return their paths.
+    """Mark a result as incomplete if it was modified or its records are incomplete; return the paths of these results.
 
-    Without the mark, Snakemake would treat such a file as up to date. It rebuilds an incomplete file when needed.
+    Without the mark, Snakemake would treat such a result as up to date. A result with the mark is rebuilt when needed.
     """
     # Read the marks before the records: while a job ends, a result is still marked by Snakemake or already recorded.
     present = [path for path in map(str, outputs) if os.path.exists(path)]
@@ -147,7 +147,7 @@ def _mark(path: str) -> None:
 
 
 def _as_recorded(path: str) -> bool:
-    """Return True if a result matches its records; the content is read only if times or size are unexpected."""
+    """Return True if a result matches its records; its content is read only if its times or size are unexpected."""
     try:
         # Expected order: the job writes the record, Snakemake touches the result, and Snakemake writes its own record.
         times = [Path(one).stat().st_mtime_ns for one in (record_of(path), path, _of_snakemake("metadata", path))]

@@ -46,7 +46,7 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
 
 
 def _choices(results) -> list[list[str]]:
-    """Return for each problem and error level in accuracy/choices.csv: problem, exponent of the error, methods."""
+    """Return, for each problem and allowed error in accuracy/choices.csv: problem, exponent of the error, methods."""
     path = results / "accuracy/choices.csv"
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines())) if path.is_file() else []
     found = []

@@ -1,4 +1,6 @@
-"""Read the SPEC of every figure from the source without importing it. Standard library only.
+"""Read the SPEC of every figure from the source code, without importing the code.
+
+This module needs only the standard library.
 
 A SPEC is a dictionary literal with the entries below. The inputs and settings of a figure are in its rule, in
 workflow/rules/.
@@ -30,7 +32,10 @@ PACKAGES = "vibroimpact.figures", "vibroimpact.studies.figures"
 
 @cache
 def specs(root=None) -> dict[str, dict]:
-    """Return the SPEC of every figure by name, from the checkout `root` if given; "csv" is the plotted table."""
+    """Return the SPEC of every figure by name, from the checkout `root` if given, with all shared entries filled in.
+
+    In the `tables` of a SPEC, the key "csv" stands for the plotted table.
+    """
     found = {}
     top = Path(root, "src") if root else SOURCES
     for path in sorted(path for package in PACKAGES for path in (top / package.replace(".", "/")).glob("*.py")):
@@ -96,7 +101,7 @@ def at(config: dict, path: str):
 
 
 def case_parameters(config: dict, case: str) -> dict:
-    """Return the parameters of System for a case: those of `system`, overridden by those of the case."""
+    """Return the parameters of System for a case: those in the section `system`, overridden by those of the case."""
     return config["system"] | case_overrides(config, case)
 
 

@@ -13,7 +13,7 @@ NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf
 
 
 def other_methods():
-    """Run each available method other than the event-driven engine once, so that it is compiled."""
+    """Run each available method except the event-driven engine once, so that the code of the method is compiled."""
     from vibroimpact.integrators import METHODS
     from vibroimpact.integrators.event_driven import Engine
     from vibroimpact.system import System

@@ -12,7 +12,7 @@ from vibroimpact.theory.response import impact_times, leading_order
 
 
 class LeadingOrder(Method):
-    """Steady response of the stable fixed point nearest to the initial state, at leading order: the error is O(epsilon)."""
+    """Leading-order response of the stable fixed point nearest to the initial state; its error is of order epsilon."""
 
     name, family, knob, settings, careful = "leading order", "multiple scales", "order", (0,), 0
 

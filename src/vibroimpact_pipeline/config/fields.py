@@ -41,7 +41,7 @@ WITHIN_WALLS = needs(
 
 
 def items(kind, least: int, most: int, about: str | None = None, check: AfterValidator | None = DIFFERENT):
-    """Return the type of a list of `least` to `most` values, which must be distinct unless another `check` is given."""
+    """Return the type of a list of `least` to `most` values, which must be distinct unless `check` is another rule."""
     return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), check]
 
 

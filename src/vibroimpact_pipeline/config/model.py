@@ -64,7 +64,7 @@ class Parameters(SystemSection):
 
 
 def _refuse_resonance(system):
-    """Raise ValueError for an undamped system with periodic responses that are not isolated or not bounded."""
+    """Raise ValueError for an undamped system whose periodic responses are not isolated or not bounded."""
     if system.gamma1 > 0 and system.gamma2 > 0:
         return
     # Import these here because loading SciPy takes longer than everything else in a build that is up to date.

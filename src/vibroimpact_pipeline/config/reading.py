@@ -129,7 +129,11 @@ def model():
 
 
 def _update(whole, content, above):
-    """Update `whole` in place with entries whose keys are texts; return a problem for each null without an entry."""
+    """Update `whole` in place with the entries of `content`; a null removes an entry.
+
+    Return a problem (key path, message) for each null whose key has no entry in `whole`. `above` is the key path of
+    `whole`.
+    """
     problems = []
     for key, value in content.items():
         if value in (None, "null"):
@@ -160,7 +164,8 @@ def _refusal(error, sources):
 def _source(place, sources):
     """Return the name of the last source that contains a key path.
 
-    If no source contains the path, return the first source that contains the longest beginning of the path.
+    If no source contains the whole path, return the name of the first source that contains the longest beginning of the
+    path.
     """
 
     def depth(source):

@@ -26,7 +26,7 @@ def schema(model) -> str:
 
 
 def _plain(node):
-    """Return a schema node without titles and null defaults, in which numbers may be texts and names are restricted."""
+    """Return a schema node without titles and null defaults; a text may replace a number, and keys must match patterns."""
     if not isinstance(node, dict):
         return [_plain(item) for item in node] if isinstance(node, list) else node
     plain = {key: _plain(item) for key, item in node.items() if key != "title" or not isinstance(item, str)}

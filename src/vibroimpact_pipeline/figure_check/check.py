@@ -111,7 +111,10 @@ def _compare_tables(verdict, spec, reference, build) -> tuple[dict, dict]:
 
 
 def _compare_with_print(verdict, printed, new):
-    """Add to a verdict the distance of the new curves from points read from the printed figure, if there are any."""
+    """Add to a verdict the distance of the curves in `new` from the points in the file `printed`, if this file exists.
+
+    The points were read from the printed figure.
+    """
     if printed.is_file():
         with _errors_as_reasons(verdict["reasons"], f"published/{printed.name}: unreadable"):
             _add(verdict, f"published/{printed.name}", printed_distances(read(printed), new["csv"]))
@@ -124,7 +127,10 @@ def _add(verdict, file, differences):
 
 
 def _other_pictures(verdict, reference, built, old, new) -> list[str]:
-    """Return the kinds of pictures that differ from the reference; add reasons for blank and changed pictures."""
+    """Return the kinds of pictures that differ from the reference; add a reason to the verdict if a picture is blank.
+
+    If the reference pictures were drawn with the present library versions, a difference is a reason as well.
+    """
     # If the tables are equal, drawing the reference tables would only repeat the picture in the build.
     equal = all(name in new and old[name].equals(new[name]) for name in verdict["files"])
     with TemporaryDirectory() as folder:
@@ -142,7 +148,7 @@ def _other_pictures(verdict, reference, built, old, new) -> list[str]:
 
 @contextmanager
 def _errors_as_reasons(reasons, what):
-    """Catch any error and append it to the reasons, because a damaged file can raise many types of errors."""
+    """Catch any error and append it to `reasons`, because reading a damaged file can raise many types of errors."""
     try:
         yield
     except Exception as error:

@@ -16,7 +16,7 @@ OTHER_SERIES = "others"
 MAX_DISTANCE = 999.0
 """Distance for changes that no limit allows, such as a value that becomes infinite or a class that vanishes."""
 LOG_FLOOR = 1e-17
-"""Numbers are raised to at least this value before logarithms are taken; logarithmic axes end at the same value."""
+"""Lower limit of numbers in logarithms: smaller numbers are replaced by this value, at which logarithmic axes end."""
 EQUAL_WITHIN = 1e-6
 """Counts and shares that differ by less than this value are equal."""
 RARE_ROWS = 5
@@ -46,7 +46,8 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
         One line for each reason. The table passes if the list is empty.
     distances : list of dict
         For each column and measure, a mapping with the keys column, kind, measure, distance (the largest; 1 is the
-        limit), where (its place), reference and new (the values there; medians for a measure of the whole column).
+        limit), where (the place of this distance), reference and new (both values at this place; medians for a measure
+        of the whole column).
     """
     if list(old) != list(new):
         return [f"columns are {', '.join(new)} instead of {', '.join(old)}"], []
@@ -82,7 +83,7 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
 
 
 def _wrong_in_itself(table, columns):
-    """Return those errors of a table that can be detected without its reference."""
+    """Return the errors of a table that can be detected without the reference table."""
     compared = [name for name, entry in columns.items() if "compared" in entry and name in table]
     if table.empty or not compared:
         return ["no rows" if table.empty else "no column that the SPEC compares"]
@@ -120,7 +121,7 @@ def _given(values):
 
 
 def _distance(old, new, name, kind, measure):
-    """Return the largest distance of a column by one measure, with its place and values as in `table_differences`."""
+    """Return the largest distance of a column by one measure, with the place and values as in `table_differences`."""
     before, after = (part[name].to_numpy() for part in (old, new))
     with np.errstate(all="ignore"):
         far = np.nan_to_num(MEASURES[measure](before, after, KINDS[kind]["limits"][measure]), nan=MAX_DISTANCE)
@@ -228,9 +229,9 @@ def _balance(old, new, limit):
 
     For a column of numbers, rows that rise and rows that fall are compared instead.
 
-    Rounding moves rows in both directions equally often. The difference of both numbers is measured in standard
-    deviations of a binomial distribution with one trial for each moved row. A class that vanishes exceeds the limit,
-    unless it is rare.
+    Rounding moves rows in both directions equally often. The difference of the two numbers of rows is measured in
+    standard deviations of a binomial distribution with one trial for each moved row. A class that vanishes exceeds the
+    limit, unless it is rare.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:

@@ -1,4 +1,4 @@
-"""Decide if a config has the parameters and settings for which the claims of the chapter were written."""
+"""Decide whether a config has the parameters and settings for which the claims of the chapter were written."""
 
 import hashlib
 import json

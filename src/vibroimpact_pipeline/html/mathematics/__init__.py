@@ -42,5 +42,5 @@ def mathml(tex: str, display: bool) -> str:
 
 
 def kept(html: str) -> str:
-    """Return HTML without line breaks between a formula and the punctuation around it."""
+    """Return HTML in which no line can break between a formula and the punctuation around it."""
     return MARKED.sub(lambda m: f'<span class="kept">{m[0]}</span>' if m[1] or m[3] else m[0], html)

@@ -21,7 +21,7 @@ class Companion1005(Section):
 
 
 class VerdictGrid(Section):
-    """Grid of points x points cells of forcing amplitudes; their centres get verdicts of theory and exact orbits."""
+    """Grid of `points` x `points` cells of forcing amplitudes; cell centres get verdicts of theory and exact orbits."""
 
     f10_range: fields.Forces
     f20_range: fields.Forces
@@ -44,7 +44,7 @@ class Animation(Section):
 
 
 class ForceSweep(Section):
-    """The slider on the page of fixed points, which varies f20_hat; all other parameters are as in the case."""
+    """The slider that varies f20_hat on the page of fixed points; all other parameters are those of the case."""
 
     case: fields.CaseName
     range: fields.Forces

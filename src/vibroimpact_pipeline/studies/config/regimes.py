@@ -76,14 +76,14 @@ class Modulation(Exponent):
 
 
 class Basins(Section):
-    """Basins of attraction in a plane of initial states, a grid of points x points."""
+    """Basins of attraction on a grid of `points` x `points` states in a plane of initial states."""
 
     case: fields.CaseName
     points: fields.Points
 
 
 class Mixed(Section):
-    """A fixed point next to the fold of the manifold, which is excluded because its time scales do not separate."""
+    """A fixed point next to the fold of the manifold. Fits exclude this point, as its time scales do not separate."""
 
     case: fields.CaseName
     label: fields.Label

@@ -97,11 +97,11 @@ class Sweep(Section):
             yield ("settle",), f"{self.settle} should be less than cycles"
 
     def corners(self) -> list[dict[str, float]]:
-        """Return the parameters at the corners of the grid, where it suffices to check lower and upper limits."""
+        """Return the parameters at the corners of the grid and band, where it suffices to check limits of parameters."""
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):
-        """Yield errors if companion figures, which draw the sweep `name` by their SPEC, cannot draw this sweep."""
+        """Yield the reasons why companion figures cannot draw this sweep, although their SPECs name it as `name`."""
         for figure, spec in specs().items():
             if drawn := spec.get("sweeps", {}).get(name):
                 even = all(axis.range and axis.scale != "logarithmic" for axis in self.axes)

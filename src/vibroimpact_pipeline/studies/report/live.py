@@ -99,8 +99,8 @@ def _of_cell(system, point, orbit):
 def verdict_data(results, config: dict) -> str:
     """Return the data for the slider of epsilon as JSON.
 
-    The criteria are (10.26), and the theory on both time scales. For each criterion and each epsilon, the data list the
-    points that the criterion classifies as stable, each as [f10, f20, verdict on the exact orbit].
+    The two criteria are (10.26) and the theory, which uses both time scales. For each criterion and each epsilon, the
+    data list the points that the criterion classifies as stable, each as [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
     by_epsilon = [

@@ -95,7 +95,7 @@ class Pages:
         """Return a document with the numbers and figures of this build.
 
         Each number is shown with as many decimals as in the document, and links to its source unless `paper` is True.
-        If a build with other settings has no such value, the number in the document is kept.
+        If this build has no value for a number, because of its settings, the number in the document is kept.
         """
         if not paper:
             text = LIVE.sub(lambda found: self._live(**found.groupdict()), text)

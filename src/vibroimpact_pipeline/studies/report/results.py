@@ -67,7 +67,8 @@ class Results:
     def most_accurate(self) -> pd.DataFrame:
         """Return, for each problem and method, the finished run with the smallest error.
 
-        The column ratio is the run time of this run relative to the most accurate run of the library.
+        The column ratio is the run time of this run divided by that of the library's most accurate run for the same
+        problem.
         """
         table = self.table("accuracy/work_precision.csv")
         whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]
@@ -81,7 +82,7 @@ class Results:
         Raises
         ------
         ValueError
-            If the query does not find exactly one value.
+            If the place is a query of a table that does not find exactly one value.
         """
         file, *path = place.removeprefix("percent | ").split(" | ")
         scale = 100 if place.startswith("percent | ") else 1

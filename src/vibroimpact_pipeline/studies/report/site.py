@@ -147,7 +147,7 @@ def fill(pages, name: str, source: list[str]) -> None:
 
 
 def explain(app, tree, equations: dict) -> None:
-    """Link the chapter's equation numbers on a page to their explanations, and add them to the search index."""
+    """Link the chapter's equation numbers on a page to their explanations, and add the numbers to the search index."""
     named, page = set(), app.builder.get_relative_uri(app.env.docname, "numbers")
     for text in list(tree.findall(nodes.Text)):
         if EQUATION.search(text) and not any(isinstance(node, NAMES) for node in _ancestors(text)):
