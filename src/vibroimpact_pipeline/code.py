@@ -45,7 +45,7 @@ def code_files(*roots: str) -> list[Path]:
 
 
 def fingerprint(*roots: str) -> str:
-    """Return the fingerprint of the files of `code_files`; for folders it covers every byte, including comments."""
+    """Return the fingerprint of the files of `code_files`; for folders, the fingerprint covers every byte."""
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
     for name, path in sorted((_name(path), path) for path in code_files(*roots)):
         content = path.read_bytes() if path in listed else _content(path)

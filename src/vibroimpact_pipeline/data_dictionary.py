@@ -74,7 +74,11 @@ def files(known: dict, data: dict) -> list[File]:
 
 
 def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
-    """Return the data dictionary in Markdown, for tables of figures (`of_figures` True), other files (False) or both."""
+    """Return the data dictionary in Markdown.
+
+    It describes the tables of figures if `of_figures` is True, all other files if it is False, and all files if it is
+    None.
+    """
     parts = [
         "## Units",
         _table(["unit", "meaning"], data["units"].items()),

@@ -18,7 +18,8 @@ def data_package(headers: dict[str, list[str]], known: list[File], units: dict[s
     Parameters
     ----------
     headers
-        For each table by its path, the names of the columns. Paths begin with results/, the folder of the package.
+        Names of the columns of each table, by the path of the table. Paths begin with results/, the folder of the data
+        package.
     known
         Kinds of results files.
     units

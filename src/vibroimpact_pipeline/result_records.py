@@ -163,7 +163,7 @@ def _of_snakemake(folder: str, path: str) -> Path:
     """Return the path of Snakemake's own record of a result, in a folder such as "metadata" or "incomplete".
 
     The file name is the path of the result in Base64, split to respect the length limit of names. Snakemake has no
-    public function for this path. Tested with versions 9.12 and 9.27.
+    public function for this path. The path was tested with Snakemake 9.12 and 9.27.
     """
     name = base64.urlsafe_b64encode(path.encode()).decode()
     *cut, last = (name[start : start + 254] for start in range(0, len(name), 254))

@@ -1,4 +1,4 @@
-"""Companion: speed at which a ball hits its wall in a motion with two impacts per cycle."""
+"""Companion figure: speed at which a ball hits a wall in a motion with two impacts per cycle."""
 
 import numpy as np
 import pandas as pd

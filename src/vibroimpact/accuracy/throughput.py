@@ -19,7 +19,7 @@ from vibroimpact.system import System
 from vibroimpact.system.state import BALLS, BOXES, IMPACT
 
 LONG = 4000
-"""Cycles of the single long run, whose time per impact is the unit of all times."""
+"""Number of forcing cycles of the single long run. The time per impact of ensembles is divided by that of this run."""
 SAMPLE, SHORT = 8, 10
 """Number of single runs that are timed per scene, and number of their cycles. Errors are also measured after SHORT
 cycles."""

@@ -156,7 +156,10 @@ def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({}))
 
 
 def verdict(table: pd.DataFrame, label: str) -> str:
-    """Return the verdict of (10.26) on a fixed point: "stable" if all its projections lie on the stable branch."""
+    """Return the verdict of (10.26) on a fixed point, or "" if `table` does not contain the point.
+
+    The verdict is "stable" if the point lies on the stable branch in the plane of each active module, else "unstable".
+    """
     panels = [f"{label}{module}" for module in MODULES]
     places = [select(table, panel, f"P_{module}")["C"] for panel, module in zip(panels, MODULES, strict=True)]
     borders = [select(table, panel, "SIM stable")["C"].min() for panel in panels]

@@ -73,7 +73,8 @@ class PowerLaw(Penalty):
     Parameters
     ----------
     speed : float
-        Speed at which a ball in the middle of its box turns at W = 1; the stiffness is proportional to its square.
+        A ball with this speed in the middle of its box turns at W = 1. The stiffness is proportional to the square of
+        the speed.
     """
 
     knob = "exponent"

@@ -16,7 +16,7 @@ PATIENCE = 100  # largest number of successive events without progress in time
 class SolveIvp(Method):
     """One method of solve_ivp, with compiled right-hand side and Jacobian; the setting is rtol.
 
-    The first step after an impact is at most half of the expected flight, so that it does not pass over a chatter.
+    The first step after an impact is at most half the expected time of the flight, so that no chatter is stepped over.
     """
 
     family, knob = "solve_ivp", "rtol"

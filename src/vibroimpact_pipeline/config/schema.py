@@ -15,7 +15,7 @@ if find_spec("vibroimpact_pipeline.studies"):
     studies = import_module("vibroimpact_pipeline.studies.config.model").Studies
     TARGETS[ROOT / "workflow/schemas/studies/config.schema.json"] = studies
 NUMERALS = {"number": r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", "integer": r"^[-+]?\d+(\.0*)?$"}
-"""For each type of number, the pattern of texts that Pydantic converts to it."""
+"""For each type of number, the pattern of texts that Pydantic converts to a number of this type."""
 
 
 def schema(model) -> str:
@@ -26,7 +26,10 @@ def schema(model) -> str:
 
 
 def _plain(node):
-    """Return a schema node without titles and null defaults; a text may replace a number, and keys must match patterns."""
+    """Return a schema node without titles and null defaults.
+
+    A text may replace a number, free keys must match a pattern, and a key `case` may be missing.
+    """
     if not isinstance(node, dict):
         return [_plain(item) for item in node] if isinstance(node, list) else node
     plain = {key: _plain(item) for key, item in node.items() if key != "title" or not isinstance(item, str)}

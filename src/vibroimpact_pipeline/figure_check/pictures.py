@@ -19,7 +19,7 @@ digits depend on how the processor rounds the layout. 0.001 points are about a h
 
 
 def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:
-    """Draw a figure from its tables with the module of the given full name; return the path of each kind of file."""
+    """Draw a figure from its tables with the Python module named `module`; return the path of each kind of file."""
     files = {kind: Path(folder) / f"{figure}.{kind}" for kind in KINDS}
     style.save(style.draw_tables(import_module(module), tables), files)
     return files

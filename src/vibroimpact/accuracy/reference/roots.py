@@ -4,7 +4,7 @@ from flint import arb, ctx
 
 
 class Undecidable(ArithmeticError):
-    """Raised if the working precision is too low for a sign on which the next event depends."""
+    """Raised if the working precision is too low to determine a sign on which the next event depends."""
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:

@@ -33,7 +33,7 @@ class _Ball:
     stuck: bool = False
 
     def walls_ahead(self):
-        """Return the walls at which the next event of this module may occur.
+        """Return the walls at which the next event of the ball may occur.
 
         A ball in flight may hit either wall. A stuck ball may leave its wall, unless its contact force is always zero.
         """
@@ -53,7 +53,7 @@ class _Candidate:
 
 @dataclass
 class Trajectory:
-    """Simulation in progress; every method runs at the working precision set by the caller.
+    """Simulation in progress, computed at the working precision that the caller has set.
 
     record: list of events (tau, module 0 or 1, wall, kind, state after), each number the midpoint of an enclosure
     (flint.arb). samples: states at the requested times. The other attributes are described in ReferenceRun.

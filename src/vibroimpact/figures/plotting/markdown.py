@@ -5,11 +5,11 @@ import re
 ESCAPED = re.compile(r"([!-/:-@\[-`{-~])")
 """ASCII punctuation; in Markdown, a backslash makes each of these an ordinary character."""
 EXACTLY = "**The exact system:**"
-"""Beginning of the line, on the page of a figure, that describes the exact system."""
+"""First words of the line on the exact system, on the page of a figure."""
 
 
 def one_line(text) -> str:
-    """Return a text on one line, with a replacement character for each character that is not printable."""
+    """Return a text on one line, in which a replacement character stands for each character that is not printable."""
     return "".join(
         letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in " ".join(str(text).split())
     )

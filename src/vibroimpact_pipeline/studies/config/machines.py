@@ -35,7 +35,7 @@ class Band(Section):
 
 
 class Shown(Section):
-    """A motion from rest to draw over time."""
+    """A motion that starts from rest and is drawn over time."""
 
     L: Clearance
     frequency: Hertz

@@ -97,7 +97,10 @@ class Sweep(Section):
             yield ("settle",), f"{self.settle} should be less than cycles"
 
     def corners(self) -> list[dict[str, float]]:
-        """Return the parameters at the corners of the grid and band, where it suffices to check limits of parameters."""
+        """Return the parameters at all corners of the grid and band.
+
+        A parameter that is within its limits at all corners is within them everywhere.
+        """
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):

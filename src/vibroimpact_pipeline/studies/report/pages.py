@@ -176,7 +176,7 @@ class Pages:
 
 
 def table(frame, heads: dict, number: int = 3) -> str:
-    """Return columns of a DataFrame as a Markdown table with `number` digits; `heads` has the head of each column."""
+    """Return columns of a DataFrame as a Markdown table with `number` digits; `heads` maps names to column heads."""
     rows = [[digits(value, number) for value in row] for row in frame[list(heads)].itertuples(index=False)]
     return "\n".join("| " + " | ".join(line) + " |" for line in [heads.values(), ["---"] * len(heads), *rows])
 

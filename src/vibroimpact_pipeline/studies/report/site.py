@@ -40,7 +40,7 @@ EQUATION = re.compile(r"\((10\.\d+)\)")
 NAMES = (nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw)
 """Types of nodes in which equation numbers are not explained."""
 OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>|.*more than one target).*(WARNING|ERROR)")
-"""Matches a Sphinx warning on a page, but not on a docstring or on a name that is documented twice."""
+"""Matches a Sphinx warning about a page, but none about a docstring or about a name that is documented twice."""
 SPHINX = {
     "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", __name__],
     "myst_enable_extensions": ["dollarmath"],
@@ -181,7 +181,7 @@ def write_article(folder: Path, root: Path, pages, built: str, notice: str = "")
 
 
 def setup(app) -> dict:
-    """Set up this module as Sphinx extension, for MathML formulas, bars in docstrings and the security policy."""
+    """Set up this module as a Sphinx extension: MathML formulas, vertical bars in docstrings, the security policy."""
     app.add_html_math_renderer("mathml", (_inline, None), (_display, None))
     app.connect("autodoc-process-docstring", _with_bars)
     app.connect("html-page-context", _with_policy)
