@@ -1,4 +1,4 @@
-"""Add metadata from other files when hatchling builds the project: long description and addresses.
+"""Add metadata from other files when hatchling builds the project: long description and web addresses.
 
 The address of the repository is the entry `repository-code` of CITATION.cff. Without it, no addresses are added.
 """
@@ -14,7 +14,10 @@ REPOSITORY = re.compile(r'^repository-code: "?([^"\s]+)"?$', re.MULTILINE)
 
 
 def long_description(readme: str, repository: str | None, version: str) -> str:
-    """Return a README with links into the repository at a version; without repository, links become plain text."""
+    """Return a README with absolute links instead of relative ones, or with plain text if `repository` is None.
+
+    The links lead to the files of `version` in the repository.
+    """
 
     def absolute(link):
         picture, text, target = link.groups()
@@ -25,7 +28,7 @@ def long_description(readme: str, repository: str | None, version: str) -> str:
 
 
 class Metadata(MetadataHookInterface):
-    """Add the long description and the addresses of the project to the metadata."""
+    """Add the long description and the web addresses of the project to the metadata."""
 
     def update(self, metadata):
         root = Path(self.root)

@@ -66,7 +66,7 @@ _PUBLIC = {
     "STICK": "vibroimpact.system.state",
     "RELEASE": "vibroimpact.system.state",
 }
-"""Module of each public name; `__init__.pyi` lists the same names for type checkers."""
+"""Python module of each public name; `__init__.pyi` lists the same names for type checkers."""
 __all__ = [*_PUBLIC, "__version__"]
 
 

@@ -57,9 +57,9 @@ def results_of_runs() -> None:
 
 
 def ensembles() -> None:
-    """Compile ensembles, both for runs in lanes and for the runs of an undamped system, one by one.
+    """Compile ensembles: the code for runs in lanes, and the code for the runs of undamped systems, one by one.
 
-    Call this last, because ensembles use all other compiled code.
+    Call this function last, because ensembles use all other compiled code.
     """
     from vibroimpact.exact.lanes.ensemble import ensemble
 

@@ -124,7 +124,7 @@ def plot_times(run) -> np.ndarray:
 
 
 def plot(system, times, samples):
-    """Return a Matplotlib Figure of the states (n, 8) at the given times.
+    """Return a Matplotlib Figure of the states `samples` (n, 8) at `times` (n,).
 
     The figure shows X_i of the box and W_i = X_i - Y_i of the ball, for both modules.
     """

@@ -59,7 +59,7 @@ def specs(root=None) -> dict[str, dict]:
 
 
 def module_of(figure: str) -> str:
-    """Return the full name of the module that draws a figure."""
+    """Return the full name of the Python module that draws a figure."""
     return next(name for package in PACKAGES if (name := f"{package}.{figure}") in modules())
 
 

@@ -61,7 +61,7 @@ FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # o
 
 
 def stress_tests() -> list[StressTest]:
-    """Return all stress tests, in the order of the table."""
+    """Return all stress tests, in the order in which tables list them."""
     system = System(**CHAPTER)
     weak = system.with_(f10_hat=0.5, f20_hat=0.5)
     twins = system.with_(sigma20_hat=0.0)
@@ -141,8 +141,8 @@ def _row(test, method, reference):
 def grazing(system: System, side: int, digits: int) -> StressTest:
     """Return the test in which ball 1 barely misses or barely hits a wall, by 10^-digits.
 
-    If `side` is 1, the ball misses the wall by 10^-digits; if `side` is -1, its centre would go beyond the wall by
-    10^-digits. A method must find even the slowest impact.
+    If `side` is 1, the ball misses the wall by 10^-digits; if `side` is -1, the ball would go beyond the wall by
+    10^-digits without an impact. A method must find even the slowest impact.
     """
     start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
     name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"

@@ -24,7 +24,7 @@ at most 0.29, except that they exceed 2.5 where the orbits next to two fixed poi
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
-    """Return one row per exact orbit, in order: its quantities, the verdict of each criterion, and its proof if any.
+    """Return one row per orbit in `orbits`, in this order: quantities, verdict of each criterion, and proof if any.
 
     Columns: case, label ("S1", ... if symmetric, "A1", ... if asymmetric), the columns of `Orbit.row` except `proved`,
     one column per criterion, and the columns of `OrbitProof.row`.

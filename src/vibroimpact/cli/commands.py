@@ -96,7 +96,7 @@ def _no_options(parser):
 
 
 def _fixed_points(system, options):
-    """Return one row per fixed point, with the verdict of each of CRITERIA."""
+    """Return one row per fixed point, with the verdict of each criterion in CRITERIA."""
     columns = ("label", "C1", "C2", "B1", "B2", "psi1", "psi2", *CRITERIA)
     rows = [point.row() | of_fixed_point(system, point) for point in fixed_points(system)]
     return Table(columns, [tuple(row[name] for name in columns) for row in rows])
@@ -115,7 +115,7 @@ def _orbits(system, options):
 
 
 def _simulate_options(parser):
-    """Add the options of the initial state, the length and the output."""
+    """Add the options for the initial state, for the length of the run and for the output."""
     parser.add_argument(
         "--state", type=float, nargs=8, metavar=STATE, default=[0.0] * 8, help="initial state (default: at rest)"
     )
@@ -142,7 +142,7 @@ def _simulate(system, options):
 
 
 def _design_options(parser):
-    """Add the options of the machine (SI units), the band, the candidate balls and the plot."""
+    """Add the options for the machine (SI units), the frequency band, the candidate balls and the plot."""
     group = parser.add_argument_group("machine", "all required, in SI units")
     for name, words in MACHINE.items():
         kind = _range if name == "m" else float

@@ -52,8 +52,8 @@ WORDS = {
     "Y": "ball $Y_i$",
     "walls": r"walls, $W_i = \pm 1$",
 }
-"""COORDINATES: U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style separates curves
-of one colour. WORDS: names in the key."""
+"""COORDINATES: U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style separates curves of one colour.
+WORDS: names in the legend."""
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, model: str = "slow_flow") -> pd.DataFrame:
@@ -90,7 +90,7 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
 
 
 def _times(first: float, period: float, end: float, points: int = 401) -> np.ndarray:
-    """Return evenly spaced times in [0, end], merged with the times of impacts, which are half a period apart.
+    """Return evenly spaced times in [0, end], merged with the times of the impacts, one every half period.
 
     first: time of one impact, or NaN if there are no impacts.
     """

@@ -33,7 +33,7 @@ SPEC = {
 }  # fmt: skip
 
 DIGITS = range(2, 15)
-"""Decimal exponents of the depths, without their minus sign."""
+"""Decimal exponents of the depths of the grazing impacts, without their minus sign."""
 
 
 def compute() -> pd.DataFrame:

@@ -26,7 +26,8 @@ NEARLY_ELASTIC = 1e-5
 class Law:
     """Contact force K p^n + D p^m p'.
 
-    stiffness: n. damping: m. walls: True if p is the depth beyond a wall, False for a spring over the box, p = |W|.
+    stiffness: exponent n. damping: exponent m. walls: True if p is the depth beyond a wall, False for a spring over the
+    box, p = |W|.
     """
 
     stiffness: float

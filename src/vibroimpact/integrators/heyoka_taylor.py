@@ -3,7 +3,8 @@
 This is the fastest way found to use heyoka here. Two states for the forcing phase avoid transcendental functions in the
 recursion. There is one directed event per wall, and no compact mode. Each contact state of the balls has its own
 integrator, which is compiled once, since all parameters are set at run time. After an event heyoka ignores the same
-event during a cooldown, in which a short flight could end undetected. So rebounds slower than SLOWEST are not followed.
+event during a cooldown, in which a short flight could end undetected. So a ball whose rebound is slower than SLOWEST
+sticks if the box presses it against the wall.
 """
 
 from functools import lru_cache

@@ -10,7 +10,7 @@ from vibroimpact.integrators.right_hand_side import coefficients
 
 
 class MoreauJean(Method):
-    """Implicit midpoint rule, with the restitution law between the velocities before and after a step.
+    """Implicit midpoint rule in which the restitution law relates the velocities before and after a step in contact.
 
     The setting is the number of steps per cycle.
     """
@@ -33,7 +33,7 @@ class MoreauJean(Method):
 def _march(q, s, tau0, h, steps):
     """Take a given number of steps of length h; return the last state, and one row per contact.
 
-    A row is [time, module, wall, speed] in the first step of the contact.
+    A row is [time, module, wall, speed]; it describes the first step of the contact.
     """
     k11, k12, k22, c11, c12, c22, f1, f2, omega, epsilon, kappa = q
     g = 0.5 * h

@@ -36,7 +36,7 @@ _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
 
 class Penalty(Method):
-    """Integration with compliant walls that have one given contact law.
+    """Integration with compliant walls, all of which have the same contact law.
 
     The setting is the duration of an undamped contact at speed 1 [forcing periods].
     """

@@ -14,7 +14,7 @@ from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.right_hand_side import accelerations, coefficients, inlined
 
 SLOWEST = 1e-6
-"""Lowest rebound speed that is followed. Slower rebounds change the state by epsilon SLOWEST^3, less than rounding."""
+"""A ball with a slower rebound may stick at once. This changes the state by epsilon SLOWEST^3, less than rounding."""
 INITIAL_ROWS = 64
 """Initial number of rows for the impacts of a run."""
 

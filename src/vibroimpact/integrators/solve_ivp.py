@@ -68,8 +68,8 @@ class SolveIvp(Method):
 def _events(i, wall):
     """Return two functions, at least one of which falls through zero at the next event of module i.
 
-    For a flying ball they are the gaps to both walls. For a sticking ball both are the contact force, so that each
-    module has two functions in every contact state.
+    For a flying ball the two functions are the distances to both walls. For a sticking ball both functions are the
+    contact force, so that each module has two functions in every contact state.
     """
     x, y = BOXES[i], BALLS[i]
     if wall:

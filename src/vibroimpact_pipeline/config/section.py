@@ -1,4 +1,4 @@
-"""Base class of config sections, which rejects unknown keys and checks conditions across fields."""
+"""Base class of config sections; the class rejects unknown keys and checks conditions across fields."""
 
 from collections.abc import Iterable
 

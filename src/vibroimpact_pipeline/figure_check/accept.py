@@ -17,7 +17,7 @@ from vibroimpact_pipeline.figure_check import pictures
 from vibroimpact_pipeline.figure_check.check import PASSED, SUMS, line, reference_sums
 
 SETS = {"figure_check": "", "study_check": "studies"}
-"""For each check, the folder of its reference set, relative to `figures/`."""
+"""For each rule that checks figures, the folder of its reference set, relative to `figures/`."""
 HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest first.\n"
 
 

@@ -14,7 +14,7 @@ for path in (Path(__file__).with_name("tolerances.yaml"), Path(__file__).parents
 OTHER_SERIES = "others"
 """Key in `compared` for all series that the SPEC does not name."""
 MAX_DISTANCE = 999.0
-"""Distance for changes that no limit allows, such as a value that becomes infinite or a class that vanishes."""
+"""Distance assigned to changes that no limit allows, such as a value that becomes infinite or a class that vanishes."""
 LOG_FLOOR = 1e-17
 """Lower limit of numbers in logarithms: smaller numbers are replaced by this value, at which logarithmic axes end."""
 EQUAL_WITHIN = 1e-6

@@ -8,7 +8,7 @@ import hashlib
 import re
 
 FILES = "'self' file:"
-"""Sources of the policy: the site, and local files because some browsers assign no origin to a local page."""
+"""Allowed sources: the site itself, and local files because some browsers assign no origin to a local page."""
 HEAD = re.compile(r"<head>\n?")
 
 

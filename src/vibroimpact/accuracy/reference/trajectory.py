@@ -326,7 +326,8 @@ class Trajectory:
     def _is_undisturbed(self, contacts, time):
         """Return True if it is certain that nothing disturbs the chatter of `contacts` within `time`.
 
-        Then the contact forces of chattering and stuck balls stay positive, and all other balls stay off the walls.
+        Nothing disturbs the chatter if the contact forces of chattering and stuck balls certainly stay positive, and
+        all other balls certainly stay off the walls.
         """
         flow, vector = self._flow(SEARCH_BITS), self._vector()
         acceleration = flow.size(vector) * to_ball(flow.norm)

@@ -42,7 +42,7 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame
 
 
 def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
-    """Return statistics of the amplitude of each box, which is half the peak-to-peak displacement of a forcing period.
+    """Return statistics of the amplitude of each box: half its peak-to-peak displacement in each forcing period.
 
     Returns columns displacement ("X1", "X2"), smallest amplitude, largest amplitude, amplitude variation (standard
     deviation divided by mean), modulation periods (number of distances between swells), mean length in cycles (mean of
