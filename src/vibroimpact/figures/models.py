@@ -59,8 +59,8 @@ SPEC = {
 TOLERANCE = {"fixed_points": 10.0, "theoretical_response": 10.0, "simulation": 0.5}
 """Largest error allowed in a figure [percent of the axis], keyed by its notebook. For the theory it is epsilon = 10 %,
 the order of magnitude of the theory's error; for a simulation it is about the width of a line. In a chaotic window,
-rounding alone changes the statistics by more than that (4 % in figure 10.11); different processors would draw different
-figures."""
+rounding alone changes the statistics by more than this tolerance (4 % in figure 10.11); different processors would draw
+different figures."""
 COMPARED = 120
 """Largest number of forcing periods over which simulations are compared."""
 ERROR_MIN, ERROR_MAX = 1e-3, 100.0

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 
 NEARLY_ELASTIC = 1e-5
-"""Value of 1 - kappa below which both sides of the equation for d (`hunt_crossley_number`) differ by rounding only."""
+"""Value of 1 - kappa below which the sides of the equation for d in `hunt_crossley_number` differ by rounding only."""
 
 
 @dataclass(frozen=True)

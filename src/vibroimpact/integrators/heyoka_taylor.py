@@ -75,7 +75,7 @@ def right_hand_side(numbers, stuck=(False, False)):
 
 
 class _Flight:
-    """Result of a flight up to its end.
+    """Result of a flight.
 
     module: module whose event ended the flight, or None. failure: outcome of heyoka if it failed, or None.
     """

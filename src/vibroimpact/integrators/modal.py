@@ -26,8 +26,8 @@ from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 WORST = 1e8
 """Condition number of the eigenvectors at which the modes have lost half of their digits."""
 TRIES, LAST_STEP = 60, 3e-8
-"""Largest number of Newton steps for an event, and length [tau] of a step after which none follows, as its square is
-negligible.
+"""Limits of Newton's method for an event: largest number of steps, and step length [tau] below which it ends. The square
+of this length is negligible.
 """
 
 
@@ -77,7 +77,7 @@ def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
 
 @inlined()
 def _turn(rates, count, t, turns):
-    """Write real and imaginary parts of the factors by which amplitudes of modes change over a time t into `turns`."""
+    """Write the factors by which mode amplitudes change over a time t into `turns` (2, 5): real and imaginary parts."""
     for k in range(count):
         size, angle = math.exp(rates[0, k] * t) if rates[0, k] != 0.0 else 1.0, rates[1, k] * t
         turns[0, k], turns[1, k] = size * math.cos(angle), size * math.sin(angle)

@@ -20,7 +20,7 @@ from vibroimpact.integrators.rigid_contact import (
 )
 
 TRIES, LAST_STEP = 60, 1e-14
-"""Largest number of Newton steps for an event, and length [tau] of a step after which none follows."""
+"""Limits of Newton's method for an event: largest number of steps, and step length [tau] below which it ends."""
 
 
 class RungeKutta4(Method):

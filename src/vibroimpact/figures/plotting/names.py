@@ -70,8 +70,8 @@ class _Names:
     def _place(self, half, own, others):
         """Return the place of a name near its curve, and both ends of the leader line.
 
-        The name fills a box of half-size `half`. `own` and `others` are the discs of this curve and of the other
-        curves.
+        The place is the nearest without a defect or, if none is near enough, one with a defect. The name fills a box of
+        half-size `half`. `own` and `others` are the discs of its curve and of the other curves.
         """
         frame, margin = self.axes.get_window_extent(), half + GAP * self.point
         x = np.arange(frame.x0 + margin[0], frame.x1 - margin[0], STEP * self.point)
