@@ -12,8 +12,7 @@ from vibroimpact.theory.response import impact_times
 
 STEP = 2e-4
 """Smallest epsilon of the finite differences; with this value, the sum of the first two terms of (10.7) is accurate to
-1e-8.
-"""
+1e-8."""
 
 
 class NoOrbit(ValueError):

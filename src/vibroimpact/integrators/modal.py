@@ -26,9 +26,8 @@ from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 WORST = 1e8
 """Condition number of the eigenvectors at which the modes have lost half of their digits."""
 TRIES, LAST_STEP = 60, 3e-8
-"""Limits of Newton's method for an event: largest number of steps, and step length [tau] below which it ends. The square
-of this length is negligible.
-"""
+"""Limits of Newton's method for an event: largest number of steps, and step length [tau] below which it ends. The
+square of this length is negligible."""
 
 
 class Modal(Method):

@@ -27,7 +27,8 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 
 RELATIVE, ABSOLUTE = 1e-9, 1e-12
 SLOWEST = 1e-3
-"""Contacts slower than this speed V have the damping of a contact at V. Damping proportional to 1 / V has no limit at 0."""
+"""Contacts slower than this speed V have the damping of a contact at V, since damping proportional to 1 / V has no
+limit at V = 0."""
 SLOWEST_COUNTED = 0.01
 """For a spring over the whole box: lowest speed of a ball, in the middle of the box, for its impact to be counted."""
 SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5

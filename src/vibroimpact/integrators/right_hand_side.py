@@ -15,8 +15,7 @@ inlined = partial(disk_cached, error_model="numpy", forceinline=True, _nrt=False
 """Decorator for functions that run at every step; Numba inlines cached code only if this is requested."""
 inlined_source = partial(disk_cached, inline="always")
 """Decorator for functions that round like their caller. When these functions are called from SciPy's integrators, they
-use no fused multiply-add.
-"""
+use no fused multiply-add."""
 
 
 def coefficients(system) -> np.ndarray:

@@ -8,8 +8,7 @@ from vibroimpact.figures.plotting.style import GREY, HALO
 
 STEP, GAP = 4.0, 1.6
 """Distance between the places that are tried for a name, and smallest distance from a name to a line or marker, in
-points.
-"""
+points."""
 LEADER = 5.0
 """Distance in points between a name and its curve above which a leader line connects them."""
 CLEAR_DISTANCE = 50.0
