@@ -4,8 +4,9 @@
 def sawtooth_amplitude(epsilon: float, path):
     """Return the saw-tooth amplitude C of a ball that moves by `path` from one wall to the other.
 
-    C is half the distance that Z covers on a flight, the same for both flights of a cycle, even if these have unequal
-    durations and speeds. For a flight of half a period, C = (1 + epsilon) pi |Y'| / (2 Omega).
+    C is half the distance that the saw-tooth Z = -(1 + epsilon) Y covers on a flight. Both flights of a cycle have the
+    same C, even if their durations and speeds differ. For a flight of half a period,
+    C = (1 + epsilon) pi |Y'| / (2 Omega).
 
     Parameters
     ----------
@@ -18,7 +19,7 @@ def sawtooth_amplitude(epsilon: float, path):
 
 
 def path_of(epsilon: float, C):
-    """Return the change of Y on a flight of a ball with saw-tooth amplitude C, any shape.
+    """Return the change of the ball displacement Y on a flight from wall to wall, for amplitudes C of any shape.
 
     This is the inverse of `sawtooth_amplitude`.
     """

@@ -16,7 +16,8 @@ def instance(name: str, value, kind: type):
     Raises
     ------
     ValueError
-        If the value is no instance; for a PhysicalSystem in place of a System, the message suggests `dimensionless()`.
+        If `value` is not an instance of `kind`. For a PhysicalSystem in place of a System, the message suggests
+        `dimensionless()`.
     """
     if not isinstance(value, kind):
         if kind.__name__ == "System" and hasattr(value, "dimensionless"):
@@ -74,12 +75,12 @@ def whole(name: str, value, least: int, most: int) -> int:
 
 
 def reals(name: str, values) -> np.ndarray:
-    """Return a new float array of any shape; entries may be infinite or nan.
+    """Return `values` as a new float array of any shape; entries may be infinite or nan.
 
     Raises
     ------
     ValueError
-        If the value is not an array of real numbers, or if it is masked.
+        If `values` is not an array of real numbers, or if it is masked.
     """
     try:
         array = np.array(values)

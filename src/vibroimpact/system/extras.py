@@ -4,7 +4,7 @@ from importlib.util import find_spec
 
 
 def need(extra: str, *packages: str) -> None:
-    """Raise an error with the command to install an extra if one of its packages is missing.
+    """Raise an error unless all `packages` are installed; the message gives the command that installs `extra`.
 
     Raises
     ------

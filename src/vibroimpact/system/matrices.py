@@ -35,7 +35,7 @@ def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
 
 
 def rate_matrix(system, stuck=(False, False)) -> np.ndarray:
-    """Return the rate matrix A of (10.2), shape (6, 6).
+    """Return the rate matrix A of the boxes and the forcing in (10.2), shape (6, 6).
 
     dz/dtau = A z for z = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]. Since z includes the forcing phase, the
     flow is exp(A tau) for all parameters, also for undamped or resonant boxes and repeated or defective eigenvalues.

@@ -36,7 +36,7 @@ class System:
     sigma_e_hat : float
         Detuning of the forcing frequency: Omega = 1 + epsilon sigma_e_hat, above 0.
     f10_hat, f20_hat : float
-        Forcing amplitudes; a negative amplitude means forcing in antiphase.
+        Forcing amplitudes; a negative amplitude means forcing in antiphase to sin(Omega tau).
 
     Raises
     ------
@@ -130,7 +130,7 @@ class System:
     def modules(self) -> tuple[int, ...]:
         """Numbers of the active modules: (1, 2), (1,), (2,) or ().
 
-        A module is active if a force drives it, or drives the other module and both are coupled.
+        A module is active if a force drives it, or if a force drives the other module and the modules are coupled.
 
         Analyses leave out an inactive module; `simulate` still integrates it from its initial state. For a single
         machine the result is (1,), see `PhysicalSystem.single`.
@@ -140,14 +140,15 @@ class System:
         return (1, 2) if coupled and forced else tuple(forced)
 
     def with_inactive_damped(self) -> "System":
-        """Return the system with nonzero damping of the box in an inactive module.
+        """Return the system with damping of the box in the inactive module, if exactly one module is active.
 
-        This box stays at rest; the damping removes its resonance, so that its equations have a unique solution.
+        The box of the inactive module stays at rest. Without damping it may have a resonance, at which the equations of
+        the boxes have no unique solution.
 
         Returns
         -------
         System
-            A new System if exactly one module is active, else this one.
+            A new System if exactly one module is active, else the system itself.
         """
         if len(self.modules) != 1:
             return self

@@ -26,7 +26,7 @@ class PhysicalSystem:
     omega1, omega2 : float
         Circular frequencies of the forces.
     L : float
-        Clearance: a ball meets a wall at |x - y| = L.
+        Clearance: a ball at y hits a wall of its box at x if |x - y| = L.
     kappa : float
         Restitution coefficient.
     base, unbalance : float, default 0.0
@@ -128,7 +128,7 @@ class PhysicalSystem:
             Circular frequency of the force [rad/s]; the natural frequency by default.
         base : float, default 0.0
             Amplitude G of a motion of the ground below spring and damper [m], given in place of F. The force on the
-            box is G sqrt(k^2 + c^2 omega^2); the ground lags behind it by arctan(c omega / k). Displacements are
+            box is G sqrt(k^2 + c^2 omega^2); the ground lags behind the force by arctan(c omega / k). Displacements are
             absolute.
         unbalance : float, default 0.0
             Mass of a rotor times its eccentricity, u [kg m], given in place of F. The force on the box is u omega^2;

@@ -10,7 +10,7 @@ def wants_progress(progress: bool) -> bool:
 
 
 def track(things: Sequence, words: str, progress: bool = True) -> Iterator:
-    """Yield the things one by one, and show a line with the given words and the number of things done."""
+    """Yield `things` one by one; if `progress`, show `words` and the number of things done on a line of the terminal."""
     for number, one in enumerate(things, start=1):
         yield one
         if wants_progress(progress):
@@ -18,5 +18,5 @@ def track(things: Sequence, words: str, progress: bool = True) -> Iterator:
 
 
 def write_line(line: str, last: bool = False) -> None:
-    """Write a line over the previous line; last: end it with a newline."""
+    """Write `line` over the line that the terminal shows; if `last`, add a newline."""
     print(f"\r\033[K{line}", end="\n" if last else "", file=sys.stderr, flush=True)

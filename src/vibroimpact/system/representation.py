@@ -22,7 +22,7 @@ class Representation:
 
 
 class Found(list):
-    """List of results with the column names of its table, which `to_frame` needs if the list is empty."""
+    """List of results; `columns` are the names of the columns in the table from `to_frame`, also for an empty list."""
 
     def __init__(self, results: Iterable, columns: Iterable[str]):
         super().__init__(results)
@@ -30,7 +30,7 @@ class Found(list):
 
 
 def brief(numbers) -> str:
-    """Return a number or an array (n,) as text, with four digits per number."""
+    """Return a number or an array (n,) as text, with four significant digits per number."""
     if np.ndim(numbers) == 0:
         return f"{numbers:.4g}"
     return f"({', '.join(f'{number:.4g}' for number in numbers)})"

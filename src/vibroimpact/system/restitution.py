@@ -1,7 +1,7 @@
 """Impact law: Newton's restitution rule with conservation of momentum (section 10.2).
 
-Compiled code and other arithmetic need separate implementations of this law: `exact.engine.contact.impact` (runs),
-`exact.lanes.steps` (ensembles), `integrators.rigid_contact` and `integrators.contact_laws` (other methods),
+Compiled code, interval arithmetic and JavaScript need implementations of their own: `exact.engine.contact.impact`
+(runs), `exact.lanes.steps` (ensembles), `integrators.rigid_contact` and `integrators.contact_laws` (other methods),
 `accuracy.reference.trajectory` (intervals) and `report/live/exact.js` (browser). Tests compare all of them.
 """
 
@@ -9,7 +9,7 @@ Compiled code and other arithmetic need separate implementations of this law: `e
 def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocity: float):
     """Return the velocities (X', Y') just after an impact, from the velocities just before it, (10.2).
 
-    The relative velocity changes from W'- to -kappa W'- (Newton's rule), and X' + epsilon Y' is conserved. The
+    The relative velocity W' = X' - Y' is multiplied by -kappa (Newton's rule), and X' + epsilon Y' is conserved. The
     arguments are floats or arrays.
     """
     impulse = (1.0 + kappa) / (1.0 + epsilon) * (box_velocity - ball_velocity)
@@ -17,7 +17,7 @@ def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocit
 
 
 def energy_lost(epsilon: float, kappa: float, relative_velocity: float):
-    """Return the kinetic energy lost in an impact with the relative velocity W'- just before it.
+    """Return the kinetic energy lost in an impact, from the relative velocity of box and ball just before the impact.
 
     The energy is in units of M L^2 omega_10^2 and never negative.
     """

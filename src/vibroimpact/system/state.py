@@ -31,7 +31,7 @@ def states_array(name: str, values) -> np.ndarray:
     """Return a new float array of states, with labelled components sorted into the order of NAMES.
 
     Mappings, named tuples, structured arrays, and rows and tables of pandas and similar libraries have labels. They
-    may have further entries, as in the tables of `to_frame`. Values without labels are taken by position.
+    may have further entries, as in the tables of `to_frame`. Values without labels must have the order of NAMES.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def _ordered(name, values):
 
 
 def _labels(values):
-    """Return the labels of the components, or None if the values are taken by position."""
+    """Return the labels of the components of `values`, or None if `values` has no labels."""
     if isinstance(values, Mapping):
         return [*values]
     if names := getattr(values, "_fields", None) or getattr(getattr(values, "dtype", None), "names", None):
@@ -82,7 +82,7 @@ def _labels(values):
 def active_mask(system) -> np.ndarray:
     """Return a mask (8,) of the components of the state that belong to an active module (see `System.modules`).
 
-    If no module is active, both modules decay freely, and all entries are True.
+    If no module is active, the motions of both modules decay freely, and all entries are True.
     """
     return np.isin(MODULES, system.modules or (1, 2))
 

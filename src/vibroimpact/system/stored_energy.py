@@ -1,4 +1,4 @@
-"""Compute the stored (kinetic and elastic) energy of (10.2), in units of M L^2 omega_10^2."""
+"""Compute the stored (kinetic and elastic) energy of the system (10.2), in units of M L^2 omega_10^2."""
 
 from vibroimpact.system.state import BALLS, BOXES
 

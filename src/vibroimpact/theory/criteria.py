@@ -1,9 +1,10 @@
 """Apply stability criteria to a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
 
 Each criterion gives "stable", "unstable" or "undecided" (the threshold is within the error bound of the value). A
-motion is stable if both modules are; C of an inactive module (see `System.modules`) is NaN and is ignored. The verdicts
-are named fast (Masri's analysis as derived in docs/stability.md), slow (the slow flow), theory (fast and slow together)
-and exact (the Floquet multipliers of the exact orbit).
+motion is stable if both modules are stable. An inactive module (see `System.modules`), whose saw-tooth amplitude C is
+NaN, is ignored. The verdicts are named printed_10_26 (the condition as printed), fast (Masri's analysis as derived in
+docs/stability.md), slow (the slow flow), theory (fast and slow together) and exact (the Floquet multipliers of the
+exact orbit).
 """
 
 from typing import NamedTuple
@@ -28,7 +29,8 @@ _ULPS = 16 * np.finfo(float).eps
 class Stability(NamedTuple):
     """Verdicts of the theory on a motion, each "stable", "unstable" or "undecided".
 
-    fast: verdict of Masri's analysis, for impacts at constant B and phi. slow: verdict of the slow flow.
+    fast: verdict of Masri's analysis, for impacts at constant amplitude B and phase phi of U. slow: verdict of the slow
+    flow.
     """
 
     fast: str
@@ -36,7 +38,7 @@ class Stability(NamedTuple):
 
     @property
     def theory(self) -> str:
-        """Verdict of both analyses together."""
+        """Verdict of both analyses together: "stable" if `fast` and `slow` are both "stable"."""
         return all_stable(self)
 
     def __str__(self) -> str:
@@ -53,7 +55,7 @@ def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
 
 
 def masri_derived(C, kappa: float, error: float = 0.0) -> str:
-    """Return the verdict of Masri's analysis (docs/stability.md) on a motion with amplitudes C, shape (2,).
+    """Return the verdict of Masri's analysis (docs/stability.md) on a motion with saw-tooth amplitudes C, (2,).
 
     error: bound on the errors of C.
     """
@@ -63,7 +65,7 @@ def masri_derived(C, kappa: float, error: float = 0.0) -> str:
 def slow_flow(system, psi, C, error: float = 0.0) -> str:
     """Return the verdict from the real parts of the eigenvalues of the slow flow.
 
-    psi, C: phases [rad] and saw-tooth amplitudes, each (2,). error: bound on the errors of both.
+    psi, C: phases [rad] and saw-tooth amplitudes, each (2,). error: bound on the errors of psi and C.
 
     The errors of the eigenvalues due to rounding and to `error` are estimated to first order, with the left and right
     eigenvectors. At the fold of the manifold, where an eigenvalue is infinite, the verdict is "undecided".
@@ -73,14 +75,14 @@ def slow_flow(system, psi, C, error: float = 0.0) -> str:
 
 
 def of_fixed_point(system, point) -> dict[str, str]:
-    """Return the verdict on a fixed point of the slow flow for each criterion in CRITERIA, by name."""
+    """Return, by name, the verdict of each criterion in CRITERIA on a fixed point of the slow flow."""
     return _of(system, point.psi, point.C, fixed_point_error(system, point))
 
 
 def of_orbit(orbit) -> dict[str, str]:
-    """Return the verdict on an exact orbit for each criterion in CRITERIA, by name.
+    """Return, by name, the verdict of each criterion in CRITERIA on an exact orbit.
 
-    The system, impact_phases, C, multipliers and residual of the orbit are used.
+    The attributes `system`, `impact_phases`, `C`, `multipliers` and `residual` of the orbit are used.
 
     The criteria assume a symmetric motion. An asymmetric orbit is described by psi and C from `slow_variables`.
     """
@@ -93,7 +95,8 @@ def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
     """Return (psi, C) of an exact orbit, each (2,).
 
     C_i is the saw-tooth amplitude; psi_i follows from the impact phase by (10.17). The impact phase is the mean of the
-    phase at wall +1 and the phase at wall -1 shifted by half a period; they differ only in an asymmetric orbit.
+    phase at wall +1 and the phase at wall -1 shifted by half a period. These two phases differ only if the orbit is
+    asymmetric.
     """
     around = np.exp(2j * np.pi * orbit.impact_phases)
     phase = impact_phase(orbit.C, rho(orbit.system.kappa))
@@ -103,7 +106,8 @@ def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
 def fixed_point_error(system, point) -> float:
     """Return an estimate of the largest error of psi and C at a computed fixed point.
 
-    The estimate is the size of a Newton step including rounding, or infinite if several fixed points may coincide.
+    The estimate is the size of a Newton step plus the effect of rounding, or infinite if several fixed points may
+    coincide.
     """
     if point.multiple:
         return np.inf

@@ -1,11 +1,13 @@
 """Slow invariant manifold (SIM) of a module in 1:1 resonance, (10.15)-(10.17) and (10.25), and its saw-tooth.
 
-B, C and rho, (10.15), are dimensionless numbers or arrays that broadcast; angles are in radians.
+The amplitudes B of U and C of the saw-tooth and the dissipation rho, (10.15), are dimensionless numbers or arrays that
+broadcast; angles are in radians.
 
-A value of C is admissible if the ball stays between the walls, |W_0| <= 1 with (10.10). At the time t after the impact
-with W = +1 and before the next impact, W_0 = cos t + C h(t) with h(t) = 1 - 2 t / pi - cos t + rho sin t
-(docs/stability.md). W_0 is linear in C, so that the admissible C form one interval. It begins at 0 and ends at the C
-at which the ball, on its way to the other wall, just grazes the wall that it has left.
+A value of C is admissible if the ball stays between the walls, that is if |W_0| <= 1 for the relative displacement W_0
+of (10.10). A time t after the impact at W = +1, and before the next impact, W_0 = cos t + C h(t) with
+h(t) = 1 - 2 t / pi - cos t + rho sin t (docs/stability.md). W_0 is linear in C, so that the admissible C form one
+interval. The interval begins at C = 0. At its upper end the ball, on its way to the other wall, just grazes the wall
+that it has left.
 """
 
 import numpy as np
@@ -22,7 +24,7 @@ def sawtooth(tau0, C, theta):
 
 
 def rho(kappa):
-    """Return rho = 2 (1 - kappa) / (pi (1 + kappa)), (10.15), the dissipation of an impact; 0 for elastic impacts."""
+    """Return rho = 2 (1 - kappa) / (pi (1 + kappa)), (10.15), which measures dissipation; 0 for elastic impacts."""
     return 2 * (1 - kappa) / (np.pi * (1 + kappa))
 
 
@@ -72,11 +74,12 @@ def impact_phase(C, rho):
 
 
 def overshoot(C, rho):
-    """Return the largest |W_0| - 1 over a cycle of (10.10) at a point of the manifold.
+    """Return how far |W_0| of (10.10) exceeds 1 at most in a cycle, for the motion at a point of the manifold.
 
     The result is 0 if the ball stays between the walls.
 
-    W_0 is stationary where B cos(tau_0 + phi) = +-2 C / pi, so that the maximum is found without sampling.
+    The relative displacement W_0 is stationary where B cos(tau_0 + phi) = +-2 C / pi, so that the maximum is found
+    without sampling.
     """
     C = np.asarray(C, dtype=float)
     B = B_of_C(C, rho)
@@ -90,7 +93,7 @@ def overshoot(C, rho):
 def grazing_time(kappa: float) -> float:
     """Return the time t [rad] from an impact until the ball grazes the same wall again, for C = largest_C(kappa).
 
-    t / 2 is the only root of p cot p = 1 / (1 + kappa), since p cot p falls from 1 to 0 on (0, pi/2).
+    p = t / 2 is the only root of p cot p = 1 / (1 + kappa), since p cot p falls from 1 to 0 on (0, pi/2).
 
     Raises
     ------
@@ -111,9 +114,9 @@ def _tangent_excess(p):
 
 
 def largest_C(kappa: float) -> float:
-    """Return the largest C at which |W_0| <= 1 at all times.
+    """Return the largest C at which the ball stays between the walls, that is |W_0| <= 1 with W_0 of (10.10).
 
-    C is given by 1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time / 2.
+    C is given by 1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time(kappa) / 2.
 
     C grows with kappa, from 1 at kappa = 0.
 
@@ -127,7 +130,7 @@ def largest_C(kappa: float) -> float:
 
 
 def stays_within_walls(C: float, kappa: float) -> bool:
-    """Return True if |W_0| <= 1 at all times, that is for 0 <= C <= largest_C(kappa).
+    """Return True if the ball stays between the walls at amplitude C, that is for 0 <= C <= largest_C(kappa).
 
     Raises
     ------

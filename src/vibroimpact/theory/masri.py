@@ -2,11 +2,12 @@
 
 The condition printed in the chapter, (10.26), differs from the result of this analysis: see `printed_limit`.
 
-The derivation is in docs/stability.md. A map takes perturbations of impact time and ball speed from one impact to the
-mirror image of the next impact. Its determinant is kappa^2 and its trace is 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4
-C). A multiplier leaves the unit circle through +1 at C_min, where the two arms of the manifold merge, or through -1 at
-C = pi^2 / (pi^2 - 4), where two asymmetric motions branch off the symmetric motion. A pair of complex multipliers
-cannot leave the unit circle, since the determinant is below 1.
+The derivation is in docs/stability.md. A linear map leads from the perturbations of impact time and ball speed at an
+impact to the perturbations at the mirror image of the next impact. The determinant of the map is kappa^2 and its trace
+is 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), where C is the saw-tooth amplitude. A multiplier leaves the unit circle
+through +1 at C_min, where the two arms of the manifold merge, or through -1 at C = pi^2 / (pi^2 - 4), where two
+asymmetric motions branch off the symmetric motion. A pair of complex multipliers cannot leave the unit circle, since
+the determinant is below 1.
 """
 
 import numpy as np
@@ -22,9 +23,10 @@ SYMMETRY_BREAKING_C = np.pi**2 / (np.pi**2 - 4)
 def impact_multipliers(C, kappa) -> np.ndarray:
     """Return the multipliers, shape (2,), of the map from one impact to the next at constant B and phi.
 
-    The map takes perturbations of impact time and ball speed from an impact to the mirror image of the next impact. The
-    motion is stable if both moduli are below 1, that is for C_min < C < SYMMETRY_BREAKING_C. The product of the
-    multipliers is kappa^2, and their sum is 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C).
+    The map leads from the perturbations of impact time and ball speed at an impact to the perturbations at the mirror
+    image of the next impact. The motion is stable if both moduli are below 1, that is for C_min < C <
+    SYMMETRY_BREAKING_C. The product of the multipliers is kappa^2, and their sum is 2 kappa + pi^2 (1 + kappa)^2 (1 -
+    C) / (4 C).
 
     Raises
     ------
@@ -55,7 +57,7 @@ def multipliers(C: float, kappa: float) -> np.ndarray:
 
 
 def lower_limit(kappa):
-    """Return the value of C below which a multiplier is above +1: C_min at the fold of the manifold, (10.25)."""
+    """Return the positive C below which a multiplier is above +1: C_min at the fold of the manifold, (10.25)."""
     return C_min(rho(kappa))
 
 
@@ -68,7 +70,7 @@ def upper_limit(kappa):
 
 
 def stable(C: float, kappa: float, error: float = 0.0) -> str:
-    """Return "stable" if C is between both limits, "unstable" if it is outside, or "undecided".
+    """Return "stable" if C is between `lower_limit` and `upper_limit`, "unstable" if C is outside, or "undecided".
 
     Parameters
     ----------
@@ -77,7 +79,7 @@ def stable(C: float, kappa: float, error: float = 0.0) -> str:
     kappa : float
         Restitution coefficient.
     error : float, default 0.0
-        Bound on the error of C, to which rounding is added. Within this error of a limit, the verdict is "undecided".
+        Bound on the error of C, to which rounding is added. If C is that close to a limit, the verdict is "undecided".
     """
     margin = min(C - lower_limit(kappa), upper_limit(kappa) - C)
     return verdict(margin, error + ROUNDING * max(1.0, abs(C)))
@@ -92,7 +94,7 @@ def printed_limit(rho):
 
 
 def limit_with_squares(rho):
-    """Return the limit of C according to (10.26) with two squares that may have been lost in print.
+    """Return the limit of C by (10.26) with the squares of pi and rho, which may have been lost in print.
 
     The value is 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2)), in the shape of rho.
     """

@@ -30,7 +30,7 @@ class Response:
 
 
 def leading_order(system, point, tau) -> Response:
-    """Return U_i0 and W_i0 of (10.9), (10.10) at a fixed point, and the corresponding X_i and Y_i.
+    """Return U_i0 and W_i0 of (10.9), (10.10) for a fixed point, with the corresponding X_i and Y_i, at times `tau`.
 
     All coordinates of an inactive module are 0.
 
@@ -69,8 +69,8 @@ def impact_times(system, point) -> np.ndarray:
 class MeanPower:
     """Mean powers over a cycle, per unit of tau and in units of M L^2 omega_10^2.
 
-    Relative errors are of the order epsilon. `Run.energy` has the same names for energies over a cycle, which are these
-    powers times the period.
+    The powers are leading-order values, with relative errors of the order epsilon. `Run.energy.per_cycle` has the same
+    names for energies; in a steady motion, the energies of a cycle are the powers times the period, up to these errors.
 
     work (2,): power of the forces. ground (2,): dissipation of the dampers to ground. coupling: dissipation of the
     damper between the boxes. impacts (2,): dissipation of the impacts. At a fixed point the sum of `work` is the sum of
@@ -89,9 +89,10 @@ class MeanPower:
 
 
 def mean_power(system, point) -> MeanPower:
-    """Return the power balance at a fixed point of (10.23).
+    """Return the power balance at a fixed point, (10.23).
 
-    The powers are imaginary parts of the terms in the complex balance, each multiplied by conj(b_i).
+    Each term of the complex balance for b_i = B_i exp(-i psi_i) is multiplied by conj(b_i); its imaginary part gives a
+    power.
 
     The powers of an inactive module are 0.
 

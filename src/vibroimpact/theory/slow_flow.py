@@ -16,7 +16,8 @@ def impedances(system) -> tuple[np.ndarray, complex]:
     """Return the slow impedances: (e_1, e_2) of the boxes without coupling and balls, and K of the coupling.
 
     With b_n = B_n exp(-i psi_n) for module n, and with the other module m, the slow flow is
-    2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m), where N is the describing function of the ball.
+    2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m), where N is the describing function of the
+    ball and D_1 = d / dtau_1.
     """
     detuning = np.array([0, system.sigma20_hat]) - 2 * system.sigma_e_hat
     damping = np.array([system.gamma1_hat, system.gamma2_hat])
@@ -92,9 +93,9 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
-    """Return J and M of `linearisation` for modules on any curve with B and N B given as functions of a parameter x.
+    """Return J and M as in `linearisation`, for any curve on which B_i and N_i B_i are functions of a parameter x_i.
 
-    J and M apply to perturbations of (x_1, psi_1, x_2, psi_2).
+    N_i is the describing function of ball i. J and M apply to perturbations of (x_1, psi_1, x_2, psi_2).
 
     Parameters
     ----------
@@ -129,7 +130,7 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
 def _active(system):
     """Return a mask (4,) of the slow variables that belong to an active module (see `System.modules`).
 
-    If no module is active, the mask includes both modules, whose motions die out.
+    If no module is active, the motions of both modules die out, and all entries are True.
     """
     part = system.modules or (1, 2)
     return np.array([module in part for module in MODULES])
@@ -138,7 +139,7 @@ def _active(system):
 def jacobian(system, psi, C) -> np.ndarray:
     """Return the Jacobian (4, 4) of the rates (10.22) with respect to (B_1, psi_1, B_2, psi_2).
 
-    C depends on B along the arm of the manifold.
+    C_i is the function of B_i on the arm of the manifold to which the given C_i belongs.
 
     Parameters
     ----------

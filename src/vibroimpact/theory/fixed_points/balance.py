@@ -1,8 +1,10 @@
-"""Fixed-point conditions (10.23) as polynomials in C_1 and C_2, which have the roots of (10.24) but no poles.
+"""Write the fixed-point conditions (10.23) as polynomials in C_1 and C_2; these have the roots of (10.24) but no poles.
 
-On the manifold b_i = B_i exp(-i psi_i) = z_i u_i with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. With this (10.23) is
-linear in the phasors u_i, and its coefficients are linear in C_i (docs/derivation.md, section 5):
+On the manifold b_i = B_i exp(-i psi_i) = z_i u_i with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. The conditions (10.23)
+are therefore linear in the phasors u_i, with coefficients that are linear in C_i (docs/derivation.md, section 5):
     q_i u_i + K (z_i u_i - z_j u_j) = f_i,    q_i = e_i z_i + mu C_i,    mu = 8 / pi^2.
+Here f_i is the forcing amplitude of module i and j is the other module. The impedances e_i of box i and K of the
+coupling come from `slow_flow.impedances`.
 This module also computes the singular points of (10.24) (docs/derivation.md, section 8).
 """
 
@@ -18,7 +20,7 @@ _ROUNDING = 100 * np.finfo(float).eps
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """Coefficients of the balance in the module docstring.
+    """Coefficients of the balance q_i u_i + K (z_i u_i - z_j u_j) = f_i of module i, where j is the other module.
 
     z (2,): coefficients of z_i = z[0] + z[1] C_i, the same for both modules. q (2, 2): coefficients of q_i = q[i, 0] +
     q[i, 1] C_i. K: impedance of the coupling. forcing (2,): f_1 and f_2.
@@ -43,13 +45,13 @@ class Balance:
         return self.z[0] + self.z[1] * C, self.q[:, 0] + self.q[:, 1] * C
 
     def solve(self, C) -> tuple[np.ndarray, complex]:
-        """Return the numerators, shape (2,), and denominator Delta of the phasors u_i at C (Cramer's rule)."""
+        """Return the numerators n_i, (2,), and the denominator Delta of u_i = n_i / Delta at C (2,) (Cramer's rule)."""
         z, q = self.at(C)
         numerators = self.forcing * q[::-1] + self.forcing.sum() * self.K * z[::-1]
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
 
     def phases(self, C) -> np.ndarray:
-        """Return the phases psi (2,) at a common zero C (2,) of the polynomials."""
+        """Return the phases psi (2,) of the fixed point at C (2,), a common zero of both `polynomials`."""
         numerators, denominator = self.solve(C)
         return -np.angle(self.at(C)[0] * numerators / denominator)
 
@@ -74,8 +76,9 @@ class Balance:
         """Return two polynomials equivalent to (10.24), and the sums of moduli in their coefficients, each (2, 3, 3).
 
         The polynomials are |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2. They vanish where |u_1| = |u_2| = 1, since u_i =
-        n_i / Delta. n_1 depends on C_2 alone and n_2 on C_1 alone. Entry [:, j, k] is the coefficient of C_1^j C_2^k.
-        The sums are computed like the coefficients, but with the modulus of every term; rounding is relative to them.
+        n_i / Delta (`solve`). n_1 depends on C_2 alone and n_2 on C_1 alone. Entry [:, j, k] is the coefficient of
+        C_1^j C_2^k. The sums are computed like the coefficients, but with the modulus of every term. They are the scale
+        of rounding errors.
         """
         parts = self.z, self.q, self.K, self.forcing
         delta, one, two = map(_modulus_squared, _solution(*parts))
@@ -84,7 +87,7 @@ class Balance:
 
 
 def _solution(z, q, K, forcing):
-    """Return the polynomials Delta, n_1 and n_2 as coefficients of powers of C_1 (first axis) and C_2 (second axis)."""
+    """Return Delta, n_1 and n_2 of `Balance.solve` as coefficients of powers of C_1 (axis 0) and C_2 (axis 1)."""
     delta = np.outer(q[0], q[1]) + K * (np.outer(z, q[1]) + np.outer(q[0], z))
     total = forcing.sum() * K * z
     return delta, (forcing[0] * q[1] + total)[None, :], (forcing[1] * q[0] + total)[:, None]
@@ -104,10 +107,11 @@ def _modulus_squared(polynomial):
 def determinant(system, C) -> float:
     """Return the common denominator of h_1 and h_2 in (10.24), Im(p_1 p_2 conj(z_1 z_2 K^2)) with p_i = q_i + K z_i.
 
-    Constant factors, powers of B_i and the square in h_1 are left out. The equation sin^2 + cos^2 = 1 for psi_1 and for
-    psi_2 gives two equations linear in cosine and sine of psi_2 - psi_1; their determinant is four times the returned
-    value. This value vanishes for all C only if the modules are uncoupled: as a quadratic in C_1 it vanishes
-    identically only for p_2 = 0, which is impossible since the ball dissipates energy.
+    z_i, q_i and K are those of `Balance`. Constant factors, powers of B_i and the square in h_1 are left out. The
+    equation sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two equations that are linear in cosine and sine of psi_2 -
+    psi_1. The determinant of these two equations is four times the returned value. This value vanishes for all C only
+    if the modules are uncoupled: as a quadratic in C_1 it vanishes identically only for p_2 = 0, which is impossible
+    since the ball dissipates energy.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)
@@ -120,7 +124,7 @@ def singular_points(system, point, module) -> np.ndarray:
     Parameters
     ----------
     point
-        Fixed point from which the other module takes its constant C.
+        Fixed point whose C of the other module is kept constant.
     module
         The module on whose manifold the points lie, 1 or 2.
 
@@ -149,7 +153,7 @@ def singular_points(system, point, module) -> np.ndarray:
 
 
 def _real_roots(coefficients):
-    """Return the real roots of c + b x + a x^2 for coefficients (c, b, a); two roots within rounding count as one."""
+    """Return the real roots of c + b x + a x^2 for coefficients (c, b, a); roots equal within rounding count as one."""
     c, b, a = coefficients
     discriminant = b * b - 4 * a * c
     if abs(discriminant) <= 8 * np.finfo(float).eps * (b * b + abs(4 * a * c)):

@@ -9,15 +9,14 @@ import numpy as np
 from numpy.polynomial import polynomial as poly
 
 _ROUNDING = 100 * np.finfo(float).eps
-"""Bound on the rounding error of a polynomial, relative to the sum of the moduli of its terms (about 20 operations)."""
+"""Bound on the rounding error of a polynomial's value, relative to the sum of the moduli of its terms (20 operations)."""
 _RESOLUTION = 1e-8
 _BOXES = _RESOLUTION, 1e-6, 1e-4
-"""Half-widths of the boxes in which Newton's method is tested to contract about a simple zero, relative to max(1,
-|zero|)."""
+"""Half-widths of the boxes about a zero in which contraction of Newton's method is tested, relative to max(1, |zero|)."""
 _NEARLY_REAL = 1e-2
 """Largest imaginary part, relative to the modulus, of a root of the resultant that is treated as real."""
 _CLOSE = 0.03
-"""Largest value of a polynomial at a start, relative to the sum of the moduli of its terms."""
+"""Largest value of a polynomial at a start of Newton's method, relative to the sum of the moduli of its terms."""
 _STEPS = 30
 _SAME = 1e-5
 """Distance within which multiple zeros count as one, relative to max(1, |zero|)."""
@@ -61,7 +60,7 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 def _starts(pair, size):
     """Return starts (n, 2) for Newton's method, at least one near every real zero.
 
-    For each x from a nearly real root of the resultant, y is a root of either polynomial at this x.
+    Each x is a nearly real root of the resultant. The y for this x are the roots of both polynomials at this x.
 
     Raises
     ------
@@ -82,8 +81,8 @@ def _starts(pair, size):
 def _resultant(one, other, sign=-1):
     """Return the coefficients (9,) of the resultant of two polynomials, which eliminates y.
 
-    one, other: coefficients (3, 3) with the power of y on the first axis. sign: 1 to get the sums of the moduli of all
-    terms, if the moduli of the coefficients are given.
+    one, other: coefficients (3, 3) with the power of y on the first axis. sign: 1 if `one` and `other` are
+    moduli of coefficients, to get the sums of the moduli of all terms.
     """
 
     def minor(j, k):
@@ -93,7 +92,7 @@ def _resultant(one, other, sign=-1):
 
 
 def _roots(coefficients):
-    """Return the nearly real roots as real numbers: for a nearly real pair a +- b i, return a + b and a - b."""
+    """Return the nearly real roots of a polynomial as real numbers: a + b and a - b for a nearly real pair a +- b i."""
     nonzero = np.flatnonzero(np.abs(coefficients) > np.finfo(float).tiny)
     roots = poly.polyroots(coefficients[: nonzero[-1] + 1])
     roots = roots[np.abs(roots.imag) <= _NEARLY_REAL * np.abs(roots) + _RESOLUTION]
@@ -112,7 +111,7 @@ def _quadratic(polynomial, x):
 def _newton(pair, size, points):
     """Return the zeros to which Newton's method converges from the starts `points` (n, 2), with repetitions.
 
-    It has converged where both polynomials vanish within rounding.
+    Newton's method has converged where both polynomials vanish within rounding.
     """
     found = [np.empty((0, 2))]
     for _ in range(_STEPS):
@@ -129,7 +128,7 @@ def _newton(pair, size, points):
 
 
 def _expanded(pair, size, points):
-    """Return values (n, 2) and Jacobians (n, 2, 2) of a pair of polynomials at points, and the rounding of the values.
+    """Return values (n, 2) and Jacobians (n, 2, 2) of both polynomials, and bounds (n, 2) on the errors of the values.
 
     size: sums of the moduli that form the coefficients, as `magnitudes` of `real_zeros`. points: (n, 2).
     """

@@ -1,9 +1,10 @@
 """Find all fixed points of the slow flow, the real solutions of (10.16) and (10.23).
 
-The zeros of the polynomials in C_1 and C_2 are refined by Newton's method for amplitudes and phases together, which
-restores the digits lost by squaring. Without dissipation the slow flow is reversible: each fixed point has a partner
-with the same C and mirrored phases, and Delta of the balance vanishes at both. Close to this limit, two well separated
-fixed points have amplitudes that are equal within rounding; their phases distinguish them.
+The zeros of the polynomials in C_1 and C_2 (`Balance.polynomials`) are refined by Newton's method for amplitudes and
+phases together. This restores digits that are lost because the polynomials are differences of squares. Without
+dissipation the slow flow is reversible: each fixed point has a partner with the same C and mirrored phases, and the
+denominator Delta of `Balance.solve` vanishes at both points. Close to this limit, two well separated fixed points have
+amplitudes that are equal within rounding; only their phases distinguish them.
 """
 
 from dataclasses import dataclass, replace
@@ -44,9 +45,9 @@ class FixedPoint(Representation):
     system : System
         System of the fixed point.
     C, B : ndarray
-        Saw-tooth and box amplitudes of the modules, each shape (2,), dimensionless.
+        Amplitudes of the saw-tooth and of U_i0 in both modules, each shape (2,), dimensionless.
     psi : ndarray
-        Phases [rad] behind the forcing, in (-pi, pi], shape (2,); U_i0 = B_i sin(Omega tau - psi_i).
+        Phases [rad] by which U_i0 = B_i sin(Omega tau - psi_i) lags behind the forcing, in (-pi, pi], shape (2,).
     slow_eigenvalues : ndarray
         Complex eigenvalues of the slow flow, per unit of tau_1, shape (4,), or (2,) for a single machine. At a fold of
         the manifold an eigenvalue is infinite.
@@ -112,8 +113,8 @@ def fixed_points(system: System) -> list[FixedPoint]:
     Returns
     -------
     list of FixedPoint
-        Fixed points in ascending order of C_1, or of C of the active module for a single machine. The labels have
-        another order.
+        Fixed points in ascending order of C_1, or of C of the active module for a single machine. The labels
+        follow another order (see `labels`).
 
     Raises
     ------
@@ -154,10 +155,10 @@ def search(system: System) -> FixedPointSearch:
 def search_radius(system) -> float:
     """Return an upper bound on sqrt(C_1^2 + C_2^2) for all fixed points.
 
-    The bound depends only on f and rho (docs/derivation.md, section 6).
+    The bound depends only on the forcing amplitudes f_i and on rho (docs/derivation.md, section 6).
 
     The power of the forces is at most |f_1| B_1 + |f_2| B_2, where B_i <= 1 + sqrt(1 + rho^2) |C_i|. The power
-    dissipated by impacts, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed it.
+    dissipated by impacts, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed the power of the forces.
     """
     r = rho(system.kappa)
     f = np.abs([system.f10_hat, system.f20_hat])
@@ -171,9 +172,10 @@ def labels(system, points) -> list[str]:
 
     The chapter gives labels in its figures, but no rule for them.
 
-    Points that are unstable by (10.26) come first. Both groups are sorted by descending growth rate of the slow flow,
-    the largest real part of its eigenvalues. Of the plausible orders, this one agrees with the most sentences of
-    section 10.4, among them the sentence on Figs. 10.7 and 10.8 (list in docs/errata.md).
+    Points that are unstable by (10.26) come first, then the points that are stable by (10.26). Each of the two groups
+    is sorted by descending growth rate, which is the largest real part of the eigenvalues of the slow flow. Of the
+    plausible orders, this one agrees with the most sentences of section 10.4, among them the sentence on Figs. 10.7 and
+    10.8 (list in docs/errata.md).
     """
     limit = printed_limit(rho(system.kappa))
     keys = [(bool(np.nanmin(point.C) > limit), -point.slow_eigenvalues.real.max()) for point in points]
@@ -201,7 +203,7 @@ def _fixed_point(system, C, psi, multiple):
 
 
 def _of_one_module(balance, i):
-    """Return (C, psi, multiple) for each fixed point of a single module i (0 or 1); entries of the other are NaN."""
+    """Return (C, psi, multiple) for the fixed points of module i (0 or 1) alone; entries of the other module are NaN."""
     C, psi, multiple = balance.of_module(i)
     alone = np.where(np.arange(2) == i, 1.0, np.nan)
     return [(alone * one, alone * phase, multiple) for one, phase in zip(C, psi, strict=True)]
@@ -223,9 +225,9 @@ def _solutions(system, balance, zeros, multiple):
 def _mirrored_pair(system, balance, C):
     """Return (C, psi) for the two simple fixed points with amplitudes close to C, or [] if there are not two.
 
-    C: a multiple zero of the polynomials, known at best to the square root of rounding. In the complex plane, p_1 u_1,
-    K z_2 u_2 and f_1 form a triangle, since p_1 u_1 - K z_2 u_2 = f_1. Newton's method starts from the phases of the
-    two triangles with these sides.
+    C: a multiple zero of the polynomials, known at best to the square root of rounding. With z_i, q_i, K and f_i of
+    `Balance` and p_i = q_i + K z_i, the balance p_1 u_1 - K z_2 u_2 = f_1 is a triangle in the complex plane. Newton's
+    method starts from the phases of the two triangles with sides of these lengths.
     """
     z, q = balance.at(C)
     p, k, f = q[0] + balance.K * z[0], balance.K * z[1], balance.forcing[0]
@@ -240,10 +242,11 @@ def _mirrored_pair(system, balance, C):
 
 
 def _may_close(balance, C):
-    """Return False if no phases balance the forces near C, so that the zero of the polynomials is spurious.
+    """Return False if no phases balance the forces near C, a zero of `Balance.polynomials` that is then spurious.
 
-    Squaring can cause such a zero: without dissipation Delta, n_1 and n_2 can vanish at the same C. Phases exist only
-    if f_i = p_i u_i - K z_j u_j, that is if |f_i|, |p_i| and |K z_j| are the sides of a triangle, for both modules.
+    Without dissipation, Delta, n_1 and n_2 of `Balance.solve` can vanish at the same C, which is then a spurious zero.
+    Phases exist only if f_i = p_i u_i - K z_j u_j with p_i = q_i + K z_i for both modules i, where j is the other
+    module. The lengths |f_i|, |p_i| and |K z_j| must therefore be the sides of a triangle.
     """
     z, q = balance.at(C)
     sides = np.abs([balance.forcing, q + balance.K * z, balance.K * z[::-1]])

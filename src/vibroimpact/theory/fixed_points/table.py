@@ -99,6 +99,6 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
 def verdicts(places: pd.DataFrame) -> pd.Series:
     """Return the verdict of the chapter on each fixed point, by label.
 
-    A fixed point is stable if its positions on the manifolds of both modules are on the stable branch.
+    A fixed point is stable if its position on the manifold of each active module is on the stable branch.
     """
     return places.groupby("label")["branch"].agg(all_stable).rename("verdict")
