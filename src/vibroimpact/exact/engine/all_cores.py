@@ -47,7 +47,7 @@ def stop_if_cancelled():
 
 
 def cores() -> int:
-    """Return the number of available cores, which a cluster, the user or `at_most` may limit."""
+    """Return the number of cores that this process may use, at most the limit set by `at_most`."""
     there = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return min(there, THREAD_LIMIT.get())
 

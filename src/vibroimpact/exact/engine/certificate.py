@@ -32,16 +32,17 @@ from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
 TABLE, REBOUND = 0.15, 0.25
-"""Typical rounding errors, in UNIT: of an entry of the flow tables, and of the rebound per unit of approach velocity.
-An error that repeats (the same entry is read again, or kappa is close to 1) adds up instead of averaging out."""
+"""Typical rounding errors in UNIT: TABLE of an entry of the flow tables, REBOUND of the rebound velocity at an impact,
+per unit of approach velocity. An error that repeats (the same entry is read again, or kappa is close to 1) adds up
+instead of averaging out."""
 
 
 class Errors(NamedTuple):
     """Estimated errors of a state, in UNIT.
 
-    independent: covariance (8, 8) of independent rounding errors. repeated: sums (8, 6) of rounding errors that are the
-    same each time, with one column for each source: errors of the tables that make the motion of each box grow (columns
-    0, 2) or rotate in the phase plane (1, 3), and errors of restitution that change the rebound of each ball (4, 5).
+    independent: covariance (8, 8) of independent rounding errors. repeated: sums (8, 6) of rounding errors that recur
+    with the same value, with one column for each source. Errors of the flow tables make the motion of each box grow
+    (columns 0, 2) or rotate in the phase plane (1, 3). Errors of restitution change the rebound of each ball (4, 5).
     """
 
     independent: np.ndarray
@@ -52,8 +53,8 @@ class Errors(NamedTuple):
 def errors_of(flow, flights, events, limit):
     """Return the estimated errors at the start and end of every flight, rows (m + 1, 2), and at the end of the run.
 
-    An error is the root of the sum of the mean squares over all components. If it exceeds the limit after an event (or
-    at the end), all later errors are inf.
+    An error is the root of the sum of the mean squares over all components of the state. If it exceeds `limit` after an
+    event or at the end of the run, the errors from there on are inf.
     """
     q = flow.coefficients
     estimates, largest = np.full((len(flights), 2), math.inf), limit / UNIT
@@ -79,9 +80,10 @@ def errors_of(flow, flights, events, limit):
 
 @compiled
 def errors_at(flow, flights, events, times, limit):
-    """Return the estimated errors (n,) of the states at ascending times since the start.
+    """Return the estimated errors (n,) of the states at ascending `times` since the start of a run.
 
-    Each error is the one that `errors_of` returns for a run that ends at this time.
+    Each error is the final error from `errors_of` for a run that ends at this time, plus the effect of rounding the
+    time of the sample. Errors above `limit` are inf.
     """
     q = flow.coefficients
     estimates, largest, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
@@ -179,7 +181,7 @@ def _propagate(matrix, errors, product):
 
 @inlined
 def _multiply(a, b, product):
-    """Write the product of a matrix a (8, 8), which has many zeros, and vectors b (8, m)."""
+    """Write the product of the matrix `a` (8, 8), which has many zeros, and the vectors `b` (8, m) to `product`."""
     columns = b.shape[1]
     for i in range(8):
         for j in range(columns):
@@ -223,8 +225,8 @@ def _add_miss(covariance, flight, event):
 def _add_time_error(q, covariance, flight, elapsed, rate):
     """Add the effect of a rounding error in the time to the covariance at the end of a flight.
 
-    The time of the end of a run is a difference of phases. A sample time is a difference of elapsed times, whose
-    rounding grows with `elapsed` (0 at the end of a run).
+    The end time of a run is a difference of phases; `elapsed` is then 0. A sample time is a difference of times since
+    the start of the run, so that its rounding error grows with `elapsed`.
     """
     late = 2.0 / q.omega + flight[LENGTH] + elapsed
     _, _, walls = start_of(flight)
@@ -235,7 +237,7 @@ def _add_time_error(q, covariance, flight, elapsed, rate):
 
 @inlined
 def _add_table(q, state, sums):
-    """Add the rounding error of a table entry to the repeated sums, before a flight from a state (8,).
+    """Add the rounding error of a table entry to `sums` (`Errors.repeated`), before a flight from a state (8,).
 
     The error makes the motion of each box grow and rotate in the phase plane.
     """
@@ -254,9 +256,10 @@ def _add_rounding(q, errors, flight, state, met):
 
     flight: row of the flight, of which only the start is used. met: for each module, True if its ball touches a wall.
 
-    The effect of the force, F / Omega^2 on a position and F / Omega on a velocity, is part of the sums in a flight. Its
-    rounding error remains even if the effect cancels later. The same holds for velocities due to a stiff spring. The
-    velocity of a free ball is only computed at an impact, so it has a rounding error only then.
+    A state is computed as a sum, in which the force contributes F / Omega^2 to a position and F / Omega to a velocity.
+    The rounding error of this contribution remains even if the contribution cancels later. The same is true for
+    velocities due to a stiff spring. The velocity of a free ball is computed only at an impact, so that it has a
+    rounding error only there.
     """
     covariance, began = errors.independent, flight[BEFORE:]
     speed = q.drive / max(1.0, q.omega)
@@ -270,11 +273,11 @@ def _add_rounding(q, errors, flight, state, met):
 
 
 HORIZON_ERROR = 1e-3
-"""Estimated error that defines the horizon of a run; such an error is just visible in a printed figure."""
+"""Largest estimated error up to the horizon of a run; an error of this size is just visible in a printed figure."""
 
 CLEARANCE_FACTOR = 4.0
-"""An event is decided if its margin exceeds the estimated error by this factor. True errors stay below 2.6 times the
-estimate."""
+"""An event is decided if its margin is more than CLEARANCE_FACTOR times the estimated error. True errors stay below 2.6
+times the estimate."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -295,19 +298,19 @@ class Certificate(Representation):
     nearest_miss : float
         Smallest gap to the nearer wall at which a ball turned back without an impact; inf if no ball did.
     shallowest_hit : float
-        Smallest depth beyond a wall that a ball would have reached without the impact.
+        Smallest depth beyond a wall that a ball would have reached if it had not hit the wall.
     clearance : float
-        Smallest ratio of a margin to the estimated error at that time. A margin is a distance from another event
-        sequence: nearest miss, shallowest hit, contact forces of sticking and released balls, and distances of events
-        from the start and the end of the run.
+        Smallest ratio of a margin to the estimated error at the time of the margin. A margin is a distance from another
+        event sequence: nearest miss, shallowest hit, contact forces of sticking and released balls, and distances of
+        events from the start and the end of the run.
     undecided : int
         Number of turns and impacts where rounding decides whether the ball hits the wall.
     error : float
         Estimated error of the final state (root mean square), from a unit rounding error after every event, propagated
-        by the variational flow; inf beyond the horizon.
+        by the variational flow; inf if the run ends beyond `horizon`.
     horizon : float
         Time tau of the first event (or the end) at which the estimated error exceeds 1e-3; inf if it never does. Beyond
-        the horizon, the trajectory is a possible motion of the system, but not the one from this initial state.
+        the horizon, the trajectory is a possible motion of the system, but not the motion from the given initial state.
 
     Notes
     -----
@@ -360,7 +363,7 @@ class Certificate(Representation):
 
     @property
     def decided(self) -> bool:
-        """True if `undecided` is 0, `clearance` exceeds CLEARANCE_FACTOR, and the run ends within the horizon."""
+        """True if `undecided` is 0, `clearance` exceeds CLEARANCE_FACTOR, and the run ends before `horizon`."""
         return not self.undecided and self.clearance > CLEARANCE_FACTOR and bool(np.isfinite(self.error))
 
 
@@ -371,7 +374,7 @@ def _least_ratio(margins, errors):
 
 
 def _horizon(errors, error, times, duration):
-    """Return the time, since the start of the run, of the first event (or the end) with infinite error, or inf."""
+    """Return the time since the start of the first event (or the end) with infinite error; inf if there is none."""
     if np.isfinite(error):
         return np.inf
     return [*times, duration][np.count_nonzero(np.isfinite(errors[:, 0])) - 1]

@@ -34,7 +34,7 @@ SIMULATION = "the simulation, some 15 s"
 ON_DEMAND = "certificates, energies and Jacobians of runs, some 10 s"
 ENSEMBLE = "the simulation of ensembles, some 25 s"
 COMPILATION_NOTICES = {"engine.flow_tables": SIMULATION, "engine.event_loop": SIMULATION, "lanes": ENSEMBLE}
-"""Message for each group of code that is compiled separately, by the package or module that starts the compilation."""
+"""Message for each separately compiled group of code; the key is the package or module that starts the compilation."""
 
 
 class _Notice(event.Listener):
@@ -89,7 +89,7 @@ def code_folder(package: Path) -> Path | None:
     """Return the cache folder for a package, or None if NUMBA_CACHE_DIR is set.
 
     Numba needs a writable folder. If the library is read-only, the code compiled at its installation is copied
-    to such a folder.
+    to a writable folder.
     """
     if config.CACHE_DIR:
         return None
@@ -136,7 +136,7 @@ def _fingerprint(package):
 
 @cache
 def _writable() -> Path:
-    """Return the first writable folder: next to the library, in the user's cache, or a private temporary folder.
+    """Return the first writable folder of these: next to the library, in the user's cache, a private temporary folder.
 
     A message is printed if the temporary folder is used.
     """
@@ -161,7 +161,7 @@ def _takes_files(folder):
 def _temporary():
     """Return a temporary folder that all processes of this user share.
 
-    If another user could write to this folder, return a new one instead, since the code in it is executed.
+    If another user could write to this folder, return a new one instead, since the code in the folder is executed.
     """
     folder = Path(tempfile.gettempdir(), f"vibroimpact-{os.getuid()}")
     folder.mkdir(mode=0o700, exist_ok=True)

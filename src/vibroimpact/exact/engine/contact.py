@@ -4,7 +4,8 @@ The impact law is defined in `vibroimpact.system.restitution`, which lists its o
 
 Each event is a row of a table: [time since the start, module, wall, kind, state after the event, forcing phase at the
 time of recording, approach (see `record`), sine and cosine of the phase]. The stick that completes a chatter is
-recorded at the last simulated impact of the chatter. The counters hold further data for the certificate.
+recorded at the last simulated impact of the chatter. The counters of the run (`Log.counters`) contain further data for
+its certificate.
 """
 
 from typing import NamedTuple
@@ -32,8 +33,8 @@ class Motion(NamedTuple):
     """State at one instant of a run.
 
     boxes: (X1, X2, X1', X2'); balls: (Y1, Y2, Y1', Y2'). walls: for each module, the wall to which its ball sticks, or
-    0. touching: for each module, the wall that its free ball touches while it rests on the wall or moves away from it,
-    or 0. sine, cosine: of the forcing phase.
+    0. touching: for each module, the wall on which its free ball rests or from which the ball is just moving away, or
+    0. sine, cosine: of the forcing phase.
     """
 
     boxes: tuple[float, float, float, float]
@@ -77,7 +78,7 @@ def with_contacts(motion, i, wall, touching):
 
 @inlined
 def drift_balls(balls, walls, boxes, t):
-    """Return the balls at a time t after the start of a flight, given the boxes at that time."""
+    """Return the balls a time t after the start of a flight, from `balls` at the start and `boxes` at this time."""
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
         y1, v1 = boxes[0] - walls[0], boxes[2]
@@ -128,7 +129,7 @@ def record(log, time, i, wall, kind, boxes, balls, approach):
 
 @inlined
 def pack(boxes, balls, state):
-    """Write the state in the public order [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+    """Write boxes and balls to `state` in the public order [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
     for i in range(4):
         state[2 * i] = boxes[i]
         state[2 * i + 1] = balls[i]
@@ -137,8 +138,8 @@ def pack(boxes, balls, state):
 class Moment(NamedTuple):
     """Instant of a run.
 
-    elapsed: time since the start of the run. remaining: time to the end of the run. due: module in which an event is
-    due now, or -1.
+    elapsed: time since the start of the run. remaining: time to the end of the run. due: index (0 or 1) of the
+    module in which an event is due now, or -1.
     """
 
     elapsed: float
@@ -148,11 +149,11 @@ class Moment(NamedTuple):
 
 @inlined
 def impact(q, box, ball):
-    """Return the velocities (X', Y') just after an impact, as in `restitution.after_impact`.
+    """Return the velocities (X', Y') after an impact, from the velocities `box` and `ball` before the impact.
 
-    The rounding of the factor (1 + kappa) / (1 + epsilon) would cause the same error at every impact, so it is
-    corrected by its remainder. The velocity of the heavier body changes less and is computed first; the other velocity
-    follows from kappa.
+    The law is that of `restitution.after_impact`. The rounding of the factor (1 + kappa) / (1 + epsilon) would cause
+    the same error at every impact. The factor is therefore corrected by its rounding remainder. The velocity of the
+    heavier body changes less and is computed first; the other velocity follows from kappa.
     """
     relative = box - ball
     gained = q.impulse * relative + q.impulse_rest * relative
@@ -181,8 +182,9 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
     """Return a number > 0 if the wall pushes ball i, which rests on it, and < 0 if the wall would have to pull it.
 
     The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. The first
-    derivative is also returned if the pull on a sticking ball is so brief that it lifts the ball by no more than
-    rounding: the lift is 2 |force|^3 / (3 change^2), where `change` is this derivative.
+    derivative is also returned if the wall would have to pull a sticking ball only briefly, and the ball would rise by
+    no more than rounding. Without the pull the ball would rise by 2 |force|^3 / (3 change^2), where `change` is the
+    first derivative.
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -199,7 +201,7 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
 
 @inlined_source
 def _ends_soon(flow, motion, remaining, i, wall):
-    """Return True if the chatter of ball i after an impact would end within the run and the time of one proof."""
+    """Return True if ball i's chatter would end within half of `remaining` and half of the time of one proof."""
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     a = wall * box_accelerations(q, motion.walls, boxes, motion.sine)[i]
     u = -wall * (boxes[2 + i] - balls[2 + i])
@@ -211,9 +213,9 @@ def _end_of_chatter(flow, motion, i, counters):
     """Return (True if the chatter of ball i may be completed now, time until the chatter ends).
 
     The ball leaves the wall at the inward speed u, and the box accelerates towards it at a. Each hop is shorter than
-    the one before by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)). Completing it at once
-    conserves the momentum of box and ball, but neglects the spring force due to the ball's distance from the wall
-    during the hops, of order u^3 / a^2.
+    the one before by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)). Completing the
+    chatter at once conserves the momentum of box and ball, but neglects the spring force due to the ball's distance
+    from the wall during the hops. The neglected effect is of the order u^3 / a^2.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     wall = motion.touching[i]
@@ -267,7 +269,7 @@ def resolve(flow, motion, moment, log):
     """Return the motion after all events of this instant.
 
     Contact forces on balls at rest are checked after all impacts, since an impact in one module can release the ball of
-    the other. Chatters are completed last, since they end later.
+    the other. Chatters are completed last, since their ends are later than this instant.
     """
     due, elapsed = moment.due, moment.elapsed
     pulled = due if due >= 0 and motion.walls[due] != 0 else -1
@@ -286,9 +288,9 @@ def resolve(flow, motion, moment, log):
 
 @inlined_source
 def _apply_impact(flow, motion, i, moment, log):
-    """Apply the impact of a flying ball i that has reached a wall, if any.
+    """Apply the impact of ball i, which flies, if the ball has reached a wall.
 
-    Returns (motion, True if a chatter that begins with this impact would end soon).
+    Returns (motion, True if a chatter that begins with this impact would end soon, see `_ends_soon`).
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
@@ -315,7 +317,10 @@ def _apply_impact(flow, motion, i, moment, log):
 
 @inlined
 def _stick_or_release(q, motion, i, pulled, elapsed, log):
-    """Return the motion after deciding whether ball i, at rest on a wall, sticks to it, stays stuck or is released."""
+    """Return the motion after deciding whether ball i, at rest on a wall, sticks to it, stays stuck or is released.
+
+    pulled: True if the release of the sticking ball i is due now.
+    """
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
     # Use the acceleration of box and ball together for a free ball, too. The box alone accelerates 1 + epsilon times as
     # much; if the force is zero within rounding, using both values would make the ball stick and be released endlessly.

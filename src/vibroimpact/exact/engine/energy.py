@@ -5,7 +5,7 @@ the balance tests all terms. The stick that ends a chatter dissipates the remain
 the omitted impacts would dissipate.
 
 In flight, z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. With damping, a quadratic form z G z is the rate of change
-of a potential z S z + c t, where A' S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation). The integral is then the
+of a potential z S z + c t, where A^T S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation). The integral is then the
 difference of the potential between the ends of a flight. With very little damping, S is so large that this difference
 loses its digits. In that case Gauss's rule integrates along the Taylor polynomials.
 """
@@ -38,7 +38,7 @@ from vibroimpact.system.stored_energy import stored
 SIZE, TRIANGLE = 6, 21
 ROWS, COLUMNS = np.triu_indices(SIZE)
 LARGEST = 1e3
-"""Limit on (largest entry of S) x (largest rate in A): below it, differences of potentials keep enough digits."""
+"""Limit on (largest entry of S, c) x (largest entry of A); below it, differences of z S z + c t keep enough digits."""
 NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggauss(4))
 """Gauss's rule with four nodes; over one spacing of the flow table its error is below rounding."""
 
@@ -46,8 +46,9 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 class Squares(NamedTuple):
     """Potentials S (4, k, 6, 6) and drifts c (4, k) for k integrals in each of the 4 contact states.
 
-    An integral over a flight is the difference of z S z + c t (see the module docstring), not of a potential energy.
-    k = 0 means that Gauss's rule computes the integrals instead.
+    The integral over a flight is the difference of z S z + c t between the ends of the flight, where z = [X1, X2, X1',
+    X2', sin, cos] with sine and cosine of the forcing phase. These potentials are not potential energies. k = 0 means
+    that Gauss's rule computes the integrals instead.
     """
 
     potentials: np.ndarray
@@ -70,7 +71,8 @@ POSITIONS = np.stack([np.diag(np.eye(SIZE)[i]) for i in range(2)])
 OBSERVED = np.concatenate([POSITIONS, _kernels()])
 """Matrices G of all quadratic forms to integrate: X_1^2, X_2^2 and the terms of the energy balance, (7, 6, 6)."""
 LOSSES, STORED, ENTRIES = 7, 9, 10
-"""Indices in a row, and its length: 7 integrals, losses in the impacts of both modules, change of stored energy."""
+"""First index of the losses, index of the stored energy, and length of a row of energies. The row contains 7 integrals,
+the losses in the impacts of both modules, and the change of the stored energy."""
 ENERGY = np.dtype(
     [("work", "f8", (2,)), ("ground", "f8", (2,)), ("coupling", "f8"), ("impacts", "f8", (2,)), ("stored", "f8")]
 )
@@ -80,7 +82,7 @@ impact_loss, energy_stored = inlined(energy_lost), inlined(stored)
 
 
 def _lyapunov():
-    """Return the linear map from A to the matrix of S -> A' S + S A, (36, 441), and the form sin^2 + cos^2, (21,).
+    """Return the linear map from A to the matrix of S -> A^T S + S A, (36, 441), and the form sin^2 + cos^2, (21,).
 
     Symmetric matrices are represented by the 21 entries of their upper triangle.
     """
@@ -98,8 +100,8 @@ OPERATORS, FORCED = _lyapunov()
 def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return potentials S (n, 4, k, 6, 6), drifts c (n, 4, k) and flags (n,) for the integrals of z G z.
 
-    The kernels G have shape (k, 6, 6) and the rate matrices (n, 4, 6, 6). A flag is True if the differences of
-    potentials in this system keep enough digits.
+    The kernels G have shape (k, 6, 6) and the rate matrices (n, 4, 6, 6). A flag is True if differences of
+    z S z + c t keep enough digits for the system.
     """
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
     images = rates.reshape(-1, SIZE * SIZE) @ OPERATORS
@@ -150,7 +152,7 @@ class Energy(Representation):
         Change of the energy stored in boxes, balls and springs.
     per_cycle : ndarray
         Structured array (cycles,) of type ENERGY with these five energies for each forcing period since the start of
-        the run. An event exactly between two periods belongs to the later one.
+        the run. An event exactly between two periods belongs to the later period.
 
     Examples
     --------
@@ -179,7 +181,7 @@ class Energy(Representation):
 
     @property
     def residual(self) -> float:
-        """Difference between the two sides of the balance, which is due to rounding only."""
+        """Total work minus all dissipation, impact losses and stored energy; the difference is due to rounding only."""
         return float(self.work.sum() - self.ground.sum() - self.coupling - self.impacts.sum() - self.stored)
 
     @property

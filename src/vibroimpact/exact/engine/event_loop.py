@@ -1,16 +1,17 @@
 """Integrate (10.2) from event to event: flights, impacts, chatter, sticking and release.
 
 Between events the flow is linear and evaluated in closed form (flow.advance). For each module, exclusion.module_time
-proves that it has no event over some time, or returns the time at which its next event certainly happens. If the first
-event is certain, Newton's method finds its time, starting at the nearest time of the flow table. If no event is
-certain, the flight continues to the end of the proved interval, so that no event is missed. Events (contact.resolve):
+proves that the module has no event over some time, or returns the time at which its next event certainly happens. If
+the first event is certain, Newton's method finds its time, starting at the nearest time of the flow table. If no event
+is certain, the flight continues to the end of the proved interval, so that no event is missed. Events
+(contact.resolve):
 
 impact    a ball meets a wall with outward relative velocity: Newton's restitution rule, momentum conserved;
 stick     the end of a chatter, infinitely many impacts in a finite time. A chatter is completed at once when this
           changes the state by less than rounding; from then on box and ball move as one body of mass 1 + epsilon;
 release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it negative.
 
-Time is represented by the forcing phase, which is reduced to one turn without loss (flow.advance_phase), so that long
+Time is represented by the forcing phase, which is reduced to one turn without loss (flow.reduced), so that long
 runs lose no digits.
 """
 
@@ -43,8 +44,8 @@ STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 def fly(flow, motion, remaining, most_proofs, counters):
     """Fly to the next event, or at most to the end of the run or table; return (time, module due or -1, boxes, balls).
 
-    In place of the module, STUCK_IN_TIME or OUT_OF_PROOFS is returned if time does not advance or after most_proofs
-    exclusions.
+    In place of the module, STUCK_IN_TIME is returned if time does not advance, and OUT_OF_PROOFS if the run needs more
+    than `most_proofs` exclusions.
     """
     q = flow.coefficients
     mode = mode_of(motion.walls)
@@ -81,7 +82,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
 def _first_event(q, motion, jets, bound, horizon, short):
     """Return (module, time, width, safe, doubt) for the first event, at time +- width; before `safe` no event happens.
 
-    The module is -1 if no event is certainly the first. doubt: `undecided` from `module_time` for this event.
+    The module is -1 if no event is certainly the first. doubt: `undecided` from `module_time` for the first event.
     """
     one = _first_to_check(motion.boxes, motion.balls)
     two = 1 - one
@@ -99,7 +100,7 @@ def _first_event(q, motion, jets, bound, horizon, short):
 
 @inlined
 def _bounds(t, width, short):
-    """Return (uncertainty of the time, end of the interval without events) from a result of module_time."""
+    """Return (uncertainty of `t`, end of the interval without events) from the `t` and `width` of `module_time`."""
     w = 0.0 if width == math.inf or abs(t) <= short else width
     return w, t - w
 
@@ -115,7 +116,7 @@ def _first_to_check(boxes, balls):
 
 @inlined
 def _refine_impact_time(flow, motion, i, t, low, high):
-    """Find the only impact of module i in [low, high], from the guess t; return (True if found, its time, boxes)."""
+    """Find the only impact of module i in [low, high] from the guess t; return (True if found, time, boxes)."""
     mode = mode_of(motion.walls)
     for _ in range(TRIES):
         j = int(t * flow.density + 0.5)
@@ -143,14 +144,14 @@ FAILURES = {
 ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # initial number of rows for events; few runs need more
 MOST_AT_ONCE = 8  # most events at one instant: for each module an impact, a stick, a release and the end of a chatter
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
-"""Limits on the number of events in a run; only runs with kappa close to 1 exceed them."""
+"""A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 have more."""
 INTERRUPT_INTERVAL = 200_000  # exclusions between two checks for an interrupt, about 20 ms
 PATIENCE = 100_000  # successive flights of zero duration before a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
-"""Terms of the limit on the number of exclusions in a run; the unit of time is `Flow.unit`."""
+"""Terms of the limit on the number of exclusions in a run: constant, per event and per time `Flow.unit`."""
 ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages
 EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
-"""Indices in the array of a run, (RUN_LENGTH,). It contains the state in public order, the other fields of
+"""Indices in the array of a run, (RUN_LENGTH,). The array contains the state in public order, the other fields of
 `Progress`, the number of events in earlier rows (EARLIER_EVENTS), the `Span`, and the time on the sample clock at the
 start (CLOCK)."""
 
@@ -158,9 +159,9 @@ start (CLOCK)."""
 class Progress(NamedTuple):
     """State of an unfinished run.
 
-    due: module with an event at this instant, or -1. phase, tail: forcing phase in [0, 2 pi) and its remainder.
-    revolutions: full turns of the phase. elapsed: time since the start. sampled: number of samples taken. stalled:
-    number of successive flights of zero duration.
+    due: index of the module with an event at this instant, or -1. phase, tail: forcing phase in [0, 2 pi) and its
+    rounding remainder. revolutions: full turns of the phase. elapsed: time since the start. sampled: number of samples
+    taken. stalled: number of successive flights of zero duration.
     """
 
     motion: Motion
@@ -252,7 +253,8 @@ def write_progress(progress, run):
 def run_until(flow, progress, span, sampling, log, earlier, interval):
     """Continue a run to its end or to a pause; return (progress, status).
 
-    It pauses if the rows are full or after more than `interval` exclusions. earlier: number of events in earlier rows.
+    The run pauses if `log.rows` are full or after more than `interval` exclusions. earlier: number of events in earlier
+    rows.
     """
     q = flow.coefficients
     (first, first_tail, cycles), (start, sample_times, samples) = span, sampling

@@ -1,4 +1,4 @@
-"""Prove a time over which the constraints of a flight hold, and bracket the time at which one is first violated.
+"""Prove that the constraints of a flight are satisfied over some time, and bracket the time of the first violation.
 
 A constraint is a smooth function g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. Its Taylor
 polynomial of degree 6 and a bound on its seventh derivative give a lower bound c0 + ... + c7 t^7 with coefficients
@@ -154,8 +154,9 @@ def spread(c, remainder, t):
 RESOLUTION = 4.0 * np.finfo(float).eps
 ZERO_FACTOR = 2.0  # in units of the margin; a smaller constraint is taken as 0, since proofs would need tiny steps
 DOUBT_FACTOR = 2.0 * ZERO_FACTOR
-"""In units of the margin: below this distance, rounding decides whether a ball hits or misses a wall. If the same
-motion is computed with other steps, as in a lane of an ensemble, the decision may differ."""
+"""Distance, in units of the rounding error of a gap (`gap_rounding`), below which rounding decides whether a ball hits
+or misses a wall. If the motion is computed again with other steps, as in a lane of an ensemble, the decision may
+differ."""
 LOOKAHEAD = 2.5
 ZERO_FORCE_MARGIN = 1e-300  # margin for a force that stays zero
 SHORT = 0.02  # in units of `Flow.unit`; over shorter times a jet is exact to rounding
@@ -169,7 +170,7 @@ def remainder(q, mode, jets, growth):
 
     The sixth derivative of the boxes obeys the equations of the boxes under the sixth derivative of the force. The
     square root of twice the energy in these equations bounds the velocity, which is the seventh derivative. This root
-    grows by no more than the time integral of the force, since damping only removes energy.
+    grows by no more than the time integral of the sixth derivative of the force, since damping only removes energy.
     """
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
@@ -182,8 +183,9 @@ def remainder(q, mode, jets, growth):
 def own_remainder(q, mode, jets, both, i, force, horizon):
     """Return a bound like `remainder` for box i alone.
 
-    force: bound on the sixth derivative of the force on box i; both: `remainder`. The energy of a box grows by the
-    work of its own force and of the coupling. With weak coupling, this bound hardly depends on the other box.
+    force: bound on the sixth derivative of the force on box i; both: bound from `remainder` for both boxes. The energy
+    of a box grows by the work of its own force and of the coupling. With weak coupling, this bound hardly depends on
+    the other box.
     """
     m, k, p = (q.mass if mode & (i + 1) else 1.0), (q.k11 if i == 0 else q.k22), (jets[0] if i == 0 else jets[1])
     passed = (abs(q.k12) / math.sqrt(q.ground if i == 0 else 1.0) + abs(q.c12)) * both
@@ -261,7 +263,7 @@ def _time_from_zero(c, bound, margin, horizon, rises):
     """Return a time over which a constraint that is initially zero within rounding certainly holds.
 
     If the constraint rises, its polynomial is divided by t to remove the zero at the start. If it does not rise, or if
-    only the remainder bound makes the proved time short, the constraint may fall to -margin within the time.
+    only the remainder bound makes the proved time short, the constraint may fall to -margin within the returned time.
     """
     time = 0.0
     if rises:
@@ -291,10 +293,11 @@ def _hop_time(c, bound, margin, horizon, short):
 def module_time(q, motion, i, jets, bound, horizon, short):
     """Return (time, width, undecided): a time without events in module i, or the time of its next event.
 
-    If width is inf, the module has no event before time. If not, its next event is certainly at time +- width. Width 0
-    means exact to rounding; time is slightly negative if the event was just passed. undecided: True if rounding
-    decides whether the constraint reaches zero (tangential contact). jets: Taylor polynomials of both boxes; bound:
-    `remainder` up to the horizon; short: longest time over which a jet is exact to rounding.
+    If width is inf, the module has no event before time. If not, its next event is certainly at time +- width. A width
+    of 0 means that the time is exact to rounding. The time is slightly negative if the event was just passed.
+    undecided: True if rounding decides whether the constraint reaches zero (tangential contact). jets: Taylor
+    polynomials of both boxes; bound: `remainder` up to the horizon; short: longest time over which a jet is exact to
+    rounding.
     """
     if motion.walls[i] != 0:
         return _sticking_time(q, motion, i, jets, horizon, short)

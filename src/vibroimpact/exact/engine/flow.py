@@ -1,8 +1,8 @@
 """Free flight in closed form: the linear flow of the boxes and the forcing phase, evaluated without time stepping.
 
-Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix).
-A table gives Taylor polynomials of the motion about the times j h (`jet_at`). The motion at a time t is the value of
-the polynomial about the nearest j h. The remaining time is at most h/2, so that the value is exact to rounding. No
+Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix). A
+table gives Taylor polynomials of the motion about the times j h (`jet_at`). The motion at a time t is the value of the
+polynomial about the nearest j h. The distance of t from j h is at most h/2, so that the value is exact to rounding. No
 eigenvalues are used, so that repeated, defective, undamped and resonant spectra need no special treatment. The phase
 Omega tau is reduced exactly at the start of a run (`Instant`) and advanced without loss of digits.
 """
@@ -96,7 +96,8 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
 
     `count` is the number of times in the tables.
 
-    `shift` is a bound because the square root of twice the energy grows by at most the time integral of the force.
+    The scalar `shift` bounds the displacement of a box due to the force within a period, because the square root of
+    twice the energy grows by at most the time integral of the force.
     """
     parameters = np.array([[getattr(system, name) for name in PARAMETERS] for system in systems])
     rates, impulses, fastest = exact_rates(parameters)
@@ -148,7 +149,7 @@ def unpacked(numbers, series, rotations):
 
 @inlined
 def jet_at(flow, mode, boxes, sine, cosine, j):
-    """Return the `jet` at time j * flow.spacing in a free flight that starts at time 0 with these boxes and phase."""
+    """Return the `jet` at time j * flow.spacing in a free flight that starts at time 0 from `boxes` and the phase."""
     return weighted_sum(flow.series, mode, j, (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine))
 
 
@@ -196,13 +197,13 @@ def jet(q, mode, boxes, sine, cosine):
 
 @inlined
 def _scaled(x, v, a, b, c, d, e, g):
-    """Return the derivatives of order 0 to 7, each divided by k!."""
+    """Return the eight given derivatives of the orders k = 0 to 7, each divided by k!."""
     return x, v, a * (1 / 2), b * (1 / 6), c * (1 / 24), d * (1 / 120), e * (1 / 720), g * (1 / 5040)
 
 
 @inlined
 def value(p, t):
-    """Return the polynomial p (8,) at t; the higher terms are summed in independent pairs, which is faster."""
+    """Return the value of the polynomial p (8,) at t; higher terms are summed in independent pairs, which is faster."""
     t2 = t * t
     upper = (p[2] + t * p[3]) + t2 * ((p[4] + t * p[5]) + t2 * (p[6] + t * p[7]))
     return p[0] + t * (p[1] + t * upper)
@@ -351,7 +352,7 @@ def sine_and_cosine_near(x, y):
 
 @inlined
 def _series(c, z):
-    """Return the polynomial c (7,) at z, summed in independent pairs, which is faster."""
+    """Return the value of the polynomial c (7,) at z, summed in independent pairs, which is faster."""
     w = z * z
     upper = fused(w, fused(w, c[6], fused(z, c[5], c[4])), fused(z, c[3], c[2]))
     return fused(w, upper, fused(z, c[1], c[0]))

@@ -24,8 +24,8 @@ def exact_rates(parameters):
     (n, 2, 4, 6, 6). Velocity changes: (1 + kappa) / (1 + epsilon) as pairs, (n, 2), the velocity change of a ball at an
     impact per unit of relative velocity. Fastest rates: due to stiffness and due to damping, (n, 2).
 
-    With rounded entries, a stiff coupling would not cancel exactly if both boxes move equally, which would shift the
-    low natural frequency.
+    With rounded entries, the forces of a stiff coupling would not cancel exactly when both boxes move equally. The
+    lower natural frequency would then be shifted.
     """
     n = len(parameters)
     rates, impulses, fastest = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2)), np.empty((n, 2))
@@ -63,7 +63,7 @@ def exact_rates(parameters):
 
 @inlined_source
 def _put(rows, i, j, base, e, first, second):
-    """Set entry (i, j) to base + e (first + second), computed in pairs."""
+    """Set entry (i, j) of `rows` to base + e (first + second), computed with double-double numbers."""
     high, low = _plus_product(base, 0.0, e, 0.0, first, 0.0)
     high, low = _plus_product(high, low, e, 0.0, second, 0.0)
     rows[0, i, j], rows[1, i, j] = _normal(high, low)
@@ -71,7 +71,7 @@ def _put(rows, i, j, base, e, first, second):
 
 @inlined
 def _ratio(high, low, other, other_low):
-    """Return the quotient of two pairs."""
+    """Return the quotient of two double-double numbers (high, low) and (other, other_low)."""
     quotient = high / other
     rest = (fused(-quotient, other, high) + (low - quotient * other_low)) / other
     return _normal(quotient, rest)
@@ -116,7 +116,7 @@ def fill_table(rates, mode, spacing, series, rotations, step, change):
 
 @inlined_source
 def _fill_unit(matrices, place):
-    """Set the matrix with index `place` to the identity, in pairs."""
+    """Set the matrix with index `place` to the identity, in double-double numbers."""
     for i in range(SIZE):
         for j in range(SIZE):
             matrices[0, i, j, place], matrices[1, i, j, place] = 1.0 if i == j else 0.0, 0.0
@@ -149,7 +149,7 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
 
 @inlined_source
 def _fill_coefficients(rates, k, rows, power, after):
-    """For each unit vector of the state z, write the Taylor coefficients of both boxes to rows (6, 16), z' = A_k z.
+    """Write the Taylor coefficients of both boxes for each initial unit vector of z, z' = A_k z, to `rows` (6, 16).
 
     X_i^(m) / m! is at index 8 i + m, i = 0, 1.
 
@@ -187,8 +187,8 @@ def _expand(coefficients, powers, series, mode):
 def _multiply(powers, last, many):
     """Append `many` powers of P = exp(A h) to P, ..., P^last: the products of P^last with P, ..., P^many.
 
-    The forcing phase does not depend on the boxes, so its rows are zero in the columns of the boxes. The products with
-    these zeros are left out.
+    The forcing phase does not depend on the boxes. The rows of P for the phase are therefore zero in the columns for
+    the boxes. Products with these zeros are left out.
     """
     for i in range(BOXES):
         for j in range(BOXES):
@@ -214,7 +214,7 @@ def _entries(powers, last, many, i, j, first, end):
 
 @inlined
 def _plus_product(high, low, a, a_low, b, b_low):
-    """Return the pair plus the product of pairs a and b, not yet normalised: the low part may be large (`_normal`)."""
+    """Return (high, low) + (a, a_low) (b, b_low), not yet normalised: the low part may be large (see `_normal`)."""
     product = a * b
     total = high + product
     part = total - high
@@ -224,7 +224,7 @@ def _plus_product(high, low, a, a_low, b, b_low):
 
 @inlined
 def _sum(a, a_low, b, b_low):
-    """Return the sum of two pairs."""
+    """Return the sum of two double-double numbers (a, a_low) and (b, b_low)."""
     total = a + b
     part = total - a
     return _normal(total, (a - (total - part)) + (b - part) + (a_low + b_low))
@@ -232,7 +232,7 @@ def _sum(a, a_low, b, b_low):
 
 @inlined
 def _over(high, low, k):
-    """Return a pair divided by a small integer."""
+    """Return the double-double number (high, low) divided by a small integer k."""
     quotient = high / k
     return _normal(quotient, (fused(-quotient, k, high) + low) / k)
 

@@ -38,8 +38,9 @@ GAP, FORCE, DOUBTS = 0, 1, 2
 def turning_points(flow, flights):
     """For each flight, return the least gap, the least force and the number of doubtful turns, rows (m + 1, 3).
 
-    The gap and the contact force (per unit of ball mass) are the least values at the turns in the flight, inf without
-    turns. A turn is doubtful if rounding decides whether the ball misses the wall (DOUBT_FACTOR).
+    A turn is a minimum of a gap or of a contact force in the flight. The result contains the least gap and the least
+    contact force (per unit of ball mass) at the turns, inf without turns. A turn is doubtful if rounding decides
+    whether the ball misses the wall (DOUBT_FACTOR).
     """
     turns = np.empty((len(flights), 3))
     for n in range(len(flights)):
@@ -57,7 +58,7 @@ def turning_points(flow, flights):
 
 @inlined_source
 def _search(flow, motion, length, least_of):
-    """Record the turns in a flight of length <= flow.longest in `least_of`; return boxes and balls at its end."""
+    """Record the turns in a flight of length <= flow.longest in `least_of`; return the final boxes and balls."""
     q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
     now, there, s, c, t = motion.boxes, motion.balls, motion.sine, motion.cosine, 0.0
@@ -92,8 +93,8 @@ def _search(flow, motion, length, least_of):
 def _rate(q, jets, boxes, balls, walls, i, bound):
     """Return (polynomial (8,), bounds (8,) on its error) for the rate of the constraint of module i, up to the sign.
 
-    The constraint is the gap if the ball flies, and the acceleration of the box if the ball sticks. If the ball was
-    just released, the rate is zero, and its derivative is set to 0 if it is zero within rounding.
+    The constraint is the gap if the ball flies, and the acceleration of the box if the ball sticks. Just after a
+    release the rate is zero; the derivative of the rate is set to 0 if it is zero within rounding.
     """
     p = jets[0] if i == 0 else jets[1]
     if walls[i] != 0:
@@ -143,7 +144,10 @@ def _rate_at(q, walls, boxes, balls, sine, cosine, i):
 
 @inlined_source
 def _note(flow, motion, i, times, rates, least_of):
-    """Find the turn of module i between two times with given rates; record it in `least_of` if it is a minimum."""
+    """Find where the rate of module i's constraint is zero between two `times`; record a minimum in `least_of`.
+
+    rates: rates of the constraint at the two times, which have opposite signs.
+    """
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
     (low, high), (early, late) = times, rates
     t = low + (high - low) * abs(early) / (abs(early) + abs(late))
@@ -241,8 +245,8 @@ def _lower(margins, margin):
 def _of_event(q, walls, boxes, balls, events, n, left):
     """Return the error of the state at event n that would move the event to the end of the run, a time `left` later.
 
-    For a release, it is also at most the error that would prevent the release. It is inf for a stick that does not
-    complete a chatter.
+    For a release, the result is also at most the error that would prevent the release. The result is inf for a stick
+    that does not complete a chatter.
     """
     i, wall, kind, phase = int(events[n, 1]) - 1, events[n, 2], events[n, 3], events[n, PHASE]
     force = wall * box_accelerations(q, walls, boxes, math.sin(phase))[i]
@@ -290,7 +294,7 @@ def _at_end(q, walls, boxes, balls, phase):
 
 @inlined
 def _force(q, walls, boxes, phase, i):
-    """Return the acceleration of box i, divided by the effect of a unit error on it (`_force_weight`)."""
+    """Return the acceleration of box i, divided by its change due to a unit error in the boxes (`_force_weight`)."""
     return box_accelerations(q, walls, boxes, math.sin(phase))[i] / _force_weight(q, walls, i)
 
 

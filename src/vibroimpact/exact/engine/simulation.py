@@ -28,7 +28,7 @@ LARGEST_TIME = 2.0**43
 MOST_CYCLES = 10_000_000
 """Largest number of cycles in one run. A run stores all its events, which take about a kilobyte per cycle."""
 WALL_TOLERANCE = 1e-12
-"""Accepted distance of a ball beyond a wall in an initial state (plus rounding); the run moves it to the wall."""
+"""Accepted distance of a ball beyond a wall in an initial state (plus rounding); the run moves the ball to the wall."""
 
 
 def checked_state(state) -> np.ndarray:
@@ -136,7 +136,8 @@ class Run(Representation):
     final : ndarray
         State at the end, shape (8,).
     pieces, counters : list of ndarray, ndarray
-        Events in the engine's form, arrays (n, ROW), and its counters (`vibroimpact.exact.engine.contact`).
+        Events in the engine's form, as arrays (n, ROW), and the counters of the engine
+        (`vibroimpact.exact.engine.contact`).
     """
 
     system: System
@@ -248,7 +249,7 @@ class Run(Representation):
     def errors(self, times: ArrayLike) -> np.ndarray:
         """Return estimated errors (n,) of the states at given times.
 
-        The estimate at the end of the run is `certificate.error`.
+        The estimates also include the rounding of the times, which `certificate.error` at the end of the run does not.
 
         Parameters
         ----------
@@ -258,7 +259,7 @@ class Run(Representation):
         Returns
         -------
         ndarray
-            Root mean square errors, shape (n,); inf beyond the horizon.
+            Root mean square errors, shape (n,); inf beyond `certificate.horizon`.
 
         Raises
         ------
@@ -306,7 +307,7 @@ class Run(Representation):
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
-        """Return the states at given times since the start; such times keep their digits even if tau0 is large."""
+        """Return the states at times `since` the start of the run, which keep their digits even if tau0 is large."""
         start = self.start.copy()  # a read-only array would trigger another compilation
         return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
 
@@ -436,9 +437,9 @@ def simulate_many(
 
 
 def _run(system, state, cycles, begin, times, clock):
-    """Return a run, given checked arguments, or raise an ArithmeticError if it failed.
+    """Return a run, given checked arguments, or raise an ArithmeticError if the run failed.
 
-    The sample times are measured on a clock that shows `clock` at the start of the run.
+    times: sample times on a clock that shows `clock` at the start of the run.
     """
     status, run = attempt(system, state, cycles, begin, times, clock)
     if status != event_loop.FINISHED:

@@ -38,7 +38,7 @@ def replayed(flow, start, events, start_phase, duration):
     """Return the flights of a run, rows (m + 1, COLUMNS): one before each event and one to the end of the run.
 
     events: rows of the log. start (8,): initial state in public order. The flight before a stick that completes a
-    chatter has zero length, because the stick is applied at the last simulated impact, ahead of its time.
+    chatter has zero length, because the stick is applied at the last simulated impact, before the chatter ends.
     """
     flights = departures(flow.coefficients, start, events, start_phase, duration)
     for n in range(len(flights)):
@@ -100,7 +100,7 @@ def next_departure(q, events, n, leaving, end):
 
 @inlined_source
 def _length(q, lapse, turned):
-    """Return the time between two events, corrected to the accuracy of the difference of their phases (`turned`)."""
+    """Return the time between two events: `lapse`, corrected by the more accurate difference of phases `turned`."""
     more = turned - q.omega * lapse
     return max(lapse + (more - TWO_PI * math.floor(more / TWO_PI + 0.5)) / q.omega, 0.0)
 
@@ -181,7 +181,7 @@ def propagate(flow, flights, events, total):
 
 @compiled
 def fill_product(matrix, vectors, product):
-    """Write the product of a matrix (8, 8) and vectors (8, k); at this size BLAS has too much overhead."""
+    """Write `matrix` (8, 8) times `vectors` (8, k) to `product`; at this size BLAS has too much overhead."""
     for row in range(8):
         for column in range(vectors.shape[1]):
             total = 0.0
@@ -353,7 +353,8 @@ def growth(run, frame: np.ndarray) -> Growth:
     run : Run
         A simulated motion.
     frame : ndarray
-        Perturbations as columns (8, k), in public order; 0 in an inactive module (`System.modules`).
+        Perturbations as columns (8, k), in public order, with zeros in the rows of an inactive module
+        (`System.modules`).
     """
     flow, flights, events = run.trajectory
     factors, counts = np.empty((run.cycles, frame.shape[1])), np.zeros((run.cycles, 2), dtype=int)
@@ -366,8 +367,8 @@ def growth(run, frame: np.ndarray) -> Growth:
 def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, counts):
     """Return the frame after the last cycle; fill factors (n, k) and counts (n, 2), which are initially 0.
 
-    places: indices of the components in which the frame is not 0. Flights are cut at the ends of cycles, which is easy
-    since the derivative of a flight depends only on its length and on the balls that stick.
+    places: indices of the components in which the frame is not 0. Flights are cut at the ends of cycles; the
+    derivative of each piece depends only on the length of the piece and on the balls that stick.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(frame)
     cycle, elapsed = 0, 0.0

@@ -45,7 +45,7 @@ def weighted_sum(_, table, mode, j, weights):
 
 
 def row_at(context, builder, start, place):
-    """Load the vector that begins 8 x place numbers after the start."""
+    """Load the vector of eight floats that begins 8 x `place` floats after the pointer `start`."""
     pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * place)])
     return builder.load(builder.bitcast(pointer, NUMBERS.as_pointer()), align=8)
 
@@ -109,7 +109,7 @@ def _wide(context, builder, value, kind):
 
 
 def _operation(function, result, generate):
-    """Register an operation on two operands for Lanes; one operand may be a scalar."""
+    """Register code for an operation on two operands, both Lanes or one a scalar."""
 
     class Typing(AbstractTemplate):
         def generic(self, args, kws):
@@ -141,7 +141,7 @@ _operation(operator.eq, MASK, _comparison("=="))
 
 
 def _function(function, kind, generate):
-    """Register a function of one argument for the type of this argument (Lanes or Mask)."""
+    """Register code for a function whose only argument has the type `kind` (Lanes or Mask)."""
 
     class Typing(AbstractTemplate):
         def generic(self, args, kws):

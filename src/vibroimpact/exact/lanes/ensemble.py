@@ -45,14 +45,14 @@ WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
 FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
 """For each statistic in OUTCOME, its index for module 1 in a row of statistics; module 2 follows."""
 MEANS = slice(PATH, INTEGRALS + 2)
-"""Indices of the statistics that become time averages when they are divided by the time."""
+"""Indices of the statistics that become time averages when they are divided by the observed time."""
 MOST_RUNS, SHARES = 1024, 4
 """Largest number of runs in a piece of work; number of pieces per core if there are many runs."""
 DEFERRED = INADMISSIBLE + 1
 """Status of a run that the lanes skip and `_single_run` computes."""
 MOST_LOG_RATIO = np.log(4.0)
-"""Largest |log(rate of the boxes / forcing frequency)| for a run in lanes; beyond it a flight takes many steps, whose
-rounding errors add up."""
+"""Largest |log(rate of the boxes / forcing frequency)| for a run in lanes. Beyond this limit a flight consists of many
+steps, whose rounding errors add up."""
 
 
 def ensemble(
@@ -175,7 +175,7 @@ def _combined(systems, states):
 
 
 def _run(known, begins, numbers, starts, stages, outcomes, places):
-    """Run the initial states with the indices `places` and write their outcomes.
+    """Run the initial states with the indices `places` and write their results to `outcomes`.
 
     known, begins: systems and initial times. numbers: system of each run. stages: as for `loop.Piece`.
     """
@@ -216,8 +216,9 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 def _single_run(system, state, begin, stages, final, statistics):
     """Compute a run outside the lanes; return its status, and write final states (k, 8) and statistics (k, STATISTICS).
 
-    This is for systems whose flights would take many steps in a lane, since the frequencies of boxes and forcing differ
-    much, and for systems whose integrals would lose digits as differences of potentials (`energy.Squares`).
+    Two kinds of systems need this: those with very different frequencies of boxes and forcing, where a flight in a lane
+    would consist of many steps, and those whose integrals would lose digits as differences of potentials
+    (`energy.Squares`).
     """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]

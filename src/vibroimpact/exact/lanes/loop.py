@@ -49,7 +49,7 @@ class Piece(NamedTuple):
 class Memory(NamedTuple):
     """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
-    For each lane: runs, constants: arrays with the rows of `rows`; members: index of the initial state, or -1; slots:
+    For each lane: runs, constants: arrays with the rows defined in `rows`; members: index of the initial state, or -1; slots:
     slot with the tables of its system; counters: counters of its event log. For each slot: owners: index of the system,
     or -1; made: contact states whose tables are computed; series, rotations: tables as from `flow_tables.tables`;
     known: constants. begun: number of initial states processed. work, log, statistics, change: workspace.
@@ -97,8 +97,8 @@ def memory() -> Memory:
 def run_lanes(piece, memory):
     """Run all initial states in a piece with the status FINISHED; write status, final states and statistics.
 
-    Returns True when all runs have ended. Returns False if it pauses so that the caller can handle an interrupt; the
-    caller then calls it again.
+    Returns True when all runs have ended, and False for a pause in which the caller can handle an interrupt. After a
+    pause, call the function again.
     """
     m, done = memory, 0
     while True:
@@ -216,7 +216,7 @@ def _motion_of(runs, lane):
 
 @inlined_source
 def _handle_outcome(piece, lane, m):
-    """Continue the run in a lane after `step_to_event` stopped it; return PAUSED, or the status of an ended run."""
+    """Continue the run in a lane after `step_to_event` stopped it; return PAUSED if the run goes on, else its status."""
     flow, squares = _system_of(piece, lane, m)
     if m.runs[rows.OUTCOME, lane] == steps.DOUBTFUL:
         return _run_by_events(piece, flow, squares, lane, m)
@@ -231,7 +231,7 @@ def _handle_outcome(piece, lane, m):
 def _end_window(piece, flow, squares, motion, lane, m):
     """Write the results of the window of observation that ends now; return True at the end of the run.
 
-    Otherwise begin the next window and return False.
+    If the run has not ended, begin the next window and return False.
     """
     (settle, cycles, length), n = piece.stages, m.members[lane]
     stop, watched = int(m.runs[rows.STOP, lane]), m.runs[rows.WATCHED, lane] > 0.0
@@ -277,7 +277,7 @@ def _stop_crowded(piece, m):
 
 @inlined_source
 def _run_by_events(piece, flow, squares, lane, m):
-    """Continue the run in a lane by the event loop until both balls fly; return PAUSED, or the status if it ends."""
+    """Continue the run in a lane by the event loop until both balls fly; return PAUSED then, or the status at its end."""
     runs, counters, unsampled = m.runs[:, lane], m.counters[lane], Sampling(0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[rows.FIRST, lane], m.constants[rows.FIRST_TAIL, lane]
     progress = _progress_of(m.runs, lane, first, flow.coefficients.omega)

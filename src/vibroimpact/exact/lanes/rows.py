@@ -23,17 +23,17 @@ STATES = TURNS_AT + 2 * TURN
 X1 to V2: boxes; Y1 to U2: balls at the start of the flight; SINE, COSINE: of the forcing phase
 Y1_LOW, Y2_LOW: rounding remainders of the ball positions
 PASSED, REACH: time since the start of the flight, and its largest value
-TRIAL: length of the next step (0: begin a flight; -1: leave it to the event loop)
+TRIAL: length of the next step (0: begin a flight; -1: leave the run to the event loop)
 SIZE: root of twice the energy of the boxes at the start of the flight
 LIMIT: limit for the Bernstein coefficients
 TOUCH1, TOUCH2: wall that each ball leaves, or 0; DUE: index of the module whose ball is at a wall, or -1
 PHASE, TAIL, REVOLUTIONS: forcing phase at the start of the flight, its remainder, and the number of full turns
-STOP: number of full turns at which the run stops; ALIVE: 1 if the lane has a run; WATCHED: 1 if it is observed
+STOP: number of full turns at which the run stops; ALIVE: 1 if the lane has a run; WATCHED: 1 if the run is observed
 EVENTS, STALLED: numbers of events, and of flights without progress in time
 OUTCOME: state of the lane after a pass (`steps.step_to_event`); STATISTICS_AT: first row of the statistics
 
 From TURNS_AT on, TURN rows for each box describe a turn that may be its largest displacement (`find_turns`): boxes and
-forcing at a time near the turn (6 rows); SINCE: approximate time from there to the turn; HIGHEST: bound on the
+forcing at a time near the turn (6 rows); SINCE: approximate time from then to the turn; HIGHEST: bound on the
 displacement; KEPT: 1 if a turn is stored.
 """
 
@@ -48,12 +48,13 @@ CONSTANTS = DROPS + 12 * len(energy.OBSERVED)
 """Rows of the constants, (CONSTANTS, 8), one column per lane, for the system of the run in the lane:
 
 from 0: exp(A h) - 1 for a step h, four rows of six
-LOW_PARTS: rounding remainders of its columns for the boxes, four rows of four; without them, errors would add up
+LOW_PARTS: rounding remainders of exp(A h) - 1 in the columns for the boxes, four rows of four; without the remainders,
+rounding errors would add up
 SCALARS_AT: scalars of `flow.numbers_of`, in their order
 CA, SA: cos - 1 and sin of Omega h; STEP: h
 BEND, BEND_FORCE: BEND times the root of twice the energy, plus BEND_FORCE, is a bound on the fourth derivative / 72
-ROUNDING, LEAST_ROUNDING: ROUNDING times this root, plus LEAST_ROUNDING, is a bound on rounding errors, without the part
-due to ball velocities
+ROUNDING, LEAST_ROUNDING: ROUNDING times the root of twice the energy, plus LEAST_ROUNDING, is a bound on rounding
+errors, without the part due to ball velocities
 LOSS: energy loss of an impact divided by its squared relative velocity
 FIRST, FIRST_TAIL: phase at the start of the run, and its remainder
 DRIFTS: drift c of each integral (`energy.Squares`)

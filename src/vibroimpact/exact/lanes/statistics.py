@@ -3,9 +3,10 @@
 In the lanes, statistics are added up flight by flight (`observe`); in the event loop, event by event
 (`accumulate_statistics`). Integrals are differences of potentials (`energy.Squares`).
 
-A turn is a point at which a box reverses. If the hull of a step shows that a turn may be the largest displacement of
-the box so far, the turn is stored, but not yet computed. Stored turns are computed later for all lanes together
-(`find_turns`), so that no lane has to wait, unless a larger turn replaces them.
+A turn is an instant at which a box reverses its motion. If the Bernstein coefficients of a step show that a turn may be
+the largest displacement of the box so far, the turn is stored, but not yet computed. A stored turn may be replaced by a
+larger turn. The remaining stored turns are computed later for all lanes together (`find_turns`), so that no lane has to
+wait.
 """
 
 import math
@@ -54,10 +55,10 @@ def accumulate_run(flow, squares, start, events, final, end, continued, statisti
 
 @in_place
 def accumulate_statistics(flow, squares, departure, events, count, arrival, statistics):
-    """Add the statistics of a part of a run to `statistics` (STATISTICS,), without the potentials at its two ends.
+    """Add the statistics of a part of a run to `statistics` (STATISTICS,), without the potentials at both ends.
 
-    departure: start of the part (`variation.Departure`). events, count: rows of its events and their number. arrival:
-    boxes, time and phase at its end.
+    departure: start of the part (`variation.Departure`). events, count: rows of the events in the part and number of
+    these events. arrival: boxes, time and phase at the end of the part.
     """
     leaving, (final, time, phase) = departure, arrival
     early, last = (math.sin(leaving.phase), math.cos(leaving.phase)), (math.sin(phase), math.cos(phase))
@@ -79,7 +80,7 @@ def accumulate_statistics(flow, squares, departure, events, count, arrival, stat
 
 @inlined
 def discount_rests(events, count, statistics):
-    """Subtract the sticks at the start of a run that continues another run, which has counted them already."""
+    """Subtract the sticks at the start of a run that continues another run, since the other run has counted these sticks."""
     for n in range(count):
         if rests_at_start(events, n):
             statistics[STICKS + int(events[n, contact.MODULE]) - 1] -= 1.0
@@ -99,7 +100,7 @@ def open_or_close(flow, squares, motion, sign, statistics):
 def _add_potential_drops(squares, before, after, forcing, sums):
     """Add the decrease of the potentials at an event to sums (k,).
 
-    before, after: contact state and boxes. If the contact state stays the same, only the terms with the changed
+    before, after: contact state and boxes before and after the event. forcing: sine and cosine of the phase. If the contact state stays the same, only the terms with the changed
     velocity are computed.
     """
     (mode, boxes), (later, others), (sine, cosine) = before, after, forcing
@@ -161,7 +162,10 @@ def _add_flight(flow, squares, motion, end, length, statistics):
 
 @inlined
 def _add_piece(p, low, high, i, wall, statistics):
-    """Add the turn of box i with the polynomial p (8,) between two times, and the path of a ball that sticks to it."""
+    """Add any turn of box i between the times `low` and `high`, and the path of a ball that sticks to the box.
+
+    p (8,): Taylor polynomial of the box.
+    """
     x, last, v, w = value(p, low), value(p, high), slope(p, low), slope(p, high)
     path = abs(last - x)
     if v * w < 0.0:
@@ -215,7 +219,7 @@ def _add(runs, mask, place, value):
 def may_turn_beyond(record, x, v, later, v_later, third):
     """Return True in lanes where a box turns in a step and a middle Bernstein coefficient exceeds the record.
 
-    record: largest displacement so far. x, v, later, v_later: box at both ends of the step. third: a third of the step.
+    record: largest displacement so far. x, v, later, v_later: position and velocity of the box at both ends of the step. third: a third of the step.
     """
     return (v * v_later < 0.0) & (most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > record)
 
@@ -224,10 +228,10 @@ def may_turn_beyond(record, x, v, later, v_later, third):
 def keep_turns(runs, c, work, turns, wrong, early, late, step):
     """Store those turns in a step that may be the largest displacements of the boxes.
 
-    If a lane has a stored turn already that may be larger than the new one, all stored turns are computed first.
+    If a lane already has a stored turn that may be larger than the new turn, all stored turns are computed first.
 
     early, late: boxes and forcing before and after the step. wrong: five times the error of Hermite's polynomial. The
-    polynomial is split near its turn, where the hulls of both parts are close to it.
+    polynomial is split near its turn, since the Bernstein coefficients of both parts are close to the polynomial there.
     """
     wrong = 0.2 * wrong
     for i in range(2):
@@ -276,7 +280,7 @@ def find_turns(runs, c, work):
 
 @inlined
 def _slope(work, first, t):
-    """Return the derivative at t of the first terms of the polynomial from row `first` on."""
+    """Return the derivative at t of the first `rows.TERMS` terms of the polynomial from row `first` on."""
     total = 0.0 * t
     for m in range(rows.TERMS, 0, -1):
         total = fused(total, t, m * load(work, first + m))
@@ -285,7 +289,7 @@ def _slope(work, first, t):
 
 @inlined
 def _bend(work, first, t):
-    """Return the second derivative at t of the first terms of the polynomial from row `first` on."""
+    """Return the second derivative at t of the first `rows.TERMS` terms of the polynomial from row `first` on."""
     total = 0.0 * t
     for m in range(rows.TERMS, 1, -1):
         total = fused(total, t, m * (m - 1.0) * load(work, first + m))

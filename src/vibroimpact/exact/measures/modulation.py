@@ -24,7 +24,7 @@ def variation(amplitudes) -> float:
 
     The result is 0 for a steady response and d / sqrt(2) for a beat with the amplitudes 1 + d cos(...).
 
-    It converges as the window becomes longer, unlike `extreme_depth`.
+    The result converges as the window becomes longer, in contrast to `extreme_depth`.
     """
     mean = np.mean(amplitudes)
     return float(np.std(amplitudes) / mean) if mean > 0 else 0.0
@@ -120,7 +120,7 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
 def mean_and_error(values) -> tuple[float, float, int]:
     """Return (mean, standard error of the mean, number) of the finite values; each value is from one initial state.
 
-    The mean of no value is nan, and so is the error of fewer than two values.
+    The mean is nan if no value is finite, and the error is nan for fewer than two finite values.
     """
     values = np.asarray(values, dtype=float)
     values = values[np.isfinite(values)]

@@ -29,7 +29,7 @@ def samples_per_cycle(tau, period: float) -> int:
 
 
 def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
-    """Return the largest change of any displacement within `cycles` forcing periods, anywhere in the window.
+    """Return the largest difference between displacements that are `cycles` forcing periods apart in the window.
 
     The result is 0 for a motion that repeats after `cycles` periods.
 
@@ -72,7 +72,7 @@ def mirror_distance(displacements, per_cycle: int) -> float:
     """Return the largest |x(tau + T/2) + x(tau)| over the window, which is 0 for a symmetric motion.
 
     The equations of motion stay the same if the sign of the state changes and time shifts by half a period. A motion is
-    symmetric if this change leaves the motion the same, too.
+    symmetric if the motion also stays the same under this change.
 
     Raises
     ------

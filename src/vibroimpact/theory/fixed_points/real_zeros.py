@@ -9,10 +9,10 @@ import numpy as np
 from numpy.polynomial import polynomial as poly
 
 _ROUNDING = 100 * np.finfo(float).eps
-"""Bound on the rounding error of a polynomial's value, relative to the sum of the moduli of its terms (20 operations)."""
+"""Bound on the rounding error of a polynomial value, relative to the sum of the moduli of all terms."""
 _RESOLUTION = 1e-8
 _BOXES = _RESOLUTION, 1e-6, 1e-4
-"""Half-widths of the boxes about a zero in which contraction of Newton's method is tested, relative to max(1, |zero|)."""
+"""Half-widths of the boxes about a zero where Newton's method is tested for contraction, relative to max(1, |zero|)."""
 _NEARLY_REAL = 1e-2
 """Largest imaginary part, relative to the modulus, of a root of the resultant that is treated as real."""
 _CLOSE = 0.03

@@ -203,7 +203,7 @@ def _fixed_point(system, C, psi, multiple):
 
 
 def _of_one_module(balance, i):
-    """Return (C, psi, multiple) for the fixed points of module i (0 or 1) alone; entries of the other module are NaN."""
+    """Return (C, psi, multiple) for the fixed points of module i (0 or 1) alone, with NaN for the other module."""
     C, psi, multiple = balance.of_module(i)
     alone = np.where(np.arange(2) == i, 1.0, np.nan)
     return [(alone * one, alone * phase, multiple) for one, phase in zip(C, psi, strict=True)]
