@@ -21,13 +21,14 @@ from vibroimpact.system.state import BALLS, IMPACT, MODULES, active_mask, inacti
 from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 
 SAME = 1e-6
-"""Largest difference between states that count as equal; near a bifurcation, their error is about sqrt(rounding)."""
+"""Largest difference between states that count as equal; near a bifurcation, states have errors of sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
 _NEUTRAL = 1e-10  # relative; if the change of a ball's velocity depends less on the state, the ball hits no wall
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
 _CONVERGED = ((1e-5, 1e-8), (1e-12, 1e-6))
-"""Largest step and `_gap` accepted if Newton's method stalls: at a fold, or if the motion amplifies rounding errors."""
+"""Largest steps and `_gap` that are accepted if Newton's method stalls: the first pair at a fold, the second pair if
+the motion amplifies rounding errors."""
 _TOUCH = 1e-9
 
 
@@ -98,7 +99,7 @@ class PeriodicOrbit(Representation):
 
     @property
     def grazing(self) -> bool:
-        """True if a ball touches a wall without relative speed; where this becomes an impact, a multiplier diverges."""
+        """True if a ball touches a wall with zero relative speed; a multiplier diverges where the touch becomes an impact."""
         return _grazes(self.run)
 
     @property
@@ -184,7 +185,7 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
 
 
 def refined(system, state, periods) -> PeriodicOrbit:
-    """Return the motion near a state (8,) that repeats after `periods` forcing periods, or after a divisor of them.
+    """Return the motion near `state` (8,) that repeats after `periods` forcing periods or a divisor of `periods`.
 
     Raises
     ------
@@ -238,7 +239,7 @@ def _nearer(run, step):
 
 
 def _with_free_balls_at_rest(system, x, periods, begin):
-    """Return the run from x with neutral balls (`determined`) at rest, as they return to their positions only then."""
+    """Return the run from x with neutral balls (`determined`) at rest, since otherwise they drift away."""
     run = simulate(system, x, periods, begin)
     free = _BALL_VELOCITIES & ~determined(run)
     return simulate(system, np.where(free, 0.0, x), periods, begin) if x[free].any() else run
@@ -257,7 +258,7 @@ def _between_events(run):
 
 
 def _at_zero(run):
-    """Return the state at the end of the last forcing period, after any events there; it is also that at tau = 0."""
+    """Return the state of a periodic motion at tau = 0, after any events there, from the end of the last period."""
     tau = run.cycles * run.system.period
     there = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
     return there[-1].copy() if len(there) else _state_at(run, tau)

@@ -49,10 +49,11 @@ class Piece(NamedTuple):
 class Memory(NamedTuple):
     """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
-    For each lane: runs, constants: arrays with the rows defined in `rows`; members: index of the initial state, or -1; slots:
-    slot with the tables of its system; counters: counters of its event log. For each slot: owners: index of the system,
-    or -1; made: contact states whose tables are computed; series, rotations: tables as from `flow_tables.tables`;
-    known: constants. begun: number of initial states processed. work, log, statistics, change: workspace.
+    For each lane: runs, constants: arrays with the rows defined in `rows`; members: index of the initial state, or -1;
+    slots: slot with the tables of its system; counters: counters of its event log. For each slot: owners: index of the
+    system, or -1; made: contact states whose tables are computed; series, rotations: tables as from
+    `flow_tables.tables`; known: constants. begun: number of initial states processed. work, log, statistics, change:
+    workspace.
     """
 
     runs: np.ndarray
@@ -216,7 +217,7 @@ def _motion_of(runs, lane):
 
 @inlined_source
 def _handle_outcome(piece, lane, m):
-    """Continue the run in a lane after `step_to_event` stopped it; return PAUSED if the run goes on, else its status."""
+    """Continue the run in a lane after `step_to_event` stopped it; return PAUSED, or the status of an ended run."""
     flow, squares = _system_of(piece, lane, m)
     if m.runs[rows.OUTCOME, lane] == steps.DOUBTFUL:
         return _run_by_events(piece, flow, squares, lane, m)
@@ -277,7 +278,7 @@ def _stop_crowded(piece, m):
 
 @inlined_source
 def _run_by_events(piece, flow, squares, lane, m):
-    """Continue the run in a lane by the event loop until both balls fly; return PAUSED then, or the status at its end."""
+    """Continue the run in a lane by the event loop until both balls fly; return PAUSED then, or its final status."""
     runs, counters, unsampled = m.runs[:, lane], m.counters[lane], Sampling(0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[rows.FIRST, lane], m.constants[rows.FIRST_TAIL, lane]
     progress = _progress_of(m.runs, lane, first, flow.coefficients.omega)

@@ -80,7 +80,7 @@ def accumulate_statistics(flow, squares, departure, events, count, arrival, stat
 
 @inlined
 def discount_rests(events, count, statistics):
-    """Subtract the sticks at the start of a run that continues another run, since the other run has counted these sticks."""
+    """Subtract the sticks at the start of a run that continues another run, because the other run has counted them."""
     for n in range(count):
         if rests_at_start(events, n):
             statistics[STICKS + int(events[n, contact.MODULE]) - 1] -= 1.0
@@ -100,8 +100,8 @@ def open_or_close(flow, squares, motion, sign, statistics):
 def _add_potential_drops(squares, before, after, forcing, sums):
     """Add the decrease of the potentials at an event to sums (k,).
 
-    before, after: contact state and boxes before and after the event. forcing: sine and cosine of the phase. If the contact state stays the same, only the terms with the changed
-    velocity are computed.
+    before, after: contact state and boxes before and after the event. forcing: sine and cosine of the phase. If the
+    contact state stays the same, only the terms with the changed velocity are computed.
     """
     (mode, boxes), (later, others), (sine, cosine) = before, after, forcing
     if mode != later:
@@ -219,7 +219,8 @@ def _add(runs, mask, place, value):
 def may_turn_beyond(record, x, v, later, v_later, third):
     """Return True in lanes where a box turns in a step and a middle Bernstein coefficient exceeds the record.
 
-    record: largest displacement so far. x, v, later, v_later: position and velocity of the box at both ends of the step. third: a third of the step.
+    record: largest displacement so far. x, v, later, v_later: position and velocity of the box at both ends of the
+    step. third: a third of the step.
     """
     return (v * v_later < 0.0) & (most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > record)
 
@@ -280,7 +281,7 @@ def find_turns(runs, c, work):
 
 @inlined
 def _slope(work, first, t):
-    """Return the derivative at t of the first `rows.TERMS` terms of the polynomial from row `first` on."""
+    """Return the derivative at t of the polynomial from row `first` on, up to the order `rows.TERMS`."""
     total = 0.0 * t
     for m in range(rows.TERMS, 0, -1):
         total = fused(total, t, m * load(work, first + m))
@@ -289,7 +290,7 @@ def _slope(work, first, t):
 
 @inlined
 def _bend(work, first, t):
-    """Return the second derivative at t of the first `rows.TERMS` terms of the polynomial from row `first` on."""
+    """Return the second derivative at t of the polynomial from row `first` on, up to the order `rows.TERMS`."""
     total = 0.0 * t
     for m in range(rows.TERMS, 1, -1):
         total = fused(total, t, m * (m - 1.0) * load(work, first + m))

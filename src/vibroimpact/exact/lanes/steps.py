@@ -1,17 +1,17 @@
 """Advance eight runs in parallel lanes through free flights and simple impacts; each lane has its own system.
 
 Between impacts each lane advances by its fixed step h, z' = exp(A h) z (`advance_lanes`). Only the change of z is
-computed and added, so that its rounding error is small. A step needs a proof that no impact happens in it. The position w of a
-ball in its box and the rate r of w, at both ends of the step, define Hermite's cubic polynomial. Its hull is given by
-the Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step. With a bound B on
-the fourth derivative, the error of the polynomial at the fraction s of the step is at most B h^4 s^2 (1 - s)^2 / 24.
-Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows from the energy
-of the boxes, which cannot grow by more than the work of the force.
+computed and added, so that its rounding error is small. A step needs a proof that no impact happens in it. The position
+w of a ball in its box and the rate r of w, at both ends of the step, define Hermite's cubic polynomial. Its hull is
+given by the Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step. With a
+bound B on the fourth derivative, the error of the polynomial at the fraction s of the step is at most B h^4 s^2 (1 -
+s)^2 / 24. Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows from
+the energy of the boxes, which cannot grow by more than the work of the force.
 
 Lanes whose step is not proved wait until they are numerous enough for a pass (`step_to_event`). In a pass, the Taylor
-polynomials of both boxes give the time of an impact, and the same hull proves that no impact happens before that time. If the proof
-fails, the next pass tries half the time. All other cases (chatter to be completed, balls at rest, simultaneous events,
-any doubt) are left to the event loop.
+polynomials of both boxes give the time of an impact, and the same hull proves that no impact happens before that time.
+If the proof fails, the next pass tries half the time. All other cases (chatter to be completed, balls at rest,
+simultaneous events, any doubt) are left to the event loop.
 
 The impact law is that of `vibroimpact.system.restitution`, which names its other implementations.
 """
@@ -161,8 +161,8 @@ class Impact(NamedTuple):
 def step_to_event(runs, c, work, integrals):
     """Advance the waiting runs by one step, which ends at an impact, at the end of the flight or earlier.
 
-    Returns the number of runs that need the event loop or have reached the end of a window. work (2 ORDER + 2, 8): workspace for polynomials.
-    integrals: number of observed integrals.
+    Returns the number of runs that need the event loop or have reached the end of a window. work (2 ORDER + 2, 8):
+    workspace for polynomials. integrals: number of observed integrals.
     """
     pending, leaves = load(runs, rows.OUTCOME) == WAITING, load(runs, rows.TRIAL) < 0.0
     x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
@@ -279,8 +279,8 @@ def _advance_clock(runs, c, elapsed):
 def _collide(c, then, end, clock, rounding):
     """Return the Impact for the lanes where a ball meets a wall.
 
-    The impact is not plain if a chatter that begins with the impact would end soon, or if the relative velocities before
-    or after the impact may be rounding errors.
+    The impact is not plain if a chatter that begins with the impact would end soon, or if the relative velocities
+    before or after the impact may be rounding errors.
     """
     x1, x2, v1, v2, y1, y2, u1, u2 = then
     kappa, epsilon = load(c, rows.KAPPA), load(c, rows.EPSILON)

@@ -48,7 +48,8 @@ class SlowVariables:
     B, psi : ndarray
         Amplitude and phase lag [rad] of the first harmonic of U_i, each of shape (2,).
     C : ndarray
-        Saw-tooth amplitude, from the distance between the ball's mean positions at its impacts with both walls, shape (2,).
+        Saw-tooth amplitude, from the distance between the ball's mean positions at its impacts with both walls, shape
+        (2,).
     impact_phases : ndarray
         Mean phase of the impacts as a fraction of the cycle, in [0, 1), [module, wall +1 / wall -1], shape (2, 2).
     """

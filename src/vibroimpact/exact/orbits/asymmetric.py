@@ -1,10 +1,10 @@
 """Find asymmetric 1:1 responses (unequal flight times) by Newton's method from many starts.
 
-Ball i meets wall +1 at p_i and wall -1 at q_i = p_i + u_i T. Its velocity changes by I_i at p_i and by -I_i at q_i.
-Its velocity is therefore I_i (1 - u_i) on the flight from wall +1 and -I_i u_i on the flight back. The distance is
-I_i u_i (1 - u_i) T on both flights. The velocity of box i changes by -epsilon I_i at p_i and by +epsilon I_i at q_i.
-The motion of the boxes is the sum of the forced response and the responses to all impulses. Each module has two
-equations from Newton's rule and one for the distance,
+Ball i hits wall +1 at the time p_i and wall -1 at q_i = p_i + u_i T, where T is the forcing period. The ball velocity
+changes by I_i at p_i and by -I_i at q_i. The velocity is therefore I_i (1 - u_i) on the flight from wall +1 and -I_i
+u_i on the flight back. The distance is I_i u_i (1 - u_i) T on both flights. The velocity of box i changes by -epsilon
+I_i at p_i and by +epsilon I_i at q_i. The motion of the boxes is the sum of the forced response and the responses to
+all impulses. Each module has two equations from Newton's rule and one for the distance,
 
     (1 + kappa) X_i'(p_i-) = I_i (1 - u_i - kappa u_i + epsilon),
     (1 + kappa) X_i'(q_i-) = I_i (kappa (1 - u_i) - u_i - epsilon),
@@ -13,8 +13,9 @@ equations from Newton's rule and one for the distance,
 in total six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots with u_1 = u_2 = 1/2. An
 inactive module (see `System.modules`) has p_i = q_i = I_i = 0.
 
-The starts cover u_1, u_2 and the lag p_2 - p_1 evenly. For given values of these three, the equations are linear in I_i
-and in cosine and sine of the forcing phase, which start at their least-squares values. Roots may be missed.
+The starts of Newton's method cover u_1, u_2 and the lag p_2 - p_1 evenly. For given values of these three, the
+equations are linear in I_i and in cosine and sine of the forcing phase, which start at their least-squares values.
+Roots may be missed.
 """
 
 import numpy as np
@@ -36,7 +37,7 @@ _PLASTIC = 1.2207440846057596  # root of x^4 = x + 1; its powers give a low-disc
 
 
 class AsymmetricConditions:
-    """Equations of the module docstring for one system.
+    """Six equations for the impact times and the changes of ball velocity in 1:1 motions of one system.
 
     Raises
     ------
@@ -53,7 +54,8 @@ class AsymmetricConditions:
     def __call__(self, unknowns: np.ndarray):
         """Return the residual (n, 6) and Jacobian (n, 6, 6) for unknowns of shape (n, 6).
 
-        The unknowns are (p_1, q_1, p_2, q_2, I_1, I_2).
+        The unknowns are (p_1, q_1, p_2, q_2, I_1, I_2): times of the impacts at wall +1 (p_i) and at wall -1 (q_i), and
+        changes I_i of the ball velocity at wall +1.
         """
         system = self.system
         times, strengths = unknowns[:, :4], unknowns[:, 4:]
@@ -81,10 +83,10 @@ class AsymmetricConditions:
         return np.concatenate([velocity, distance], axis=1)
 
     def _linear(self, times):
-        """Return the coefficients (n, 6, 2) of I_1, I_2 in the equations, and responses of the boxes to unit impacts.
+        """Return the coefficients (n, 6, 2) of I_1 and I_2 in the equations, and the box responses to unit impacts.
 
-        Entry [:, m, k] of a response is a velocity or acceleration before impact m, per unit change of ball velocity at
-        impact k.
+        I_i is the change of ball velocity in module i. Entry [:, m, k] of a response is the velocity or acceleration of
+        a box before impact m, per unit change of ball velocity at impact k.
         """
         system = self.system
         x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))
@@ -113,9 +115,10 @@ class AsymmetricConditions:
 
 
 def asymmetric_solutions(system, starts: int = STARTS):
-    """Return the roots (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6), and the number of starts that led to each.
+    """Return the roots (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6), and the number of starts that led to each root.
 
-    Times are in [0, T). Mirror images are separate roots; a start that led to one of them counts for both.
+    p_i and q_i are the times in [0, T) of the impacts at wall +1 and wall -1, I_i the change of ball velocity at wall
+    +1. Mirror images are separate roots; a start that led to one of them counts for both.
 
     Raises
     ------

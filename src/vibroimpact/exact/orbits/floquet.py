@@ -92,7 +92,7 @@ def impact_sequence(times: np.ndarray, period: float):
     times: impact times in [0, T), shape (2, 2) with indices [module, wall +1 / wall -1].
 
     An impact at 0 is moved to T and comes last, since the state at tau = 0 is the state after this impact. A module
-    with NaN times has no impacts; otherwise n is 4.
+    with NaN times has no impacts; if both modules have impacts, n is 4.
     """
     within = np.where(times == 0, period, times).ravel()
     order = np.argsort(within, kind="stable")[: np.isfinite(within).sum()]
@@ -120,7 +120,7 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
     Raises
     ------
     ValueError
-        If an impact has no relative velocity (see impact_saltation).
+        If the relative velocity before an impact is zero (see `impact_saltation`).
     """
     edges = np.array([0.0, *times, end])
     flights, pushes = free_flights(system, edges[:-1], np.diff(edges))
@@ -159,10 +159,11 @@ def floquet(orbit) -> str:
 def by_multipliers(jacobian: np.ndarray, residual: float, slowest: float) -> str:
     """Return "stable" if all multipliers are inside the unit circle, "unstable" if one is outside, else "undecided".
 
-    A multiplier counts as inside or outside if its modulus differs from 1 by more than an error. This error is
-    estimated to first order, as the condition number of the eigenvalue times the error of the monodromy matrix. The
-    matrix has errors from rounding and from the error of the orbit: the residual divided by the distance of the
-    nearest multiplier from +1 and by the slowest speed. Both errors are relative to the norm of the matrix.
+    A multiplier counts as inside or outside if its modulus differs from 1 by more than its error. The error of a
+    multiplier is estimated to first order, as the condition number of the eigenvalue times the error of the monodromy
+    matrix. The monodromy matrix has an error from rounding and an error from the orbit. The latter is `residual`
+    divided by the distance of the nearest multiplier from +1 and by `slowest`. Both errors are relative to the norm of
+    the matrix.
 
     Parameters
     ----------

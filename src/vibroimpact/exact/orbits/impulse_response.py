@@ -108,14 +108,14 @@ class ImpulseResponse:
 def _singular(matrices, scale):
     """Return True for each matrix (..., n, n) that is singular within rounding.
 
-    scale: magnitude of the terms that cancel in a singular matrix. The condition number cannot decide: at a resonance
-    of both boxes the whole matrix vanishes.
+    scale: magnitude of the terms that cancel in a singular matrix. The condition number is no criterion: at a
+    resonance of both boxes all entries vanish.
     """
     return np.linalg.svd(matrices, compute_uv=False)[..., -1] <= 1e-12 * scale
 
 
 def powers(matrix: np.ndarray, count: int) -> np.ndarray:
-    """Return matrix**n for n = 0 .. count - 1, stacked; with doubling, rounding grows only with log(count)."""
+    """Return the powers matrix^n for n = 0 .. count - 1, stacked; by doubling, rounding grows only with log(count)."""
     powers = np.eye(len(matrix))[None]
     while len(powers) < count:
         powers = np.concatenate([powers, powers @ np.linalg.matrix_power(matrix, len(powers))])

@@ -40,7 +40,8 @@ def follow(equations: Callable, x: np.ndarray, values: Iterable[float], near: fl
     """Yield each value of a parameter with the root (d,) of equations(value), found by Newton's method.
 
     Each start is the root at the previous value; the first start is x (d,). The iteration ends if equations(value)
-    raises ValueError, if no root is found, or if a component of the root has changed by `near` or more.
+    raises ValueError, if no root is found, or if a component of the root differs from the previous root by
+    `near` or more.
     """
     for value in values:
         try:

@@ -51,7 +51,8 @@ class Orbit(Representation):
         Ball speeds on the flights that start at each wall, shape (2, 2); some are negative for an inadmissible root.
     multipliers : ndarray
         Complex Floquet multipliers by descending modulus, shape (8,), or (4,) for a single machine. If both modules
-        impact at the same instant and gamma12 is not 0, they are for perturbations after which module 1 impacts first.
+        impact at the same instant and gamma12 is not 0, the multipliers are those of perturbations after which module 1
+        impacts first.
     state : ndarray
         State at tau = 0, shape (8,); if there is an impact at tau = 0, the state just after it.
     passage : Passage
@@ -118,8 +119,8 @@ class Orbit(Representation):
     def row(self) -> dict:
         """Return the row of `to_frame` for this orbit, as numbers and verdicts by column name.
 
-        If the orbit has a proof, its columns are added. Phases are in periods. A single machine has only 4 multipliers;
-        the remaining moduli are NaN.
+        If the orbit has a proof, the columns of the proof are added. Phases are in periods. A single machine has only 4
+        multipliers; the remaining moduli are NaN.
         """
         moduli = np.pad(np.abs(self.multipliers), (0, 8 - len(self.multipliers)), constant_values=np.nan)
         numbers = (self.C, self.impact_phases.ravel(), self.ball_speeds.ravel(), moduli, self.state, [self.residual])
@@ -203,7 +204,7 @@ def orbits(system: System) -> list[Orbit]:
 
 
 def search(system: System, starts: int = STARTS) -> OrbitSearch:
-    """Return `orbits` with the effort spent on asymmetric orbits, which indicates how likely one was missed.
+    """Return `orbits` with the effort spent on asymmetric orbits, which indicates how likely an orbit was missed.
 
     Raises
     ------
@@ -280,7 +281,7 @@ def _order(orbit):
 
 
 def symmetric_orbit(system, root) -> Orbit:
-    """Return the Orbit for a root (4,) of the symmetric equations.
+    """Return the Orbit for a root (4,) of `SymmetricConditions`.
 
     The root contains the impact times of both modules at wall +1, then C_1 and C_2.
     """
@@ -288,19 +289,19 @@ def symmetric_orbit(system, root) -> Orbit:
 
 
 def symmetric_boxes(system, root, tau) -> np.ndarray:
-    """Return X_1 and X_2 at times tau (n,) for a root of the symmetric equations, shape (n, 2)."""
+    """Return X_1 and X_2 at times tau (n,), shape (n, 2), for a root (4,) of `SymmetricConditions`."""
     return _boxes(system, *_symmetric_impacts(system, root), -1, tau)[:, :2]
 
 
 def _symmetric_impacts(system, root):
-    """Return impact times (2, 2) and changes of ball velocity (2,) for a root of the symmetric equations."""
+    """Return impact times (2, 2) and changes of ball velocity (2,) for a root (4,) of `SymmetricConditions`."""
     times, C = root[:2], root[2:]
     later = wrapped(times + system.period / 2, system.period)
     return np.stack([times, later], axis=1), 4 * path_of(system.epsilon, C) / system.period
 
 
 def asymmetric_orbit(system, root) -> Orbit:
-    """Return the Orbit for a root (6,) of the asymmetric equations.
+    """Return the Orbit for a root (6,) of `AsymmetricConditions`.
 
     The root contains the impact times in the order of (module, wall), then the changes of ball velocity.
     """
@@ -314,7 +315,8 @@ def _orbit(system, times, changes, fractions, sign):
 
     fractions (2,): durations of the flights from wall +1, as fractions of the period.
 
-    sign: -1 for a symmetric orbit, where each module has one train of alternating impulses; +1 for one train per wall.
+    sign: -1 for a symmetric orbit, in which the impacts of each module are one train of alternating impulses; +1 if the
+    impacts at each wall are one train of equal impulses.
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
     state = _state(system, times, changes, speeds, sign)

@@ -37,7 +37,7 @@ MODULES = np.array([1, 2, 1, 2])
 
 
 class SymmetricConditions:
-    """Equations of the module docstring for one system, optionally under several forces.
+    """Conditions of symmetric 1:1 motions (ball at wall, Newton's rule) of one system, optionally under several forces.
 
     Parameters
     ----------
@@ -61,9 +61,10 @@ class SymmetricConditions:
         self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
 
     def matrix(self, times: np.ndarray):
-        """Return P and a matrix dP with its derivatives, for impact times (..., 2): both (..., 2, 2) complex.
+        """Return P and dP, both (..., 2, 2) complex, of P C + i (1, 1) = forced response, for impact times (..., 2).
 
-        The derivative of P by tau_i is +dP in row i and -dP in column i, and 0 on the diagonal.
+        P C collects all terms with the saw-tooth amplitudes C in the conditions of the modules. dP contains the
+        derivatives of P: the derivative of P by tau_i is +dP in row i and -dP in column i, and 0 on the diagonal.
         """
         x, v, a = self._response.between(times, _BOXES)
         own = np.eye(2)
@@ -91,6 +92,8 @@ class SymmetricConditions:
     def linear_system(self, delta: np.ndarray, force: np.ndarray):
         """Return the matrix (..., 4, 4) and right-hand side (4,) for (C_1, C_2, c, s) at each delta (...).
 
+        delta = tau_2 - tau_1 is the difference of the impact times; c and s are cosine and sine of Omega tau_1.
+
         force: indices of the forces, (...).
         """
         times = np.stack([np.zeros_like(delta), delta], axis=-1)
@@ -100,9 +103,9 @@ class SymmetricConditions:
 
 
 def symmetric_solutions(system) -> np.ndarray:
-    """Return every root (tau_1, tau_2, C_1, C_2) with 0 <= tau_i < T, shape (n, 4), admissible or not.
+    """Return every root (tau_1, tau_2, C_1, C_2) of `SymmetricConditions` with 0 <= tau_i < T, shape (n, 4).
 
-    An inactive module has tau_i = C_i = 0.
+    Roots that are not admissible are included. An inactive module has tau_i = C_i = 0.
 
     Raises
     ------
@@ -124,7 +127,7 @@ def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
 
 
 def _solutions(system, systems):
-    """Return the roots for each of several systems that differ only in their forces."""
+    """Return the roots (n, 4) of `SymmetricConditions` for each of several systems that differ only in their forces."""
     found = [np.empty((0, 4))] * len(systems)
     for modules in {one.modules for one in systems} - {()}:
         alike = [k for k, one in enumerate(systems) if one.modules == modules]
@@ -142,7 +145,8 @@ def _solutions(system, systems):
 def _uncoupled_starts(conditions, modules):
     """Return the Newton starts of uncoupled modules: each root of module 1 with each root of module 2.
 
-    For each module alone, the equation |P_ii C_i + i| = |a_i| is quadratic in C_i.
+    For each module alone, the equation |P_ii C_i + i| = |a_i| is quadratic in C_i, where P is the matrix of
+    `conditions` and a_i the forced amplitude of box i.
     """
     diagonal = np.diagonal(conditions.matrix(np.zeros((1, 2)))[0][0])
     starts = []
@@ -158,7 +162,7 @@ def _uncoupled_starts(conditions, modules):
 
 
 def _coupled_starts(system, conditions):
-    """Return the Newton starts of coupled modules, from the real roots delta of the condition c^2 + s^2 = 1."""
+    """Return the Newton starts of coupled modules, from the real roots delta of c^2 + s^2 = 1 (`linear_system`)."""
     delta, force = _roots_of_condition(system, conditions)
     C1, C2, c, s = np.moveaxis(_line_starts(*conditions.linear_system(delta, force)), -1, 0)
     time = np.arctan2(s, c) / conditions.omega
@@ -166,9 +170,10 @@ def _coupled_starts(system, conditions):
 
 
 def _roots_of_condition(system, conditions):
-    """Return the real parts of all nearly real roots delta in [0, T], and the index of the force for each.
+    """Return the real parts of all nearly real roots delta in [0, T], and the index of the force for each root.
 
-    The condition c^2 + s^2 = 1 is interpolated by Chebyshev polynomials on pieces of the interval.
+    The condition c^2 + s^2 = 1 on the solution of `linear_system` is interpolated by Chebyshev polynomials on pieces of
+    the interval.
     """
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     pieces = 2 * math.ceil(system.period / 2 * fastest / _RADIANS_PER_PIECE)

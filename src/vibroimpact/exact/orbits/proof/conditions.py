@@ -20,7 +20,7 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 
 
 class SteadyBoxes:
-    """Steady motion [X1, X2, X1', X2'] of the boxes of a system; its float64 matrices and forcing are taken as exact.
+    """Steady motion [X1, X2, X1', X2'] of the boxes; the system's float64 matrices and forcing are taken as exact.
 
     omega, period: of the forcing. rate (4, 4): rate matrix of free motion. start (4, 2): state just after an impulse;
     column j is for a train of impulses on box j (sign +1: equal impulses, one per period; -1: impulses of alternating
@@ -60,7 +60,7 @@ def identity(size: int) -> arb_mat:
 
 
 class EnclosedConditions:
-    """The six equations of asymmetric.py for one system; its float64 matrices and forcing are taken as exact.
+    """The six equations of asymmetric.py; the system's float64 matrices and forcing are taken as exact.
 
     Raises
     ------
@@ -136,7 +136,7 @@ class EnclosedConditions:
 
 
 def _jet(value, unknown=None):
-    """Return a value with its derivatives by the six unknowns, (7,); unknown: index of the unknown, if it is one."""
+    """Return a value with its derivatives by the six unknowns, (7,); unknown: its index if it is an unknown."""
     return np.array([value, *(arb(int(k == unknown)) for k in range(_UNKNOWNS))])
 
 

@@ -1,10 +1,11 @@
 """Prove existence, motion between the walls and stability of a computed orbit in interval arithmetic.
 
 Krawczyk's test (Krawczyk 1969; Neumaier 1990) on the six equations of asymmetric.py proves that exactly one root lies
-in a box around the computed numbers. If the mirror image of the root lies in the box too, it is this root, which is
-therefore symmetric. If a flight fraction is not 1/2, the root is asymmetric. The enclosure of the root gives enclosures
-of the states at the impacts, of the monodromy matrix and of its eigenvalues (flint's acb_mat.eig: Rump 2010; van der
-Hoeven and Mourrain 2017). Numbers of the Orbit, computed in float64, are called listed numbers.
+in a box around the computed numbers. If the mirror image of the root also lies in the box, the root is its own mirror
+image and therefore symmetric. If a flight certainly does not last half a period, the root is asymmetric. The enclosure
+of the root gives enclosures of the states at the impacts, of the monodromy matrix and of its eigenvalues (flint's
+acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017). Numbers of the Orbit, computed in float64, are called listed
+numbers.
 """
 
 import math
@@ -21,10 +22,11 @@ _BITS = 128
 _WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths to try
 _TIGHT = 2.0**-90
 _SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
-"""Tolerances for differences between listed and proved states and between multipliers, relative for values above 1.
+"""Tolerances for differences between listed (float64) and proved states, and between listed and proved multipliers.
 
-A larger difference means that the listed values belong to another orbit. The tolerance for multipliers is larger,
-since rounding changes a double multiplier by the square root of the rounding error."""
+The tolerances are relative for values above 1. A larger difference means that the listed values belong to another
+orbit. The tolerance for multipliers is larger, since rounding changes a double multiplier by the square root of the
+rounding error."""
 _STEPS = 20  # largest number of steps to narrow a box; convergence soon becomes quadratic
 
 
@@ -32,11 +34,13 @@ _STEPS = 20  # largest number of steps to narrow a box; convergence soon becomes
 class OrbitProof:
     """Proof of an orbit of a system; the float64 matrices and forcing of the system are taken as exact.
 
+    The numbers of the Orbit, computed in float64, are called listed numbers.
+
     Attributes
     ----------
     radius : float
-        Half-width of a box around the listed impact times and changes of ball velocity that contains exactly one root.
-        The root is symmetric or asymmetric, as listed. The half-width is 0 if nothing is proved.
+        Half-width of a box, centred at the listed impact times and changes of ball velocity, in which exactly one root
+        lies. The root is symmetric or asymmetric, as `Orbit.symmetric` says. The half-width is 0 if nothing is proved.
     error : float
         Bound on the error of the listed impact phases and speeds; inf if no root is proved.
     motion : str
@@ -71,7 +75,7 @@ _NOTHING = OrbitProof(0.0, math.inf, NOT_PROVED, (), math.inf)
 
 
 def prove(orbit) -> OrbitProof:
-    """Prove as much as possible about an Orbit, starting from its listed numbers.
+    """Prove as much as possible about an Orbit, starting from its numbers in float64.
 
     Raises
     ------
@@ -146,9 +150,9 @@ def krawczyk(equations, approximate: np.ndarray):
 
     The box is centred at the float64 root. If the test fails for every box, the result is (None, 0.0).
 
-    equations(x) returns the residual (n, 1) and Jacobian (n, n) for a list x of n intervals, or None if they are not
-    defined on all of x. Boxes are tried from the widest on. The image of the first box that passes Krawczyk's test is
-    narrowed to working precision.
+    equations(x) returns the residual (n, 1) and Jacobian (n, n) for a list x of n intervals, or None if residual and
+    Jacobian are not defined on all of x. Boxes are tried from the widest on. The image of the first box that passes
+    Krawczyk's test is narrowed to working precision.
     """
     centre = [arb(value) for value in approximate.tolist()]
     for exponent in range(_WIDEST, _NARROWEST, -1):

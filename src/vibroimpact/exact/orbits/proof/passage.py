@@ -116,7 +116,7 @@ def _impact(i, conditions):
 def between_walls(passage) -> str:
     """Return LEGAL or ILLEGAL if the motion of an EnclosedPassage is proved to be so, else NOT_PROVED.
 
-    In a legal motion each ball stays between its walls, except at impacts, which have a positive speed. Flights are
+    In a legal motion |W_i| < 1 between impacts, and every ball hits its walls from inside. Flights are
     halved until |W_i| < 1 is proved on each piece or, next to an impact, W_i leaves or approaches the wall
     monotonically. W_i is expanded to first order about the centre of a piece, with an enclosure of the remainder.
     """

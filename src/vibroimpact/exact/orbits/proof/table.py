@@ -6,9 +6,9 @@ from vibroimpact.exact.orbits.proof.passage import NOT_PROVED
 
 
 def counts(table: pd.DataFrame) -> dict:
-    """Return the number of orbits in a table, and the numbers of those with each kind of proof, by name.
+    """Return the number of orbits in a table, and the number of orbits with each kind of proof, by name.
 
-    "legal_and_stable" counts the orbits that have proofs of both properties.
+    "legal_and_stable" is the number of orbits that are proved to be legal motions and stable.
     """
     legal, stability = table["motion_proved"] == "legal", table["floquet_proved"]
     found = {
