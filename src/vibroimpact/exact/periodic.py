@@ -99,7 +99,7 @@ class PeriodicOrbit(Representation):
 
     @property
     def grazing(self) -> bool:
-        """True if a ball touches a wall with zero relative speed; a multiplier diverges where the touch becomes an impact."""
+        """True if a ball touches a wall at zero relative speed; where this becomes an impact, a multiplier diverges."""
         return _grazes(self.run)
 
     @property

@@ -117,7 +117,7 @@ def errors_at(flow, flights, events, times, limit):
 
 @inlined
 def _begin(q, flight, errors):
-    """Add the rounding error of the initial state to errors, including the velocity of a ball that touches a wall."""
+    """Add the rounding error of the initial state to `errors`, including the velocity of a ball that touches a wall."""
     state = flight[BEFORE:AFTER]
     touching = abs(state[0] - state[4]) >= 1.0, abs(state[1] - state[5]) >= 1.0
     _add_rounding(q, errors, flight[:AFTER], state, touching)
@@ -166,7 +166,7 @@ def _end(q, flight, elapsed, errors, rate):
 
 @inlined
 def _propagate(matrix, errors, product):
-    """Propagate errors by a matrix M: replace the covariance C by M C M^T, and the sums S by M S."""
+    """Propagate errors by a matrix M: replace C = `independent` by M C M^T, and S = `repeated` by M S."""
     covariance, sums = errors.independent, errors.repeated
     _multiply(matrix, covariance, product)
     for i in range(8):
@@ -292,11 +292,11 @@ class Certificate(Representation):
     chatters : int
         Number of completed chatters (infinite sequences of impacts).
     neglected : float
-        Bound on the change of the state that completing the chatters neglected.
+        Bound on the neglected change of the state due to completing the chatters.
     wall_residual : float
         Largest ||W| - 1| at an impact, before the ball was moved onto the wall.
     nearest_miss : float
-        Smallest gap to the nearer wall at which a ball turned back without an impact; inf if no ball did.
+        Smallest gap to the nearer wall at which a ball turned back without an impact; inf if no ball turned back.
     shallowest_hit : float
         Smallest depth beyond a wall that a ball would have reached if it had not hit the wall.
     clearance : float
@@ -309,8 +309,9 @@ class Certificate(Representation):
         Estimated error of the final state (root mean square), from a unit rounding error after every event, propagated
         by the variational flow; inf if the run ends beyond `horizon`.
     horizon : float
-        Time tau of the first event (or the end) at which the estimated error exceeds 1e-3; inf if it never does. Beyond
-        the horizon, the trajectory is a possible motion of the system, but not the motion from the given initial state.
+        Time tau of the first event (or the end) at which the estimated error exceeds 1e-3; inf if no estimate exceeds
+        1e-3. Beyond the horizon, the trajectory is a possible motion of the system, but not the motion from the given
+        initial state.
 
     Notes
     -----

@@ -9,7 +9,7 @@ Inlining: functions that run at every event become part of the loop, because pas
 (`inlined_source`), which avoids compiling them twice. The others are compiled once and then inlined.
 
 References: only `compiled` functions, and `inlined_source` functions in them, create or return arrays. All others work
-in arrays of their caller without reference counting, which would need an atomic operation and a call each time.
+in arrays of their caller without reference counting, which would cost an atomic operation and a call per reference.
 
 Each decorator sets fastmath, inlining and reference counting explicitly. Otherwise Numba would take an option that is
 not set from the caller that is compiled first.
@@ -126,7 +126,7 @@ def _numba_caching_in(folder):
 
 @cache
 def _fingerprint(package):
-    """Return a hash of all source files that may be compiled into a function of this package."""
+    """Return a hash of all source files that may be compiled into a function of `package`."""
     files = {path for folder in (*(PACKAGE / name for name in SHARED_FOLDERS), package) for path in folder.glob("*.py")}
     digest = hashlib.sha256()
     for path in sorted(files):

@@ -78,7 +78,7 @@ def with_contacts(motion, i, wall, touching):
 
 @inlined
 def drift_balls(balls, walls, boxes, t):
-    """Return the balls a time t after the start of a flight, from `balls` at the start and `boxes` at this time."""
+    """Return the balls a time t after the start of a flight, from `balls` at the start and `boxes` at t."""
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
         y1, v1 = boxes[0] - walls[0], boxes[2]
@@ -99,7 +99,7 @@ def free_flight(flow, motion, t):
 
 EVENTS, FLIGHTS, EXCLUSIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
 """Indices of a run's counters, and the number of counters. RESIDUAL: largest ||W| - 1| at an impact. NEGLECTED: sum of
-the changes of the state that completing chatters neglected. The others are counts."""
+the bounds on the neglected changes of the state due to completing chatters. The others are counts."""
 
 
 class Log(NamedTuple):
@@ -117,8 +117,8 @@ PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # indices in the row of
 def record(log, time, i, wall, kind, boxes, balls, approach):
     """Write an event of module i (0 or 1) to the log, without the forcing phase.
 
-    approach: for an impact, the relative velocity before it; for the stick of a completed chatter, the relative speed
-    after the last simulated impact; otherwise 0.
+    approach: for an impact, the relative velocity before the impact; for the stick of a completed chatter, the relative
+    speed after the last simulated impact; otherwise 0.
     """
     row = log.rows[int(log.counters[EVENTS])]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
@@ -179,7 +179,7 @@ def box_accelerations(q, walls, boxes, sine):
 
 @inlined
 def _contact_push(q, jets, boxes, i, wall, sticking):
-    """Return a number > 0 if the wall pushes ball i, which rests on it, and < 0 if the wall would have to pull it.
+    """Return a number > 0 if the wall pushes ball i, at rest on it, and < 0 if the wall would have to pull the ball.
 
     The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. The first
     derivative is also returned if the wall would have to pull a sticking ball only briefly, and the ball would rise by
@@ -201,7 +201,7 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
 
 @inlined_source
 def _ends_soon(flow, motion, remaining, i, wall):
-    """Return True if ball i's chatter would end within half of `remaining` and half of the time of one proof."""
+    """Return True if ball i's chatter would end within `remaining` / 2 and half the time that one proof covers."""
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     a = wall * box_accelerations(q, motion.walls, boxes, motion.sine)[i]
     u = -wall * (boxes[2 + i] - balls[2 + i])
@@ -212,10 +212,10 @@ def _ends_soon(flow, motion, remaining, i, wall):
 def _end_of_chatter(flow, motion, i, counters):
     """Return (True if the chatter of ball i may be completed now, time until the chatter ends).
 
-    The ball leaves the wall at the inward speed u, and the box accelerates towards it at a. Each hop is shorter than
-    the one before by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)). Completing the
-    chatter at once conserves the momentum of box and ball, but neglects the spring force due to the ball's distance
-    from the wall during the hops. The neglected effect is of the order u^3 / a^2.
+    The ball leaves the wall at the inward speed u, and the acceleration of the box towards the ball is a. Each hop is
+    shorter than the one before by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)).
+    Completing the chatter at once conserves the momentum of box and ball, but neglects the spring force due to the
+    ball's distance from the wall during the hops. The neglected effect is of the order u^3 / a^2.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     wall = motion.touching[i]
@@ -248,7 +248,7 @@ def _end_of_chatter(flow, motion, i, counters):
 
 @inlined_source
 def _complete(flow, motion, i, counters):
-    """Complete the chatter of ball i if possible; return (motion, time until the chatter ends), or -1 as time."""
+    """Complete the chatter of ball i if possible; return (motion, time until the chatter ends, or -1)."""
     done, end = _end_of_chatter(flow, motion, i, counters)
     if not done:
         return motion, -1.0
@@ -266,10 +266,10 @@ def _joined(q, motion, i):
 
 @inlined
 def resolve(flow, motion, moment, log):
-    """Return the motion after all events of this instant.
+    """Return the motion after all events of the instant `moment`.
 
     Contact forces on balls at rest are checked after all impacts, since an impact in one module can release the ball of
-    the other. Chatters are completed last, since their ends are later than this instant.
+    the other module. Chatters are completed last, since their ends are later than this instant.
     """
     due, elapsed = moment.due, moment.elapsed
     pulled = due if due >= 0 and motion.walls[due] != 0 else -1
@@ -340,6 +340,8 @@ def _stick_or_release(q, motion, i, pulled, elapsed, log):
 @inlined_source
 def _complete_both(flow, motion, chatters, elapsed, log):
     """Return the motion after completing the chatter of each ball, where possible.
+
+    chatters: for each ball, True if its chatter would end soon (`_ends_soon`).
 
     The ends of the chatters are recorded last, in order of time and with the states at these times.
     """

@@ -38,7 +38,7 @@ from vibroimpact.system.stored_energy import stored
 SIZE, TRIANGLE = 6, 21
 ROWS, COLUMNS = np.triu_indices(SIZE)
 LARGEST = 1e3
-"""Limit on (largest entry of S, c) x (largest entry of A); below it, differences of z S z + c t keep enough digits."""
+"""Limit on (largest entry of `Squares`) x (largest rate); below it, differences of potentials keep enough digits."""
 NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggauss(4))
 """Gauss's rule with four nodes; over one spacing of the flow table its error is below rounding."""
 
@@ -100,8 +100,8 @@ OPERATORS, FORCED = _lyapunov()
 def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return potentials S (n, 4, k, 6, 6), drifts c (n, 4, k) and flags (n,) for the integrals of z G z.
 
-    The kernels G have shape (k, 6, 6) and the rate matrices (n, 4, 6, 6). A flag is True if differences of
-    z S z + c t keep enough digits for the system.
+    S, c and z are as in `Squares`. The kernels G have shape (k, 6, 6) and the rate matrices (n, 4, 6, 6). A flag is
+    True if differences of z S z + c t keep enough digits for the system.
     """
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
     images = rates.reshape(-1, SIZE * SIZE) @ OPERATORS
@@ -181,7 +181,7 @@ class Energy(Representation):
 
     @property
     def residual(self) -> float:
-        """Total work minus all dissipation, impact losses and stored energy; the difference is due to rounding only."""
+        """Difference work - (ground + coupling + impacts + stored), summed over modules; it is due to rounding only."""
         return float(self.work.sum() - self.ground.sum() - self.coupling - self.impacts.sum() - self.stored)
 
     @property

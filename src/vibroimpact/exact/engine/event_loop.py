@@ -9,7 +9,7 @@ is certain, the flight continues to the end of the proved interval, so that no e
 impact    a ball meets a wall with outward relative velocity: Newton's restitution rule, momentum conserved;
 stick     the end of a chatter, infinitely many impacts in a finite time. A chatter is completed at once when this
           changes the state by less than rounding; from then on box and ball move as one body of mass 1 + epsilon;
-release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it negative.
+release   the contact force of a sticking ball falls to zero, or an impact in the other module makes the force negative.
 
 Time is represented by the forcing phase, which is reduced to one turn without loss (flow.reduced), so that long
 runs lose no digits.
@@ -42,7 +42,7 @@ STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 
 @inlined_source
 def fly(flow, motion, remaining, most_proofs, counters):
-    """Fly to the next event, or at most to the end of the run or table; return (time, module due or -1, boxes, balls).
+    """Fly to the next event, or at most to the end of run or flow table; return (time, module due or -1, boxes, balls).
 
     In place of the module, STUCK_IN_TIME is returned if time does not advance, and OUT_OF_PROOFS if the run needs more
     than `most_proofs` exclusions.
@@ -107,7 +107,7 @@ def _bounds(t, width, short):
 
 @inlined_source
 def _first_to_check(boxes, balls):
-    """Return the module whose ball would reach the wall ahead first, at the present relative velocities."""
+    """Return the module (0 or 1) whose ball would be first at the wall ahead of it, at constant relative velocity."""
     v1, v2 = boxes[2] - balls[2], boxes[3] - balls[3]
     g1 = 1.0 - math.copysign(1.0, v1) * (boxes[0] - balls[0])
     g2 = 1.0 - math.copysign(1.0, v2) * (boxes[1] - balls[1])
@@ -144,7 +144,7 @@ FAILURES = {
 ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # initial number of rows for events; few runs need more
 MOST_AT_ONCE = 8  # most events at one instant: for each module an impact, a stick, a release and the end of a chatter
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
-"""A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 have more."""
+"""A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 need more."""
 INTERRUPT_INTERVAL = 200_000  # exclusions between two checks for an interrupt, about 20 ms
 PATIENCE = 100_000  # successive flights of zero duration before a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
@@ -195,8 +195,8 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """Continue a run to its end or to a pause; return the status.
 
     numbers, series, rotations: from `flow.tables_of`. times (n,): ascending sample times on the clock of the run.
-    samples (n, 8): filled; at an event with the state after it. run, rows, counters: as from `memory`; updated. run[:8]
-    is then the state reached.
+    samples (n, 8): filled with the states at these times, at the time of an event with the state after the event. run,
+    rows, counters: as from `memory`; updated. run[:8] is then the state reached.
 
     The status is PAUSED if the rows are full (`is_full`; then call `empty_rows`), or after INTERRUPT_INTERVAL
     exclusions, so that the interpreter can handle an interrupt; call the function again to continue. Only a number is

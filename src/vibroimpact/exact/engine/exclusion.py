@@ -88,11 +88,11 @@ CONVERGING = 1e-8  # after a Newton step shorter than this, the error is below r
 
 @inlined
 def crossing(c, remainder, margin, horizon, short):
-    """Return (certain, time, width): whether a decreasing constraint certainly reaches zero, at time +- width.
+    """Return (certain, time, width): True if a decreasing constraint certainly reaches zero, at `time` +- `width`.
 
     c: Taylor polynomial (8,) of the constraint, c1 < 0; remainder: bound on |seventh derivative| / 5040; margin:
-    rounding error of c0. If certain and width is inf, the constraint holds up to time = horizon instead. A time no
-    longer than `short` is exact to rounding.
+    rounding error of c0. If `certain` is True and `width` is inf, the constraint does not reach zero before `time`,
+    which is the horizon. A time no longer than `short` is exact to rounding.
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)
@@ -133,10 +133,10 @@ def nearby_zero(c, t):
 
 @inlined
 def return_time(c, remainder, horizon):
-    """Return the time, exact to rounding, at which a very short hop (c0 = 0, c1 > 0) ends, or inf if this is uncertain.
+    """Return the time, exact to rounding, at which a very short hop ends, or inf if the time is uncertain.
 
-    c, remainder: as for `crossing`. The polynomial is divided by t to remove its zero at the start, so that the time
-    keeps its relative accuracy for short hops.
+    c, remainder: as for `crossing`, for the gap between ball and wall, with c0 = 0 and c1 > 0. The polynomial is
+    divided by t to remove its zero at the start, so that the time keeps its relative accuracy for short hops.
     """
     t = -c[1] / c[2] if c[2] < 0.0 else math.inf
     if t > 0.5 * horizon or 8.0 * t * spread(c, remainder, t) > -c[2]:
@@ -212,14 +212,14 @@ def gap_rounding(q, boxes, balls, i):
 
 @inlined
 def gap(p, position, velocity, w):
-    """Return the Taylor polynomial (8,) of the gap between a free ball and wall w of its box with jet p (8,)."""
+    """Return the Taylor polynomial (8,) of the gap between a free ball and wall w, from the jet p (8,) of the box."""
     near, approach = 1.0 - w * (p[0] - position), -w * (p[1] - velocity)
     return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
 
 
 @inlined
 def push(q, mode, jets, i, wall, sine, cosine, horizon):
-    """Return (Taylor polynomial (8,), remainder) for the force on a sticking ball from its wall, per unit of ball mass.
+    """Return (Taylor polynomial (8,), bound on its remainder) of the wall's force on a sticking ball, per ball mass.
 
     Up to the sign of the wall, this force is the acceleration of the box. The accelerations obey the equations of the
     boxes under the second derivative of the forcing.
@@ -293,8 +293,8 @@ def _hop_time(c, bound, margin, horizon, short):
 def module_time(q, motion, i, jets, bound, horizon, short):
     """Return (time, width, undecided): a time without events in module i, or the time of its next event.
 
-    If width is inf, the module has no event before time. If not, its next event is certainly at time +- width. A width
-    of 0 means that the time is exact to rounding. The time is slightly negative if the event was just passed.
+    If `width` is inf, the module has no event before `time`. If not, its next event is certainly at `time` +- `width`.
+    A width of 0 means that the time is exact to rounding. The time is slightly negative if the event was just passed.
     undecided: True if rounding decides whether the constraint reaches zero (tangential contact). jets: Taylor
     polynomials of both boxes; bound: `remainder` up to the horizon; short: longest time over which a jet is exact to
     rounding.
@@ -313,7 +313,7 @@ def module_time(q, motion, i, jets, bound, horizon, short):
 
 @inlined_source
 def _sticking_time(q, motion, i, jets, horizon, short):
-    """Return `module_time` for a sticking ball; the constraint is that the wall pushes the ball."""
+    """Return the result of `module_time` for a sticking ball; the constraint is that the wall pushes the ball."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
     # the second term matters if the box is still at rest: rounding of the force that may develop up to the horizon
     margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + ZERO_FORCE_MARGIN
@@ -327,7 +327,7 @@ def _sticking_time(q, motion, i, jets, horizon, short):
 
 @inlined_source
 def _turning_time(q, motion, i, jets, bound, horizon, short):
-    """Return `module_time` for a flying ball whose relative velocity may change sign.
+    """Return the result of `module_time` for a flying ball whose relative velocity may change sign.
 
     The constraints are the gaps to both walls.
     """

@@ -37,9 +37,9 @@ class Coefficients(NamedTuple):
     """Scalars of (10.2) used by the compiled loops.
 
     ground: stiffness between box 2 and the ground (1 for box 1). drive: |(f1, f2)|. growth: amplitude of the sixth
-    derivative of the force, drive omega^6. shift: bound on the displacement of a box by the force within a period, from
-    rest. mass: mass of box and ball together. impulse, impulse_rest: (1 + kappa) / (1 + epsilon), as the nearest float
-    and the remainder.
+    derivative of the force, drive omega^6. shift: bound on the displacement of a box, initially at rest, due to the
+    force within a period. mass: mass of box and ball together. impulse, impulse_rest: (1 + kappa) / (1 + epsilon), as
+    the nearest float and the remainder.
     """
 
     k11: float
@@ -67,8 +67,8 @@ class Flow(NamedTuple):
     """Coefficients and flow tables of one system.
 
     series (4, n, 6, 16), rotations (n, 2): from `tables`. spacing, density, longest: time step of the tables, its
-    inverse, and the last time. unit: time over which the system changes little, 1 / its fastest rate. rate: bound on
-    the rate of change of the boxes in free flight, in the energy norm.
+    inverse, and the last time. unit: time over which the system changes little, the inverse of its fastest rate. rate:
+    bound on the rate of change of the boxes in free flight, in the energy norm.
     """
 
     coefficients: Coefficients
@@ -83,7 +83,7 @@ class Flow(NamedTuple):
 
 SCALARS = len(Coefficients._fields)
 NUMBERS = SCALARS + len(Flow._fields[3:])
-"""Number of scalars that `tables_of` packs: the coefficients, and the fields of Flow after its arrays."""
+"""Number of scalars that `tables_of` packs: the coefficients, and the fields of Flow that follow the arrays."""
 SPACING, LONGEST, RATE, OMEGA = SCALARS, SCALARS + 2, SCALARS + 4, Coefficients._fields.index("omega")
 PARAMETERS = (
     *("epsilon", "kappa", "alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat"),
@@ -149,7 +149,10 @@ def unpacked(numbers, series, rotations):
 
 @inlined
 def jet_at(flow, mode, boxes, sine, cosine, j):
-    """Return the `jet` at time j * flow.spacing in a free flight that starts at time 0 from `boxes` and the phase."""
+    """Return the jets of both boxes (see `jet`) a time j * flow.spacing after the start of a free flight.
+
+    boxes, sine, cosine: boxes and forcing phase at the start of the flight.
+    """
     return weighted_sum(flow.series, mode, j, (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine))
 
 
@@ -226,7 +229,7 @@ def half_curvature(p, t):
 
 @inlined
 def evaluate(jets, t):
-    """Return the boxes (X1, X2, X1', X2') at a short time t (of either sign) from the origin of their jets."""
+    """Return the boxes (X1, X2, X1', X2') at a short time t, of either sign, after the origin of `jets`."""
     one, two = jets
     return value(one, t), value(two, t), slope(one, t), slope(two, t)
 

@@ -94,7 +94,7 @@ def tables(rates, spacing, count):
 
 @compiled
 def fill_table(rates, mode, spacing, series, rotations, step, change):
-    """Write series[mode] and rotations as in `tables`; write exp(A step h) - I in pairs to `change`, (2, 6, 6)."""
+    """Write series[mode] and rotations as in `tables`; write exp(A step h) - I, as pairs, to `change` (2, 6, 6)."""
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))

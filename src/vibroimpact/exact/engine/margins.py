@@ -185,9 +185,9 @@ DEPTH, DOUBT = 0, 1
 def hits_of(q, flights, events):
     """For each event, return (prevented depth, doubt), rows (m, 2).
 
-    Without the impact, a ball at relative speed u and deceleration b would reach the depth u^2 / (2 b) beyond the wall,
-    or inf without deceleration. The doubt is 1 if rounding decides whether the ball hits the wall, else 0. Events
-    other than impacts have depth inf and doubt 0.
+    Without the impact, a ball at relative speed u and deceleration b would reach the depth u^2 / (2 b) beyond the wall.
+    Without deceleration the depth is inf. The doubt is 1 if rounding decides whether the ball hits the wall, else 0.
+    Events other than impacts have depth inf and doubt 0.
     """
     hits = np.empty((len(events), 2))
     for n in range(len(events)):

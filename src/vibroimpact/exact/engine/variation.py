@@ -74,7 +74,7 @@ def departures(q, start, events, start_phase, duration):
 
 @inlined
 def first_departure(start, phase):
-    """Return the first departure of a run that starts from a state (8,) in public order."""
+    """Return the `Departure` of the first flight of a run that starts from a state (8,) in public order."""
     return Departure(
         (start[0], start[2], start[4], start[6]), (start[1], start[3], start[5], start[7]), (0, 0), 0.0, phase
     )
@@ -82,7 +82,7 @@ def first_departure(start, phase):
 
 @inlined
 def next_departure(q, events, n, leaving, end):
-    """Return the departure after event n, or `leaving` with the time and phase in `end` if there is no event n."""
+    """Return the `Departure` after event n, or `leaving` with the time and phase in `end` if there is no event n."""
     if n == len(events):
         return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
     event, walls = events[n], leaving.walls
@@ -334,8 +334,8 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 class Growth(NamedTuple):
     """Growth of k orthonormal perturbations in each of the n cycles of a run.
 
-    factors (n, k): growth factors, |diagonal of R| in the QR decomposition. Where sticking removes a perturbation,
-    its factor differs from 0 only by rounding. impacts (n,): number of impacts. stuck (n,): largest number of balls
+    factors (n, k): growth factors, |diagonal of R| in the QR decomposition. Where sticking removes a perturbation, the
+    growth factor differs from 0 only by rounding. impacts (n,): number of impacts. stuck (n,): largest number of balls
     that stick at the same time. frame (8, k): final perturbations, orthonormal again.
     """
 

@@ -50,10 +50,10 @@ class Memory(NamedTuple):
     """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
     For each lane: runs, constants: arrays with the rows defined in `rows`; members: index of the initial state, or -1;
-    slots: slot with the tables of its system; counters: counters of its event log. For each slot: owners: index of the
-    system, or -1; made: contact states whose tables are computed; series, rotations: tables as from
-    `flow_tables.tables`; known: constants. begun: number of initial states processed. work, log, statistics, change:
-    workspace.
+    slots: index of the slot with the flow tables of its system; counters: counters of its event log. For each slot:
+    owners: index of the system, or -1; made: contact states whose tables are computed; series, rotations: tables as
+    from `flow_tables.tables`; known: constants. begun: number of initial states processed. work, log, statistics,
+    change: workspace.
     """
 
     runs: np.ndarray

@@ -42,7 +42,7 @@ STEPS = 4  # number of Newton steps to find a turn
 def accumulate_run(flow, squares, start, events, final, end, continued, statistics):
     """Add the statistics of a finished run to `statistics` (STATISTICS,).
 
-    end: duration and final phase of the run. continued: True if it continues another run.
+    end: duration and final phase of the run. continued: True if the run continues another run.
     """
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), math.sin(phase), math.cos(phase))

@@ -4,8 +4,8 @@ Between impacts each lane advances by its fixed step h, z' = exp(A h) z (`advanc
 computed and added, so that its rounding error is small. A step needs a proof that no impact happens in it. The position
 w of a ball in its box and the rate r of w, at both ends of the step, define Hermite's cubic polynomial. Its hull is
 given by the Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step. With a
-bound B on the fourth derivative, the error of the polynomial at the fraction s of the step is at most B h^4 s^2 (1 -
-s)^2 / 24. Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows from
+bound B on the fourth derivative, the error of the polynomial is at most B h^4 s^2 (1 - s)^2 / 24 at the fraction s of
+the step. Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows from
 the energy of the boxes, which cannot grow by more than the work of the force.
 
 Lanes whose step is not proved wait until they are numerous enough for a pass (`step_to_event`). In a pass, the Taylor
@@ -39,8 +39,8 @@ from vibroimpact.exact.lanes.statistics import keep_turns, may_turn_beyond, obse
 RUNNING, WAITING, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 """State of a lane before and after a pass.
 
-RUNNING: the run goes on. WAITING: the next step is not proved, so that the lane waits for a pass. STOPPED: the run has
-reached the end of a window. DOUBTFUL: the lane needs the event loop."""
+RUNNING: the run goes on. WAITING: the next step is not proved to be free of impacts, so that the lane waits for a pass.
+STOPPED: the run has reached the end of a window. DOUBTFUL: the lane needs the event loop."""
 
 SHORTEST = 1 / 32  # if a proof over this fraction of a step or less fails, the event loop takes over
 LONGEST = 6.0  # forcing angle [rad], below a full turn, after which sine and cosine are computed again from the phase
@@ -50,7 +50,9 @@ SAME_TIME = 2.0**-48  # a run stops if no more time than this is left
 
 @in_place
 def advance_lanes(runs, c, work, enough):
-    """Advance runs (STATES, 8) with constants c (CONSTANTS, 8) until the next step is not proved in `enough` lanes.
+    """Advance runs (STATES, 8) with constants c (CONSTANTS, 8) until `enough` lanes have no proof for the next step.
+
+    A proof shows that no ball hits a wall in the step.
 
     Returns the number of steps.
     """
@@ -235,7 +237,7 @@ def _locate(runs, c, work, now, leaves):
 
 @inlined
 def _arrive(runs, work, t, elapsed):
-    """Return the Bodies after a step t, and the rounding remainders of the ball positions.
+    """Return the Bodies after a step of length t, and the rounding remainders of the ball positions.
 
     elapsed: time since the start of the flight.
     """
@@ -364,7 +366,7 @@ def _inside(limit, w, rate, later, rate_later, third):
 
 @inlined
 def _drifted(y, low, u, time):
-    """Return the position of a ball after a time as a pair of floats, a sum and its rounding remainder.
+    """Return the position of a ball after `time`, as two floats: a sum and its rounding remainder.
 
     Without the remainder, the rounding errors of equal flights would add up.
     """
