@@ -21,7 +21,7 @@ from vibroimpact.system.state import BALLS, IMPACT, MODULES, active_mask, inacti
 from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 
 SAME = 1e-6
-"""Largest difference between states that count as equal; near a bifurcation, states have errors of sqrt(rounding)."""
+"""Largest difference between states that count as equal; near a bifurcation, errors are about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
 _NEUTRAL = 1e-10  # relative; if the change of a ball's velocity depends less on the state, the ball hits no wall
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
@@ -45,7 +45,7 @@ class PeriodicOrbit(Representation):
     state : ndarray
         State at tau = 0, just after any events at this time, (8,).
     run : Run
-        Run over one period of the motion, which starts between two events.
+        Run over one period of the motion; the run starts between two events.
 
     Examples
     --------

@@ -74,12 +74,12 @@ def impact_phase(C, rho):
 
 
 def overshoot(C, rho):
-    """Return how far |W_0| of (10.10) exceeds 1 at most in a cycle, for the motion at a point of the manifold.
+    """Return the largest excess of |W_0| over 1 in a cycle, for the motion at a point of the manifold.
 
-    The result is 0 if the ball stays between the walls.
+    W_0 is the relative displacement of (10.10). The result is 0 if the ball stays between the walls.
 
-    The relative displacement W_0 is stationary where B cos(tau_0 + phi) = +-2 C / pi, so that the maximum is found
-    without sampling.
+    W_0 is stationary where B cos(tau_0 + phi) = +-2 C / pi, so that the maximum is found without
+    sampling.
     """
     C = np.asarray(C, dtype=float)
     B = B_of_C(C, rho)

@@ -24,9 +24,9 @@ def impact_multipliers(C, kappa) -> np.ndarray:
     """Return the multipliers, shape (2,), of the map from one impact to the next at constant B and phi.
 
     The map leads from the perturbations of impact time and ball speed at an impact to the perturbations at the mirror
-    image of the next impact. The motion is stable if both moduli are below 1, that is for C_min < C <
-    SYMMETRY_BREAKING_C. The product of the multipliers is kappa^2, and their sum is 2 kappa + pi^2 (1 + kappa)^2 (1 -
-    C) / (4 C).
+    image of the next impact. The motion is stable if both moduli are below 1, that is for
+    C_min < C < SYMMETRY_BREAKING_C. The product of the multipliers is kappa^2, and their sum is
+    2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C).
 
     Raises
     ------

@@ -91,8 +91,8 @@ class MeanPower:
 def mean_power(system, point) -> MeanPower:
     """Return the power balance at a fixed point, (10.23).
 
-    Each term of the complex balance for b_i = B_i exp(-i psi_i) is multiplied by conj(b_i); its imaginary part gives a
-    power.
+    Each term of the complex balance for b_i = B_i exp(-i psi_i) is multiplied by conj(b_i). The imaginary part of
+    the product gives a power.
 
     The powers of an inactive module are 0.
 

@@ -16,8 +16,8 @@ def impedances(system) -> tuple[np.ndarray, complex]:
     """Return the slow impedances: (e_1, e_2) of the boxes without coupling and balls, and K of the coupling.
 
     With b_n = B_n exp(-i psi_n) for module n, and with the other module m, the slow flow is
-    2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m), where N is the describing function of the
-    ball and D_1 = d / dtau_1.
+    2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m), where N is the describing function of the ball
+    and D_1 = d / dtau_1.
     """
     detuning = np.array([0, system.sigma20_hat]) - 2 * system.sigma_e_hat
     damping = np.array([system.gamma1_hat, system.gamma2_hat])

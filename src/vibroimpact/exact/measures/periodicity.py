@@ -69,7 +69,7 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
 
 
 def mirror_distance(displacements, per_cycle: int) -> float:
-    """Return the largest |x(tau + T/2) + x(tau)| over the window, which is 0 for a symmetric motion.
+    """Return the largest |x(tau + T/2) + x(tau)| of any displacement x in the window; 0 for a symmetric motion.
 
     The equations of motion stay the same if the sign of the state changes and time shifts by half a period. A motion is
     symmetric if the motion also stays the same under this change.

@@ -43,10 +43,11 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
 
     Both perturbations are taken at the time tau of the unperturbed impact.
 
-    before: states (..., 8) just before impacts of `module` (1 or 2) at times tau, both (...). The perturbed motion
-    meets the wall n . x = const later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n . f-) (Aizerman
-    and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through the vector fields f- and f+, since
-    wall and impact law do not depend on time. det S = kappa^2. `engine.variation` names the other implementations.
+    before: states (..., 8) just before impacts of `module` (1 or 2) at times tau, both (...). With a perturbation dx,
+    the motion reaches the wall n . x = const later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n .
+    f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through the vector fields f-
+    and f+, since wall and impact law do not depend on time. det S = kappa^2. `engine.variation` names the other
+    implementations.
 
     Raises
     ------
@@ -69,7 +70,7 @@ class Passage(NamedTuple):
     """Motion from tau = 0 to tau = end through n impacts.
 
     first (8,), final (8,): states at tau = 0 and at the end. times (n,): times of the impacts. before (n, 8), after
-    (n, 8): states just before and after each impact. jacobian (8, 8): derivative of the final by the first state.
+    (n, 8): states just before and after each impact. jacobian (8, 8): derivative of `final` with respect to `first`.
     """
 
     first: np.ndarray

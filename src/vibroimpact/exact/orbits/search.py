@@ -88,7 +88,7 @@ class Orbit(Representation):
 
     @property
     def stability(self) -> str:
-        """ "stable", "unstable" or "undecided": the proved verdict, or else the one from the computed multipliers."""
+        """ "stable", "unstable" or "undecided": the proved verdict, or else the verdict from the multipliers."""
         return self.proof.stability if self.proved else floquet(self)
 
     @property

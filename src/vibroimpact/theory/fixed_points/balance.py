@@ -40,7 +40,7 @@ class Balance:
         return cls(z=z, q=q, K=K, forcing=np.array([system.f10_hat, system.f20_hat]))
 
     def at(self, C) -> tuple[np.ndarray, np.ndarray]:
-        """Return z_i and q_i, each shape (2,), at the amplitudes C (2,)."""
+        """Return z_i and q_i of the balance, each shape (2,), at the saw-tooth amplitudes C (2,)."""
         C = np.asarray(C, dtype=float)
         return self.z[0] + self.z[1] * C, self.q[:, 0] + self.q[:, 1] * C
 
@@ -60,7 +60,8 @@ class Balance:
 
         The flag is True if two fixed points coincide within rounding; they are then returned as one.
 
-        |q_i|^2 = f_i^2 is quadratic in C_i: the line of all q_i in the complex plane intersects the circle |q| = |f_i|.
+        Without coupling, |q_i|^2 = f_i^2 is quadratic in C_i: the line of all q_i in the complex plane intersects the
+        circle |q| = |f_i|.
         """
         (q0, q1), f = self.q[i], self.forcing[i]
         along = q0 * q1.conjugate() / abs(q1)
@@ -108,10 +109,10 @@ def determinant(system, C) -> float:
     """Return the common denominator of h_1 and h_2 in (10.24), Im(p_1 p_2 conj(z_1 z_2 K^2)) with p_i = q_i + K z_i.
 
     z_i, q_i and K are those of `Balance`. Constant factors, powers of B_i and the square in h_1 are left out. The
-    equation sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two equations that are linear in cosine and sine of psi_2 -
-    psi_1. The determinant of these two equations is four times the returned value. This value vanishes for all C only
-    if the modules are uncoupled: as a quadratic in C_1 it vanishes identically only for p_2 = 0, which is impossible
-    since the ball dissipates energy.
+    equation sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two equations that are linear in cosine and sine of the
+    phase difference. The determinant of these two equations is four times the returned value. This value vanishes for
+    all C only if the modules are uncoupled: as a quadratic in C_1 it vanishes identically only for p_2 = 0, which is
+    impossible since the ball dissipates energy.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)
@@ -124,7 +125,7 @@ def singular_points(system, point, module) -> np.ndarray:
     Parameters
     ----------
     point
-        Fixed point whose C of the other module is kept constant.
+        Fixed point that gives the constant C of the other module.
     module
         The module on whose manifold the points lie, 1 or 2.
 

@@ -60,7 +60,7 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 def _starts(pair, size):
     """Return starts (n, 2) for Newton's method, at least one near every real zero.
 
-    Each x is a nearly real root of the resultant. The y for this x are the roots of both polynomials at this x.
+    In a start (x, y), x is a nearly real root of the resultant and y is a root of one of the polynomials at this x.
 
     Raises
     ------

@@ -25,7 +25,7 @@ _MOST = 2000  # largest number of pieces of a flight
 
 
 class EnclosedPassage:
-    """The motion at a root of `EnclosedConditions`, which is given by intervals for the six unknowns.
+    """The motion at a root of `EnclosedConditions`; the root is given by intervals for the six unknowns.
 
     rate (10, 10): rate matrix of free flight. phases: times of the impacts in forcing periods. speeds: ball speeds on
     the flights after the impacts. Both are dictionaries with the number of the impact as key.
@@ -49,7 +49,7 @@ class EnclosedPassage:
     def states(self):
         """Yield the state (10, 1) at tau = 0.
 
-        If an impact is too close to tau = 0 to decide their order, yield the states before and after this impact.
+        If the first impact is within 1e-9 of tau = 0, yield the states before and after this impact.
         """
         *_, (last, first, state, _) = self.flights()
         yield (self.rate * (self._conditions.period - self._unknowns[last])).exp() * state
@@ -116,8 +116,8 @@ def _impact(i, conditions):
 def between_walls(passage) -> str:
     """Return LEGAL or ILLEGAL if the motion of an EnclosedPassage is proved to be so, else NOT_PROVED.
 
-    In a legal motion |W_i| < 1 between impacts, and every ball hits its walls from inside. Flights are
-    halved until |W_i| < 1 is proved on each piece or, next to an impact, W_i leaves or approaches the wall
+    In a legal motion |W_i| < 1 between impacts, and every ball hits its walls from inside. Flights are halved
+    until it is proved on each piece that |W_i| < 1 or, next to an impact, that W_i leaves or approaches the wall
     monotonically. W_i is expanded to first order about the centre of a piece, with an enclosure of the remainder.
     """
     verdicts = {_of_flight(passage.rate, *flight) for flight in passage.flights()}
