@@ -142,8 +142,8 @@ class System:
     def with_inactive_damped(self) -> "System":
         """Return the system with damping of the box in the inactive module, if exactly one module is active.
 
-        The box of the inactive module stays at rest. Without damping it may have a resonance, at which the equations of
-        the boxes have no unique solution.
+        The box of the inactive module stays at rest. Without damping the box may have a resonance, at which the
+        equations of the boxes have no unique solution.
 
         Returns
         -------

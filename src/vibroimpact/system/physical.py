@@ -105,8 +105,8 @@ class PhysicalSystem:
     ) -> "PhysicalSystem":
         """Return the parameters of one machine with a ball in its box.
 
-        The equations have two modules. Module 2 is a copy of the machine that is neither coupled nor driven, so that
-        it is inactive (see `System.modules`): fixed points, orbits, branches, proofs, attractors and exponents are
+        The equations have two modules. Module 2 is a copy of the machine, but neither coupled nor driven, and is
+        therefore inactive (see `System.modules`): fixed points, orbits, branches, proofs, attractors and exponents are
         those of module 1. Arrays with an entry per module keep their shape, with NaN for module 2. States have zeros
         for module 2. There are 4 multipliers, 4 exponents and 2 slow eigenvalues.
 

@@ -10,7 +10,7 @@ def wants_progress(progress: bool) -> bool:
 
 
 def track(things: Sequence, words: str, progress: bool = True) -> Iterator:
-    """Yield `things` one by one; if `progress`, show `words` and the number of things done in the terminal."""
+    """Yield `things` one by one; if `progress`, a terminal shows `words` and the number of things done."""
     for number, one in enumerate(things, start=1):
         yield one
         if wants_progress(progress):

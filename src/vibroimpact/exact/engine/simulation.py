@@ -215,7 +215,7 @@ class Run(Representation):
     def jacobian(self) -> np.ndarray:
         """Derivative of the final state with respect to the initial state, shape (8, 8).
 
-        It includes the effect of impacts, chatter, sticking and releases.
+        The derivative includes the effects of impacts, chatter, sticking and releases.
         """
         jacobian = self.carry(np.eye(8))
         jacobian.flags.writeable = False
@@ -307,7 +307,7 @@ class Run(Representation):
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
-        """Return the states at the times `since` after the start; such times keep their digits even if tau0 is large."""
+        """Return the states at times `since` the start of a run; such times keep their digits even if tau0 is large."""
         start = self.start.copy()  # a read-only array would trigger another compilation
         return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
 

@@ -1,9 +1,10 @@
 """Flights of a finished run, replayed from its events, and their variational flow.
 
 Perturbations are multiplied by the linear flow for a flight, and by the saltation matrix for an impact. A release
-leaves them unchanged, since the contact force is zero there; if an impact forces the release, the saltation matrix of
-the impact includes it. A completed chatter has its own derivative, so that infinitely many saltation matrices need not
-be multiplied. This file orders states as [boxes, balls]; PUBLIC_ORDER and INNER_ORDER convert between the orders.
+leaves perturbations unchanged, since the contact force is zero at the release. If an impact forces a release, the
+saltation matrix of the impact includes the release. A completed chatter has its own derivative, so that infinitely many
+saltation matrices need not be multiplied. This file orders states as [boxes, balls]; PUBLIC_ORDER and INNER_ORDER
+convert between the orders.
 """
 
 import math
