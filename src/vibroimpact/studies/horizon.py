@@ -6,11 +6,12 @@ from vibroimpact.exact.engine.simulation import simulate
 
 
 def departure(system, state, truth: np.ndarray):
-    """Return the error of a float64 run, the estimate of this error by the run's certificate, and the horizon.
+    """Return the error of a float64 run from `state`, its estimate by the certificate, and `certificate.horizon`.
 
-    truth: (n + 1, 8) true states at the starts of cycles 0 to n, tau = 0 first. Error: largest difference of any
-    component at each of these times, (n + 1,). Estimate: at the same times, (n + 1,), inf past the horizon. Horizon: in
-    forcing cycles, inf if it is not reached.
+    truth: true states (n + 1, 8) at the starts of the forcing cycles 0 to n. The error (n + 1,) is the largest
+    difference of any component between the run and `truth` at the start of each cycle. The estimate (n + 1,) is that of
+    the error at the same times, inf past `certificate.horizon`. `certificate.horizon`, the time of the first event at
+    which the estimate exceeds 1e-3, is returned in forcing cycles; it is inf if the estimate never exceeds 1e-3.
     """
     cycles = len(truth) - 1
     times = np.arange(cycles + 1) * system.period

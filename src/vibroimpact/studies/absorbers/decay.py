@@ -17,16 +17,16 @@ from vibroimpact.system.stored_energy import stored
 CYCLES_PER_RUN = 50
 """Number of cycles in each simulation, after which the energy is checked."""
 SEARCH_FACTOR, SUBDIVISIONS, REFINED_MINIMA = 1.2, 48, 8
-"""Search for the shortest decay. In the range of impulses whose decay times are up to SEARCH_FACTOR times the shortest,
-the grid is made SUBDIVISIONS times finer. Then the REFINED_MINIMA lowest minima on the grid are refined."""
+"""Settings of `quickest_decay`. In the range of impulses whose decay times are up to SEARCH_FACTOR times the shortest,
+the grid of impulses is made SUBDIVISIONS times finer. Then the REFINED_MINIMA lowest minima on the grid are refined."""
 
 
 def decay_time(system: System, impulse: float, module: int = 1, fraction: float = 0.1, cycles: int = 10_000) -> float:
-    """Return the time tau after an impulse on a box until a fraction of the energy is left.
+    """Return the time tau from an impulse on a box until only a fraction of the initial energy is left.
 
     The forces are set to zero. The system is at rest before the impulse, the balls in the middle of their boxes. The
-    energy decreases monotonically, so that it passes the fraction once: in a flight, where the time is a root of a
-    closed form, or at an impact.
+    energy decreases monotonically, so that it falls to `fraction` of its initial value once. If this happens between
+    impacts, the time is the root of a function in closed form; else it is the time of an impact.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
     fraction : float, default 0.1
         Fraction of the initial energy, between 0 and 1.
     cycles : int, default 10000
-        Largest number of forcing periods.
+        Largest number of forcing periods that are simulated.
 
     Returns
     -------
@@ -76,10 +76,11 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
 
 
 def quickest_decay(system: System, impulses, times, module: int = 1, fraction: float = 0.1) -> tuple[float, float]:
-    """Return the impulse with the shortest decay to a fraction of the energy, and its decay time.
+    """Return the impulse after which the energy falls to a fraction soonest, and the time that this takes.
 
     As a function of the impulse, the decay time jumps where an impact appears or vanishes, and has many minima between
-    the jumps. `SUBDIVISIONS` sets the resolution of the search; minima over narrower ranges of impulses are missed.
+    the jumps. The search compares impulses on a grid (see `SUBDIVISIONS`); it may miss a minimum that is narrower than
+    the spacing of this grid.
 
     Parameters
     ----------
@@ -121,13 +122,13 @@ def quickest_decay(system: System, impulses, times, module: int = 1, fraction: f
 
 
 def _energies(system, states):
-    """Return the stored energy of states (..., 8), which list the components of the boxes before those of the balls."""
+    """Return the stored energy of states (..., 8) in the order of a flight: all of the boxes, then all of the balls."""
     values = np.moveaxis(states, -1, 0)
     return stored(system.stiffness2, system.alpha12, system.epsilon, values[:4], values[4:])
 
 
 def _time_within(system, flight, target):
-    """Return the time since the start of a flight at which the energy falls to the target."""
+    """Return the time from the start of `flight` until the energy has fallen to `target`."""
     stuck = flight[WALLS : WALLS + 2] != 0
     rate, boxes, balls = rate_matrix(system, stuck)[:4, :4], flight[BEFORE : BEFORE + 4], flight[BEFORE + 4 : AFTER]
 

@@ -11,7 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 from vibroimpact.system.arguments import pair, real, whole
 
 POINTS = 400
-"""Number of frequencies sampled in a band, in addition to natural frequencies; each local maximum is then refined."""
+"""Number of frequencies in a band at which a response is sampled, in addition to the natural frequencies."""
 DECAY_EXPONENT = 40
 """Exponent of the longest decay time: beyond 2**DECAY_EXPONENT units of tau, the decay time is inf."""
 
@@ -37,9 +37,9 @@ class Linear:
     scale: Callable = np.ones_like
 
     def amplitudes(self, Omega) -> np.ndarray:
-        """Return the largest |X_i| of the steady response, shape (..., 2), at frequencies (...).
+        """Return the amplitude of X_1 and of X_2 in the steady response, (..., 2), at the frequencies `Omega`, (...).
 
-        The root mean square is this value divided by sqrt(2).
+        The root mean square of X_i is its amplitude divided by sqrt(2).
 
         Raises
         ------
@@ -49,7 +49,7 @@ class Linear:
         return np.abs(self._responses(Omega)[..., :2])
 
     def strokes(self, Omega) -> np.ndarray:
-        """Return the largest |X_i - Y_i| of the steady response, shape (..., 2), the strokes of the absorbers.
+        """Return the stroke of each absorber, the largest |X_i - Y_i| of the steady response, shape (..., 2).
 
         Raises
         ------
@@ -107,7 +107,7 @@ class Linear:
 
     @property
     def rate(self) -> np.ndarray:
-        """Rate matrix of [X, X'] without force, shape (2n, 2n)."""
+        """Matrix A of the motion without force, d/dtau [X, X'] = A [X, X'], shape (2n, 2n)."""
         n = len(self.force)
         upper = np.hstack([np.zeros((n, n)), np.eye(n)])
         return np.vstack([upper, -np.linalg.solve(self.mass, np.hstack([self.stiffness, self.damping]))])
@@ -118,12 +118,10 @@ class Linear:
         return eigvals(self.rate)
 
     def decay_time(self, module: int = 1, fraction: float = 0.1) -> float:
-        """Return the time tau until a fraction of the energy of an impulse is left; inf above 2**DECAY_EXPONENT.
+        """Return the time tau from an impulse on a box at rest until only a fraction of its energy is left.
 
-        The impulse acts on one box of a system at rest.
-
-        The energy decreases monotonically, so that it passes the fraction once. The time does not depend on the size of
-        the impulse.
+        The energy decreases monotonically, so that it falls to `fraction` of its initial value once. The time does not
+        depend on the size of the impulse. It is inf if it exceeds 2**DECAY_EXPONENT.
 
         Raises
         ------

@@ -17,7 +17,7 @@ from vibroimpact.system import System
 from vibroimpact.system.state import inactive_at_rest
 
 QUANTILE = 0.99
-"""Fraction of the cycles in which the largest displacement is at most the peak."""
+"""The peak is the displacement that a cycle does not exceed in this fraction of all cycles."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
     Parameters
     ----------
     cycles, settle : int
-        As for `ensemble`: each run lasts `cycles` and is observed after `settle`.
+        As for `ensemble`: each run lasts `cycles` forcing periods and is observed after the first `settle` of them.
 
     Raises
     ------
@@ -105,10 +105,10 @@ def peak_of(largest: ArrayLike) -> np.ndarray:
 
 
 def standard_error(largest: ArrayLike) -> float:
-    """Return the standard error of the highest peak (`peak_of`), by a jackknife that leaves out one start at a time.
+    """Return the standard error of the highest `peak_of` of all systems, by a jackknife over the starts.
 
-    The starts are taken as independent; the cycles of one start need not be. The error is large if a single start
-    determines the peak. It is nan for fewer than 2 starts.
+    The jackknife leaves out one start at a time. It assumes that the starts are independent, but not that the cycles of
+    one start are. The error is large if a single start determines the highest peak, and nan for fewer than 2 starts.
     """
     largest = np.asarray(largest)
     count = largest.shape[1]

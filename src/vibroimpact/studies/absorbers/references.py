@@ -84,9 +84,10 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
 
 
 def _attached(matrix, links):
-    """Return the matrix (4, 4) of boxes and absorbers.
+    """Return the stiffness or damping matrix (4, 4) of the boxes with their absorbers.
 
-    matrix: of the boxes alone, (2, 2). links: stiffness or damping between each box and its absorber, (2,).
+    matrix: the stiffness or damping matrix of the boxes alone, (2, 2). links: stiffness of the spring, or coefficient
+    of the damper, between each box and its absorber, (2,).
     """
     link = np.diag(links)
     return np.block([[matrix + link, -link], [-link, link]])

@@ -11,8 +11,8 @@ from vibroimpact.system.arguments import instance
 STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
 """Starting points of the optimisation, as multiples of the textbook frequencies."""
 BOUND_FACTOR = 100.0
-"""Largest factor between optimised and textbook tuning, up and down. In a band that is narrow or contains no resonance,
-the optimum has the least damping or stiffness that this factor allows."""
+"""Each optimised frequency and damping ratio lies between 1 / BOUND_FACTOR and BOUND_FACTOR times its textbook value.
+In a band that is narrow or contains no resonance, the best damping ratio or frequency is the lowest one allowed."""
 
 
 def textbook_tuning(system: System) -> Tuning:
@@ -135,7 +135,11 @@ def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
 
 
 def _levels(logarithms, system, frequencies, scale):
-    """Return the logarithms of |X_i| of both boxes at all frequencies, bounded below for a box that does not move."""
+    """Return the logarithms of the amplitudes of both boxes at all `frequencies`, as one array.
+
+    logarithms: of both frequencies and both damping ratios of the absorbers, (4,). An amplitude below 1e-12 times the
+    largest one is replaced by this bound, since a box may not move at all.
+    """
     amplitudes = tuned(system, _tuning(logarithms), scale).amplitudes(frequencies)
     return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
 

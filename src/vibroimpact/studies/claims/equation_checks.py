@@ -17,7 +17,7 @@ _TERMS = {"one term": "distance", "two terms": "two terms"}
 
 
 def small_balls(evidence):
-    """Compare M << m as printed with epsilon = m / M << 1."""
+    """Check the printed condition M << m, and its correction epsilon = m / M << 1, at the epsilon of the cases."""
     epsilon = evidence.system.epsilon
     return as_printed(1 / epsilon < 1, epsilon < 1, **{"M / m": 1 / epsilon, "m / M": epsilon})
 
@@ -51,7 +51,8 @@ def bound_of_the_balls(evidence):
 def common_impact_instants(evidence):
     """Check whether both modules in (10.2) share one sequence tau_j of impact times, or have one sequence each.
 
-    The measure is the distance of each ball from the nearer wall at the impacts.
+    At each impact the distance of both balls from their nearer wall is measured: of the ball that hits, and of the ball
+    of the other module.
     """
     own, other = [], []
     for simulation in evidence.simulations.values():
@@ -67,9 +68,9 @@ def common_impact_instants(evidence):
 
 
 def equations_in_U_and_W(evidence):
-    """Check (10.3) line by line at random states between impacts, then at impacts.
+    """Check (10.3) line by line at a random state between impacts, and its jumps at random impacts.
 
-    The accelerations come from (10.2).
+    The accelerations of this state come from (10.2).
 
     As printed, line W1 has the force on box 2. As corrected, this line has the force on box 1.
     """
@@ -121,14 +122,17 @@ def leading_order_solution(evidence):
 
 
 def _vanish(found, **others):
-    """Return the Finding on residuals that must vanish to rounding, with the largest residual of each name."""
+    """Return the Finding whose parts hold if the largest residual of each name vanishes to rounding.
+
+    found: a list of dictionaries name -> residuals, each with the same names. others: further residuals by name.
+    """
     worst = {name: max(np.abs(residuals[name]).max() for residuals in found) for name in found[0]} | others
     parts = {name: value < ROUNDING for name, value in worst.items()}
     return Finding(parts, {f"residual of {name}": value for name, value in worst.items()})
 
 
 def manifold_from_impact_conditions(evidence):
-    """Check (10.15), (10.16) and (10.17) against (10.12) and (10.14) at random phases."""
+    """Check (10.15), (10.16) and (10.17) against (10.12) and (10.14) at random values of C."""
     found = []
     for kappa in KAPPAS:
         r = rho(kappa)

@@ -18,7 +18,7 @@ CHECKS = {
     for name, found in vars(module).items()
     if isfunction(found) and found.__module__ == module.__name__ and not name.startswith("_")
 }
-"""Checks by name: all public functions of these modules."""
+"""Checks by name: all public functions of `MODULES`."""
 NOT_JUDGED = "not judged"
 FIELDS = ("id", "place", "statement", "check", "refuted_by")
 OPTIONAL = ("arguments", "central", "fact")

@@ -13,7 +13,7 @@ from vibroimpact.theory.masri import impact_multipliers, limit_with_squares, low
 
 KAPPAS = np.linspace(0.01, 0.99, 99)
 EXPONENTS = range(4)
-"""Exponents of pi and rho in (10.26) that a misprint may have changed."""
+"""Exponents tried for pi and for rho in (10.26), in case a misprint has changed the printed ones."""
 TOLERANCE = 1e-9
 
 
@@ -31,7 +31,7 @@ def fold_of_the_manifold(evidence):
 
 
 def no_penetration(evidence):
-    """Check |W_0| <= 1 by sampling a cycle: for C < 0, for the fixed points and for C from 0 to large values."""
+    """Sample a cycle, and check that |W_0| exceeds 1 for C < 0, but not at the fixed points or for any C >= 0."""
     kappa = evidence.system.kappa
     points = evidence.fixed_points[["C1", "C2"]].to_numpy()
     end = largest_C(kappa)
@@ -51,7 +51,7 @@ def _furthest(C, kappa):
 
 
 def printed_condition(evidence):
-    """Check (10.26) against the multipliers of the impact map, at the limit and above it.
+    """Check (10.26), a lower limit on C, against the multipliers of the impact map at this limit and above it.
 
     (10.26) is a misprint if it holds with other exponents p and q in 4 / (4 + pi^p rho^q). `numbers` also contains the
     interval of lower limits of C for which all captions hold, and the exponents p, q whose limit lies in this interval.
@@ -153,9 +153,10 @@ def left_arm_has_a_stable_piece(evidence):
 
 
 def stability_regions(evidence):
-    """Measure the share of each region of Fig. 10.5, with C from 0.5 to 1.1, whose stability is as drawn.
+    """Check the shaded (stable) and the white (unstable) region of Fig. 10.5 against the impact map.
 
-    Also check that the border in the figure lies below the curve C_min(kappa) for every kappa.
+    For C from 0.5 to 1.1, the share of each region that has the stability drawn is measured. The border between both
+    regions, (10.26), must lie below the curve C_min(kappa) for every kappa.
     """
     kappa, C = (values.ravel() for values in np.meshgrid(KAPPAS, np.linspace(0.5, 1.1, 61)))
     border, stable = printed_limit(rho(kappa)), _stable(C, kappa)

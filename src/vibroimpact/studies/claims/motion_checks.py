@@ -61,7 +61,7 @@ def numerical_results_are_similar(evidence, case, label):
 
 
 def transients_are_long(evidence, case):
-    """Check that the slowest perturbation of a stable orbit needs more than 10 cycles to shrink to a tenth."""
+    """Check that on a stable exact orbit of the case a perturbation needs more than 10 cycles to shrink to a tenth."""
     motions = evidence.motions(case)
     stable = motions[motions["exact"] == STABLE]
     cycles = (np.log(0.1) / np.log(stable["modulus_1"])).max()
@@ -101,7 +101,10 @@ def no_practical_importance(evidence, case, label):
 
 
 def resonant_intervals(evidence, case):
-    """Check for bursts of resonance with shorter pauses between them, and for a positive Lyapunov exponent."""
+    """Check that bursts of resonance are longer than the pauses between them, and that the motion is chaotic.
+
+    The motion counts as chaotic if its largest Lyapunov exponent exceeds five times the uncertainty.
+    """
     share, burst = (
         evidence.measured(case, "spread", quantity).set_index("module")["mean"].loc[[1, 2]].to_numpy()
         for quantity in ("resonant share", "burst length")
@@ -126,7 +129,7 @@ def beating(evidence, case):
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
-    """Check that the first of several cases has stable fixed points, and the last only unstable ones and modulation."""
+    """Check that the first case of `sequence` has a stable fixed point, and the last has none but modulated motions."""
     points = [evidence.points(case) for case in sequence]
     in_theory = [int((rows["theory"] == STABLE).sum()) for rows in points]
     exactly = [int((rows["exact"] == STABLE).sum()) for rows in points]
@@ -200,7 +203,7 @@ def _at_epsilon(evidence):
 def assesses_stability(evidence):
     """Measure the share of right verdicts of each criterion over a grid of forces.
 
-    The multipliers of the exact orbits are the reference.
+    A verdict on a fixed point is right if it equals the verdict by the multipliers of the point's exact orbit.
 
     `numbers` contains a confusion matrix per criterion and epsilon: rows for the verdict of the criterion, columns for
     the exact verdict, in the order stable, unstable. Points without an exact orbit are counted separately, by the
@@ -250,7 +253,10 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
 
 def _points_beside_orbits(system, kappa, force):
-    """Return the fixed points at two equal forces, and True if they are the limits of all symmetric exact orbits."""
+    """Return the fixed points, and True if they are the limits of all symmetric exact orbits as epsilon tends to 0.
+
+    Both forces are equal to `force`, and the restitution coefficient is `kappa`.
+    """
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)
     roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))

@@ -24,7 +24,7 @@ CONTINUATION_VALUES = 111
 
 
 def number_of_fixed_points(evidence, case, number):
-    """Check the number of fixed points; interval arithmetic proves that the list is complete."""
+    """Check the number of fixed points, and that interval arithmetic proves the list of them complete."""
     proof = evidence.proofs[case]["fixed_points"]
     listed = len(evidence.points(case))
     parts = {f"{number} with C1, C2 >= 0": listed == number and proof["complete"]}
@@ -104,10 +104,10 @@ def points_move_left(evidence, before, after):
 
 
 def stable_point_moves_down_the_right_arm(evidence, before, after, label):
-    """Check that the stable point moves down the right arm between two captions, by label and by continuation.
+    """Check that the stable fixed point moves down the right arm from the case `before` to the case `after`.
 
-    As the second amplitude falls, the stable point of the first caption continues to a point with another letter in the
-    second caption.
+    The point in the case `after` is found in two ways: by its letter in the captions, and by continuation as the second
+    forcing amplitude falls. The continuation leads to a point with another letter.
     """
     fold, r = C_min(rho(evidence.system.kappa)), rho(evidence.system.kappa)
     first, named = (evidence.points(case).loc[label, list(NAMES)].to_numpy(float) for case in (before, after))
@@ -122,7 +122,7 @@ def stable_point_moves_down_the_right_arm(evidence, before, after, label):
 
 
 def _followed(evidence, before, after, C):
-    """Follow a fixed point from one case to another, and return its C there.
+    """Follow the fixed point with amplitudes `C` from the case `before` to the case `after`; return its C in `after`.
 
     The second forcing amplitude changes in small steps.
     """
@@ -134,7 +134,7 @@ def _followed(evidence, before, after, C):
 
 
 def singular_and_bifurcating(evidence, case, f20_range):
-    """Check if a bifurcation occurs where a fixed point P_i coincides with a singular point S_i.
+    """Check whether a bifurcation occurs where a fixed point P_i coincides with a singular point S_i.
 
     The force at which a fixed point becomes singular is compared with the force at which two fixed points merge.
     """
@@ -167,7 +167,7 @@ def _determinant_on_branch(system, f20):
 
 
 def _nearest_singular(system, point):
-    """Return the smallest distance in C_i between a fixed point and a singular point, over both modules."""
+    """Return the smallest |C_i - C| between a fixed point and a singular point of module i at C, for i = 1, 2."""
     gaps = [np.abs(singular_points(system, point, i)[:, 0] - point.C[i - 1]) for i in (1, 2)]
     return np.concatenate(gaps).min(initial=np.inf)
 

@@ -17,9 +17,9 @@ NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
     """Return a row per fixed point and epsilon, for forces at the centres of `points` x `points` cells.
 
-    The columns are epsilon, f10_hat, f20_hat, C1 and C2 of the fixed point, which do not depend on epsilon, one column
-    per criterion of the theory, admissible and exact. admissible is True if the exact orbit of the point stays between
-    the walls. exact is the verdict on this orbit, or "no orbit" (see `verdict_table.partners`).
+    The columns are epsilon, f10_hat, f20_hat, C1, C2, one column for each criterion of the theory, admissible, exact.
+    C1 and C2 are those of the fixed point and do not depend on epsilon. admissible is True if the exact orbit of the
+    point stays between the walls. exact is the verdict on this orbit, or "no orbit" (see `verdict_table.partners`).
     """
     forces = plane_of_forces(f10_range, f20_range, points)
     plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
@@ -41,9 +41,9 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
 def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
     """Return a row for each epsilon and each fixed point of a system.
 
-    The columns are epsilon, label, C1 and C2 of the fixed point, one column per criterion of the theory, exact and
-    multiplier. The verdicts are as in `compute`. multiplier is the largest modulus of a multiplier of the exact orbit,
-    blank without an orbit.
+    The columns are epsilon, label, C1, C2, one column for each criterion of the theory, exact and multiplier. label, C1
+    and C2 are those of the fixed point. exact is the verdict on its exact orbit, or "no orbit". multiplier is the
+    largest modulus of a multiplier of this orbit, blank without an orbit.
     """
     points, rows = fixed_points(system), []
     for value in epsilon:
@@ -68,6 +68,9 @@ def exact_orbits(system, points, roots):
 
 
 def exact_verdicts(system, points, roots):
-    """For each fixed point, yield "admissible" and "exact" of its orbit, as in `compute`."""
+    """For each fixed point, yield a dictionary with the values of the columns "admissible" and "exact" of `compute`.
+
+    points, roots: as for `exact_orbits`.
+    """
     for orbit in exact_orbits(system, points, roots):
         yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, EXACT: floquet(orbit)}

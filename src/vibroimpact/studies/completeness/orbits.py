@@ -1,7 +1,9 @@
 """Prove in interval arithmetic (python-flint's arb) that the list of symmetric 1:1 responses is complete.
 
-The equations of symmetric.py are P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))). Let P_1,
-P_2 be the rows of P. Eliminating the phase phi leaves one complex equation that is linear in the real C_1, C_2,
+The equations of symmetric.py are P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))), with the
+impact times tau_i at wall +1, the lag delta = tau_2 - tau_1, the phase phi = Omega tau_1, a complex matrix P (2, 2) and
+the forced amplitudes a_i. Let P_1, P_2 be the rows of P. Without phi, one complex equation is left, which is linear in
+the real C_1, C_2,
 
     (w_2 P_1 - w_1 P_2) . C = i (w_1 - w_2),        w_1 = a_1,  w_2 = a_2 exp(i Omega delta),
 
@@ -12,9 +14,9 @@ equation for delta alone,
 
 Where D is not 0 the roots of F are exactly the solutions, each with one C and one phase. F is smooth on [0, T/2] and on
 [T/2, T]. Both halves are bisected until, on each interval, the enclosure of F excludes 0, or the enclosures of F' and D
-both exclude 0. In the latter case F is monotonic, and its signs at the two ends of the interval show if there is one
-root or none. The domain is complete: any lag, any phase, any real C. Intervals that are undecided at the smallest width
-(a double root, a root at a kink) are reported.
+both exclude 0. In the latter case F is monotonic, and its signs at the two ends of the interval show whether F has one
+root or none in the interval. The proof covers any lag, any phase and any real C. Intervals that are undecided at the
+smallest width (a double root, a root at a kink) are reported.
 
 For a single machine, |P_kk C_k + i| = |a_k| is a quadratic equation for C_k.
 """
@@ -41,7 +43,7 @@ _TERMS = 3
 
 @dataclass(frozen=True)
 class Proof:
-    """Proof of the list of symmetric orbits of a system with exactly these float64 matrices and forcing.
+    """Proof that the list of symmetric orbits of a system is complete; float64 parameters are taken as exact.
 
     isolated: ascending intervals of the lag (tau_2 - tau_1) / T, or of C for a single machine, each with exactly one
         symmetric response.
@@ -75,7 +77,7 @@ def certify(system) -> Proof:
 
 
 def _of_one_module(system):
-    """Return the intervals of C with exactly one root, and the undecided intervals, both ascending."""
+    """Return the intervals of C with exactly one symmetric response, and the undecided intervals, both ascending."""
     if not system.modules:
         return [], []
     i, condition = system.modules[0] - 1, _Condition(system)
@@ -92,7 +94,7 @@ def _of_one_module(system):
 
 
 def _bisect(condition):
-    """Return the intervals of the lag over T with exactly one root, and the undecided intervals, both ascending."""
+    """Return the intervals of delta / T with exactly one root of F, and the undecided intervals, both ascending."""
     pending = [(half, k / _FIRST, (k + 1) / _FIRST) for half in (0, 1) for k in range(_FIRST)]
     isolated, undecided = [], []
     for visited in itertools.count():
@@ -111,7 +113,7 @@ def _bisect(condition):
 
 
 class _Condition:
-    """F and D of the module docstring, with derivatives, on intervals of delta."""
+    """The functions F and D of the lag delta (see the module docstring), with their derivatives, on intervals."""
 
     def __init__(self, system):
         boxes = SteadyBoxes(system, sign=-1)
@@ -124,7 +126,7 @@ class _Condition:
         self.larger = int(abs(self.amplitude[1]).mid() > abs(self.amplitude[0]).mid())
 
     def count(self, lower, upper, half):
-        """Return the number of roots with delta in (half + [lower, upper]) T/2: 0, 1, or None if undecided."""
+        """Return the number of roots of F with delta in (half + [lower, upper]) T/2: 0, 1, or None if undecided."""
         radius = (upper - lower) / 2
         step = arb(0, radius) * self.half_period
         F0, _ = self._at(arb((lower + upper) / 2), half)
@@ -159,14 +161,20 @@ class _Condition:
         return _coefficients(F), _coefficients(D)
 
     def _taylor(self, motion, direction):
-        """Return the Taylor coefficients of a motion of the boxes, forward or backward in time."""
+        """Return the Taylor coefficients of a free motion of the boxes in time.
+
+        motion: its state. direction: 1 for forward in time, -1 for backward.
+        """
         terms = [motion]
         for k in range(1, _TERMS):
             terms.append(self.rate * terms[-1] * (arb(direction) / k))
         return terms
 
     def _entry(self, terms, row, column):
-        """Return P[row, column], row != column, from the Taylor coefficients of a response."""
+        """Return P[row, column], row != column.
+
+        terms: Taylor coefficients of the response of the boxes to the impacts of ball `column`.
+        """
         return _series([self.kick * acb(m[2 + row, column] / self.omega, m[row, column]) for m in terms])
 
     def _own(self, i):

@@ -44,7 +44,7 @@ Box = tuple[tuple[float, float], ...]
 
 @dataclass(frozen=True)
 class Proof:
-    """Proof of the list of fixed points of a system with exactly these float64 hatted parameters.
+    """Proof that the list of fixed points of a system is complete; its float64 hatted parameters are taken as exact.
 
     isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point; for asymmetric
         points, pairs of charts and boxes of the chart parameters. For a single machine a box has one interval, and one
@@ -132,7 +132,7 @@ def _same(box, known):
 
 
 def _all_zeros(system, pairs):
-    """Return the boxes with exactly one zero, and the undecided boxes, each with its pair of charts.
+    """Return the boxes with exactly one zero of the conditions, and the undecided boxes, each with its pair of charts.
 
     Boxes of zeros outside the square |x_i| <= 1 are left out.
     """
@@ -147,12 +147,12 @@ def _all_zeros(system, pairs):
 
 
 def _active(system, both) -> tuple:
-    """Return the entries of a pair (one per module) that belong to active modules."""
+    """Return those entries of `both`, which has one entry per module, that belong to active modules."""
     return tuple(both[module - 1] for module in system.modules)
 
 
 def _subdivide(conditions):
-    """Return the boxes with exactly one zero, and the undecided boxes."""
+    """Subdivide the square |x_i| <= 1; return the boxes with exactly one zero, and the undecided boxes."""
     pending, found, undecided = [(0.0, 0.0, 1.0)], [], []  # half-widths are powers of two, so that centres are exact
     for visited in itertools.count():
         if not pending:
@@ -179,9 +179,10 @@ def _subdivide(conditions):
 
 
 def _narrowed(conditions, x, y, half):
-    """Return the centre and half-width of a small box about the zero of a wide one, or None.
+    """Return the centre and half-width of a small box about the only zero in a wide box, or None.
 
-    The result is None if the box cannot be narrowed, or if the phases at the zero are not unique.
+    The wide box has the centre (x, y) and the half-width `half`. The result is None if it cannot be narrowed, or if the
+    phases at the zero are not unique.
     """
     while half > _ISOLATED_WIDTH:
         _, (x, y, half) = conditions.count(x, y, half)
@@ -197,7 +198,7 @@ def _box(x, y, half) -> Box:
 
 
 class _Conditions:
-    """Both conditions in one pair of charts, expanded about the centre of a box in t = (x - centre) / half.
+    """Both conditions for a fixed point in one pair of charts, as polynomials in t = (x - centre) / half on a box.
 
     A local polynomial, valid for |t| <= _REACH, is an array of intervals: entry [j, k] is the factor of t_1^j t_2^k.
     """
@@ -244,7 +245,7 @@ class _Conditions:
         return 1, (x + centre[0], y + centre[1], radius + rounding)
 
     def phases_follow(self, x, y, half):
-        """Return True if Delta is not 0 near (x, y), so that m_i / Delta has unique phases."""
+        """Return True if Delta is not 0 in _REACH times the box about (x, y), so that m_i / Delta has unique phases."""
         return _excludes_zero(self._sides(x, y, _REACH * half)[0])
 
     def _sides(self, x, y, half):
@@ -254,7 +255,9 @@ class _Conditions:
         return _modulus_squared(delta), np.multiply.outer(beta1, n1), np.multiply.outer(n2, beta2)
 
     def _expanded(self, module, at, half):
-        """Return the coefficients of z, q = e z + n, beta^2 and the other module's |m|^2 in t = (x - at) / half.
+        """Return the coefficients of z, q = e z + n, beta^2 and |m|^2 as polynomials in t = (x - at) / half.
+
+        z, q and beta are those of `module`; m is the numerator of the other module, which depends on the same x.
 
         The highest coefficients of z, q, beta and m are intervals that include the remainder for |t| <= _REACH.
         """
@@ -313,7 +316,7 @@ def _size(polynomial, reach):
 
 
 def _slope(polynomial, reach):
-    """Return a bound on the sum of the moduli of both derivatives for |t| <= reach."""
+    """Return a bound on the sum of the moduli of the derivatives by t_1 and by t_2 for |t| <= reach."""
     degrees = _degrees(polynomial)
     return (degrees * abs(polynomial) * reach ** np.maximum(degrees - 1, 0)).sum()
 

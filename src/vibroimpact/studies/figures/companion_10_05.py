@@ -41,9 +41,9 @@ NAMES = {
     "printed": ("(10.26)", 0.4, (5, -8), "left"),
     "penetration": (r"$\leftarrow$ the ball would leave the box", 0.16, (5, 0), "left"),
 }
-"""For each limit: name in the figure, kappa of the name, offset from the line in points, and horizontal alignment."""
+"""For each limit: its name in the figure, and the kappa, offset from the line [points] and alignment of the name."""
 KAPPA_MARGIN = 1e-9
-"""Smallest distance of kappa from 0 and from 1, which the impact law excludes."""
+"""Smallest distance of kappa from 0 and from 1; `System` accepts neither 0 nor 1."""
 
 
 def compute(C_range: tuple[float, float]) -> dict:

@@ -34,7 +34,7 @@ SPEC = {
 PANELS = {"theory": "theory: fixed point ({})", "simulation": "simulated"}
 PERIODS = 2
 MOST_FLIGHTS = 4
-"""Largest number of flights per period at which the figure shows their lengths."""
+"""The figure shows the lengths of the flights of a motion with at most this number of flights per forcing period."""
 
 
 def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
@@ -110,7 +110,7 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def _name_flights(axes, impacts):
-    """Label each flight with its length in periods, beyond the wall that it leads to."""
+    """Write the length of each flight, in forcing periods, beside the wall at which the flight ends."""
     phase, wall = impacts["phase"].to_numpy(), impacts["W2"].to_numpy()
     if len(phase) > MOST_FLIGHTS * PERIODS:
         return

@@ -110,11 +110,11 @@ PEAK, LOWEST, PLATEAU, STROKE, DECAY = "peak", "lowest peak", "plateau", "stroke
 """Names of quantities in the summary; `_response_ratios` defines further names."""
 LIGHT = "#D55E00"
 STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgewidth": 0.4, "linestyle": "none"}
-"""Colour for the best restitution coefficient, and marker of the lowest peaks."""
+"""LIGHT is the colour of the best restitution coefficient, STAR the marker of the lowest peaks."""
 MARGIN_FACTOR = 1.25
-"""Factor that defines the margin of a clearance: the range with peaks up to MARGIN_FACTOR times the lowest peak."""
+"""The margin of the best clearance is the range of clearances with peaks up to MARGIN_FACTOR times the lowest peak."""
 PLATEAU_FACTOR = 1.2
-"""Factor that defines the plateau: the lowest peaks are at most PLATEAU_FACTOR times the lowest of all."""
+"""On the plateau, the range of small kappa, the lowest peaks are at most PLATEAU_FACTOR times the lowest of all."""
 FROM, TO = "plateau from", "plateau to"
 REMEASURED_PEAKS = 2
 """Number of the lowest peaks of a sweep that are measured again."""
@@ -133,8 +133,8 @@ def compute(
 
     The lowest peak of a sweep is biased: the lowest of many values with random errors is too low. So the
     REMEASURED_PEAKS lowest peaks are measured again (`absorbers.peaks`), from rest and other starts, at the
-    frequencies of the band and half-way between them. The lowest new value is reported, with its standard error. A
-    motion that no start reaches may still move the boxes further.
+    frequencies of the band and half-way between them. The lowest of the new values is reported, with its standard
+    error. It is a lower bound, since a motion that no start reaches may move the boxes further.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def compute(
     seed : int
         Seed of the starts in the sweeps.
     cycles, settle : int
-        Cycles of a run in the sweeps, and cycles before its observation.
+        Forcing periods of each run in the sweeps, and how many of them are left out at its start.
 
     Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f), one_ball; and "summary":
     columns quantity, who, value, ... (see SPEC).
@@ -202,7 +202,10 @@ def _peaks(system, table):
 
 
 def _lowest(table, number):
-    """Return the points with the lowest peaks in a sweep over the clearance, each with the margin of its clearance."""
+    """Return the `number` points with the lowest peaks in a sweep over the clearance.
+
+    Each point has the margin of its clearance (see MARGIN_FACTOR) as "narrowest" and "widest".
+    """
     beside, places = table.sort_values("clearance").reset_index(drop=True), []
     for here in beside["ratio"].nsmallest(number).index:
         place = beside.loc[here].to_dict()
@@ -249,10 +252,11 @@ def _of_restitution(places):
 
 
 def plateau(places):
-    """Return the largest kappa on the plateau, and the least and the greatest of the lowest peaks on it.
+    """Return the largest kappa on the plateau, and the least and the greatest of the lowest peaks on the plateau.
 
-    Up to this kappa each lowest peak is at most PLATEAU_FACTOR times the lowest of all. If the lowest peak at the least
-    kappa is already higher than this, all three results are nan.
+    places: the point with the lowest peak for each kappa, ascending in kappa. Up to the end of the plateau, each lowest
+    peak is at most PLATEAU_FACTOR times the lowest of all. If the lowest peak at the least kappa is already higher, all
+    three results are nan.
     """
     level = PLATEAU_FACTOR * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))
@@ -268,7 +272,7 @@ def _strokes(system, linear, band):
 
 
 def _response_ratios(system, response, band):
-    """For each pair of forces and linear system, yield statistics of the ratio of responses (balls / linear system)."""
+    """For each pair of forces and each linear system, yield statistics of the response with balls over its response."""
     for pair, rows in response.groupby(FORCES, sort=False):
         for name, one in linear_systems(system, pair, band).items():
             times = rows["ratio"] / ratios(system, one, rows["sigma_e_hat"])
@@ -278,9 +282,9 @@ def _response_ratios(system, response, band):
 
 
 def _decays(system, linear):
-    """Yield rows with the decay time, in forcing periods, after an impulse on box 1.
+    """Yield rows with the time, in forcing periods, in which the energy decays after an impulse on box 1.
 
-    With balls, the impulse is the one with the quickest decay; in a linear system every impulse has the same decay.
+    With balls, the impulse is the one with the quickest decay. In a linear system, all impulses have the same time.
     """
     times = [decay_time(system, impulse, fraction=ENERGY_FRACTION) for impulse in IMPULSES]
     found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=ENERGY_FRACTION)[1]}

@@ -229,7 +229,10 @@ def _manifold(kappa, C_max):
 
 
 def _pairs(system, orbits):
-    """For one orbit of each mirror pair with positive C, yield its label and its root of the asymmetric equations."""
+    """For each mirror pair of orbits with positive C, yield the label and the root (6,) of one of both orbits.
+
+    The root is one of the equations for asymmetric orbits (`AsymmetricConditions`).
+    """
     rows = orbits[~orbits["symmetric"].astype(bool) & ~(orbits["C1"] <= 0) & ~(orbits["C2"] <= 0)]
     one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]
     for _, row in one_each.iterrows():
@@ -239,9 +242,9 @@ def _pairs(system, orbits):
 
 
 def _in_plane(case, series, label, limit, *places):
-    """Yield the rows of the modules with unequal flights; `places` holds C, B and v^2 of both modules, each (2,).
+    """Yield a row for each module with unequal flights, of a fixed point or of an exact orbit (`series`).
 
-    limit: fixed point to which an orbit leads, or None.
+    limit: the fixed point to which the orbit leads, or None. places: C, B and v^2 of both modules, each (2,).
     """
     ends = [[np.nan] * 2] * 2 if limit is None else np.transpose([limit.C, limit.B])
     for module, C, B, squared, end in zip((1, 2), *places, ends, strict=True):
@@ -295,7 +298,7 @@ def _title(case):
 
 
 def _draw_manifold(axes, pieces, modules, marks):
-    """Draw the manifold around its asymmetric branch; return the name and line of each branch.
+    """Draw the part of the manifold around its asymmetric branch; return the name and the line of each branch.
 
     A thin line leads from each fixed point to the exact orbit that approaches it as epsilon falls.
     """

@@ -127,7 +127,7 @@ MARKERS = {
     "end, by grazing or at speed zero": ("X", (GRAZING, SPEED_ZERO)),
     "stability is lost": ("D", (SYMMETRY_BREAKING, PERIOD_DOUBLING, NEIMARK_SACKER, HOPF, MANIFOLD_FOLD)),
 }
-"""Legend name -> marker and kinds of points. Kinds in ENDS are always marked, other kinds only at a stable piece."""
+"""Legend name -> marker and kinds of special points; kinds that are not in ENDS are marked only at a stable piece."""
 _SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.2}
 _SPECIAL |= {"zorder": 4, "clip_on": False}
 REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"
@@ -213,7 +213,7 @@ def _special_points(nodes, names):
 
 
 def _on(path, interval, systems):
-    """Yield each case on a path, with its value of the parameter."""
+    """Yield each case whose system lies on `path` within `interval`, with the value of the path's parameter there."""
     places = {case: getattr(system, path.names[0]) for case, system in systems.items()}
     for case, p in places.items():
         if interval[0] <= p <= interval[1] and path(p) == systems[case]:
@@ -289,7 +289,7 @@ def _branches(axes, nodes):
 
 
 def _marks(axes, nodes):
-    """For each name of a mark, return the marker and the special points within the limits of the p axis."""
+    """For each name in MARKERS, return the marker and its special points within the limits of the p axis."""
     special = nodes[nodes["label"].ne("") & nodes["p"].between(*axes.get_xlim())]
     found = {}
     for name, (marker, kinds) in MARKERS.items():

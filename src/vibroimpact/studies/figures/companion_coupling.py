@@ -98,38 +98,38 @@ SPEC = {
 }  # fmt: skip
 
 STRONG = ("equal", "unequal")
-"""Cases with fixed points that the theory calls stable."""
+"""Cases in which the theory calls at least one fixed point stable."""
 WEAK = "weak"
 COUPLINGS = (0.0, 0.3, 1.0, 1.4, 1.5, 1.6, 1.7, 2.0, 3.0, 5.0, 10.0, 16.0, 25.0, 35.0, 40.0, 43.0, 50.0, 70.0, 100.0)
 PROPORTION, HELD = "damper in proportion", "damper held"
 ALIKE = {"sigma20_hat": 0.0, "f10_hat": 1.52, "f20_hat": 1.54}
-"""Parameters at which both balls are asymmetric: modules tuned alike, impacts at different instants."""
+"""Parameters with orbits on which both balls are asymmetric: modules tuned alike, impacts at different instants."""
 LIMITS = (0.5, 100.0)
 FORCES = (0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2, 1.3)
 SETTLED, OBSERVED = 1500, 500
 SAME_POWER = 1e-3
-"""Powers that differ relatively by at most this value count as powers of the same motion."""
+"""Motions count as the same if their powers have at most this relative difference."""
 STARTS, SEED, CYCLES = 32, 1, SETTLED + OBSERVED
 LONG = 10000
-"""Cycles for starts that are not on the asymmetric orbit after SETTLED cycles, since some transients are long."""
+"""Cycles of the longer runs from starts that have not reached the asymmetric orbit after SETTLED cycles."""
 SIDE = 8
 WATCHED, POINTS, ENOUGH = (1.0, 3.0, 30.0), 15, 600
 SYMMETRIC, ASYMMETRIC, ALL, LINEAR = "symmetric", "asymmetric", "all starts", "linear absorber"
 TRIED = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
-"""Couplings at which patterns are also searched for at the forces of the cases."""
+"""Couplings at which patterns are searched for with the parameters of each case in STRONG, instead of with ALIKE."""
 NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 """Couplings at which the second term of (10.7) is computed."""
 ERRORS = ["panel", "series", "case", "coupling", "error", "own_error", "predicted", "orbits", "stable"]
 WELL = 5.0
 """Errors and missing motions at couplings of at least this value are also reported separately."""
 ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", VANISHES: "v"}
-"""Marks of how a stable range ends."""
+"""Marker in the figure for each reason why the stable range of a pattern ends."""
 _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
 BAND = (14.0, 16.5)
 """Lower and upper edge of the band above the errors that marks couplings with missing orbits, in %."""
 _KEY = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.18), "fontsize": 8}
 _KEY |= {"handlelength": 1.3, "handletextpad": 0.4, "columnspacing": 0.6}
-"""Place of the key of a panel, below its axis label."""
+"""Arguments that place the legend of a panel below the label of its x axis, in small type."""
 
 
 def compute(systems: dict) -> dict:
@@ -140,10 +140,10 @@ def compute(systems: dict) -> dict:
     systems : dict
         Case -> system. Patterns and power are computed for the case "equal"; for patterns, the modules are tuned ALIKE.
 
-    Returns "csv" and "summary". The panels of "csv" have different columns. "error", with a series for the damper in
-    proportion and one for the damper held: case, coupling, error, predicted, stable, orbits. "asymmetry", with a series
-    per pattern and coupling at which it was found: coupling, v, stable, ends. "power": force, power, spread,
-    asymmetric_share, stable.
+    Returns "csv" and "summary". The panels of "csv" have different columns. "error", with two series, in which the
+    coupling damper changes in proportion to the coupling spring or is held: case, coupling, error, own_error,
+    predicted, orbits, stable. "asymmetry", with a series per pattern and coupling at which it was found: coupling, v,
+    stable, ends. "power": force, power, spread, asymmetric_share, stable.
     """
     equal = systems["equal"]
     strong = {case: system for case, system in systems.items() if case in STRONG}
@@ -170,9 +170,9 @@ def errors(system) -> list[dict]:
 
     error: larger difference in C_1 or C_2 between the point and its exact orbit, divided by the larger C_i of the
     orbit. own_error: larger relative difference, where the difference in C_i is divided by C_i of the orbit. Both
-    errors are nan if the point has no orbit that is a motion. predicted: True if the theory calls the point stable on
-    both time scales. stable: True if all multipliers of the orbit are inside the unit circle. orbits: number of
-    symmetric motions of the system, the same in all rows.
+    errors are nan if the point has no exact orbit, or if this orbit is not a motion of the system. predicted: True if
+    the theory calls the point stable on both time scales. stable: True if the orbit is a motion whose multipliers are
+    all inside the unit circle. orbits: number of symmetric motions of the system, the same in all rows.
     """
     points = fixed_points(system)
     found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
@@ -201,7 +201,7 @@ def _errors(systems, held):
 
 
 def _two_terms(system):
-    """Return the largest error of C with the second term of (10.7), and the largest second term, by coupling."""
+    """For each coupling, return the largest error of C with two terms of (10.7), and the largest second term."""
     summary = {}
     for value in NEXT_ORDER:
         here = coupled(system, value)
@@ -221,7 +221,10 @@ def _two_terms(system):
 
 
 def _patterns(system):
-    """Return the curves of all stable ranges, their ends, and the shares of starts that end on each pattern."""
+    """Return the curves of all stable ranges of patterns, and quantities for the summary.
+
+    The quantities are the ends of each stable range, and the share of the starts that end on each pattern.
+    """
     curves, summary = [], {}
     for name, start, found, (below, above) in stable_ranges(system, LIMITS):
         series, ends = f"{name}, from {start:g}", [below or None, *[None] * (len(found) - 2), above or None]
@@ -239,7 +242,7 @@ def _patterns(system):
 
 
 def _power(equal):
-    """Return the powers along the force, and the quantities of starts that settle late and of the asymmetric orbit."""
+    """Return the table of the powers at all FORCES, and the quantities of `_power_at` for the summary."""
     rows, quantities = [], {}
     for force in FORCES:
         here, found = _power_at(equal.with_(f10_hat=force, f20_hat=force), force)
@@ -250,7 +253,11 @@ def _power(equal):
 
 
 def _power_at(system, force):
-    """Return the rows of `_power` at one force, and its quantities there."""
+    """Return the rows of the table of powers at one force, and quantities for the summary.
+
+    If some starts have not reached the asymmetric orbit after SETTLED cycles, one quantity is the share of the starts
+    that have. If there is also a symmetric orbit, another quantity is the power of the asymmetric orbit over its power.
+    """
     unit, begun, quantities = force**2, starts(STARTS, SEED), {}
     symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
     symmetric = [orbit for orbit in symmetric if orbit.admissible]
@@ -282,7 +289,11 @@ def _power_on(orbit):
 
 
 def _coexisting(system):
-    """Return the power of modulated starts over that of the asymmetric orbit, which attracts the other starts."""
+    """Compare the power of starts that end modulated with that of the asymmetric orbit, on which the others end.
+
+    Returns quantities for the summary: number of starts, share of those that end on the asymmetric orbit, and mean and
+    spread of the power of the others over that of the orbit; nothing if there is no stable asymmetric orbit.
+    """
     for orbit in asymmetric_orbits(system, both=False)[:1]:
         taken = impact_power(system, plane(orbit.state, SIDE), CYCLES, SETTLED) / _power_on(orbit)
         others = taken[~np.isclose(taken, 1.0, rtol=SAME_POWER)]

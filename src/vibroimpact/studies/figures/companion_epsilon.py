@@ -59,7 +59,7 @@ LOOKS = {
 }
 """Names and styles of the errors in the figure."""
 SLOPES = {"slow": (1, 20.0), TWO_TERMS: (2, 0.1)}
-"""For each curve with a triangle: slope, and factor by which the triangle lies above the end of the curve."""
+"""For each curve with a triangle: its slope, and the factor by which its sloping side passes above the last error."""
 
 
 def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict | None = None) -> dict:

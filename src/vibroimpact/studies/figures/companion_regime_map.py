@@ -66,17 +66,17 @@ SPEC = {
 
 BORDERS = ("fixed points", STABLE_POINTS := "stable points")
 HALVINGS = 4
-"""Number of bisections between two cells with different counts; the border is found to 1/32 of the cells' distance."""
+"""Number of bisections between two cells with different numbers of points; the error is at most 1/32 of a cell."""
 COEXISTING = "coexisting"
 SMALLEST_NAMED_PATCH = 20
 """Smallest size, in cells, of a patch that bears the name of its regime; the legend lists regimes without a name."""
 CELL_ASPECT = 0.5
-"""Ratio of width to height assumed for a cell in the search for the place of a name: names are wider than high."""
+"""Ratio of width to height that the search for the place of a name assumes for a cell, as names are wider than high."""
 _BORDER = {"color": BLACK, "linewidth": 1.4}
 _CASES = {"linestyle": "none", "marker": "x", "color": BLACK, "markersize": 5.0, "markeredgewidth": 1.2}
 _STROKES = {"linestyle": "none", "marker": (2, 2, -45), "color": BLACK, "markersize": 6.0, "markeredgewidth": 0.7}
 TICKS = 4
-"""Largest number of intervals between ticks; the default number would depend on the last digit of the limits."""
+"""Largest number of intervals between ticks on an axis; Matplotlib's own choice depends on the limits' last digit."""
 
 
 def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
@@ -92,8 +92,9 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
         Number of starts at each point; the first one is from rest.
 
     Returns "csv", a row per cell: label (regime from rest), f10_hat, f20_hat, regime (of most other starts), coexisting
-    (number of regimes of the other starts), a share per regime, fixed_points, stable_points; "cases": case, f10_hat,
-    f20_hat; "borders", where the number of fixed points changes: series, piece, f10_hat, f20_hat.
+    (number of regimes in which other starts end, "unsettled" not counted), a share per regime, fixed_points,
+    stable_points; "cases": case, f10_hat, f20_hat; "borders", where the number of fixed points changes: series, piece,
+    f10_hat, f20_hat.
     """
     cells = table.rename(columns={FROM_REST: "label"})
     cells["regime"], cells[COEXISTING] = _dominant(cells, starts)
@@ -108,7 +109,10 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
 
 def _dominant(cells, starts):
-    """For each cell, return the regime of most starts other than rest, and the number of regimes of these starts."""
+    """For each cell, return the regime of most starts, and the number of their regimes without "unsettled".
+
+    The start from rest is left out of both unless it is the only one.
+    """
     counts = cells[[*REGIMES]].to_numpy(float) * starts
     if starts > 1:
         counts -= cells["label"].to_numpy()[:, None] == np.array(REGIMES)
@@ -145,7 +149,10 @@ def _border(system, cells, series):
 
 
 def _squares(cells, square):
-    """For each square of four cells with known counts, yield their centres and counts, in order around the square."""
+    """For each square of four adjacent cells with known counts, yield [(centre, count), ...] in order around it.
+
+    square: the count of fixed points in each cell, over f20_hat (rows) and f10_hat (columns); nan if unknown.
+    """
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
         around = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
@@ -154,10 +161,10 @@ def _squares(cells, square):
 
 
 def _pieces(corners, crossing):
-    """Return the pieces of the border within a square.
+    """Return the pieces of the border within a square of four cell centres (`corners`, as yielded by `_squares`).
 
-    If the border crosses two sides, one piece connects both crossings. If it crosses more sides, a piece leads from
-    each crossing to the middle of the square.
+    If the border crosses two sides, one piece connects both crossings. If it crosses four sides, a piece leads from
+    each crossing to the mean of the crossings. crossing: function that finds the crossing between two corners.
     """
     sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
     ends = [crossing(first, second) for first, second in sides]
@@ -217,6 +224,6 @@ def _name(axes, regimes, name, lined):
 
 
 def _ends(centres):
-    """Return the outer edges of a row of cells, rounded so that rounding errors cannot hide a tick at an edge."""
+    """Return both outer edges of cells with these `centres`, rounded so that no rounding error hides a tick there."""
     half = 0.5 * (centres[1] - centres[0])
     return np.round([centres[0] - half, centres[-1] + half], 12)

@@ -1,6 +1,7 @@
 """Companion: response of the boxes with balls against the frequency and against the amplitude of the forcing.
 
-Responses are divided by the force: |X_i| / f of the box that moves more, where f is the larger of both forces.
+Responses are divided by the force. They are |X_i| / f of the box that moves more, where f = epsilon f10_hat or epsilon
+f20_hat is the larger of both forces.
 """
 
 from functools import lru_cache
@@ -115,7 +116,7 @@ _DOTS = {"linestyle": "none", "marker": "o", "color": BLACK, "markersize": 2.8, 
 DOTS = {"balls, largest, repeating": _DOTS, "balls, largest, modulated": {**_DOTS, "markerfacecolor": "white"}}
 BAND = "balls, 90 % of the cycles"
 LEAST, MOST = 0.8, 1.3
-"""Lower end of the vertical axis, and ratio of its upper end to the highest line."""
+"""Lower end of the vertical axis, and ratio of its upper end to the highest response without balls."""
 LINE_POINTS = 451
 
 
@@ -195,12 +196,12 @@ def frequencies(system, band: dict) -> tuple[float, float]:
 
 
 def ratios(system, linear, detunings):
-    """Return the larger |X_i| / f of both boxes in a linear system whose larger force is 1, at each detuning."""
+    """Return the larger |X_i| / f of both boxes at each detuning, in a linear system with max(f10_hat, f20_hat) = 1."""
     return linear.amplitudes(1.0 + system.epsilon * np.asarray(detunings)).max(axis=-1) / system.epsilon
 
 
 def _one_to_one(system, panel, series, table):
-    """Return a row for each 1:1 response at each point of a sweep."""
+    """Return a row for each symmetric 1:1 response, by the method `series` of ONE_TO_ONE, at each point of a sweep."""
     rows = []
     for place in table[PLACE].to_dict("records"):
         force = system.epsilon * max(place[name] for name in FORCES)

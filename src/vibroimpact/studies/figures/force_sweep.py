@@ -42,7 +42,7 @@ SPEC = {
 }  # fmt: skip
 
 LINES = [(BLACK, "-"), (BLACK, (0, (4.5, 1.5))), (GREY, "-"), (GREY, (0, (4.5, 1.5)))]
-"""Colour and line style of each track."""
+"""Colour and line style of the tracks in turn; a track is a fixed point followed from force to force."""
 MARKS = {
     "theory: stable": {"markerfacecolor": BLACK, "markersize": 3.6},
     "theory: unstable": {"markerfacecolor": "white", "markersize": 3.6},
@@ -50,10 +50,10 @@ MARKS = {
 }
 PAIRS = {"asymmetric orbits, stable": COLOURS[ASYMMETRIC], "asymmetric orbits, unstable": "#a9d8d2"}
 MARKER_SPACING = 6
-"""Number of values from one marker to the next. A marker is filled if both time scales are stable, and has a ring if
-the exact orbit is stable."""
+"""Number of values of the force from one marker on a track to the next. A marker is filled if the theory calls the
+fixed point stable on both time scales, and has a ring if the exact orbit of the point is stable."""
 ASYMMETRIC_TRACK = 0
-"""Track number of the asymmetric orbits, which belong to no fixed point."""
+"""Track number of all asymmetric orbits, since they belong to none of the followed fixed points."""
 VERDICTS = (*CRITERIA, EXACT)
 
 
@@ -71,11 +71,11 @@ def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]
     C_max : float
         The manifold is shown for 0 <= C <= C_max, or further if a fixed point lies beyond.
 
-    Returns three tables. "csv": columns value, track (number from 1; nearest neighbours in the plane (C1, C2) share a
-    track), C1, B1, C2, B2, label (as in the chapter, see `theory.fixed_points.labels`), and one column for each of
-    VERDICTS, the criteria of the theory and the exact orbit ("no orbit" if there is none). "orbits", with a row per
-    multiplier of each exact orbit: columns value, track (that of its fixed point; ASYMMETRIC_TRACK for the branches of
-    stable asymmetric orbits), C1, C2, exact, real, imag. "manifold": columns series, C, B as in figure 10.4.
+    Returns three tables. "csv": columns value, track (number from 1; see `_continued`), C1, B1, C2, B2, label (as in the
+    chapter, see `theory.fixed_points.labels`), and one column for each of VERDICTS, the criteria of the theory and the
+    exact orbit ("no orbit" if there is none). "orbits", with a row per multiplier of each exact orbit: columns value,
+    track (that of the orbit's fixed point; ASYMMETRIC_TRACK for asymmetric orbits), C1, C2, exact, real, imag.
+    "manifold": columns series, C, B as in figure 10.4.
     """
     rows, last, tracks = [], np.empty((0, 2)), 0
     names, multipliers = [], []
@@ -129,9 +129,11 @@ def _multipliers(value, track, orbit):
 
 
 def _continued(names, last, now, tracks):
-    """Return the track of each point, and the number of tracks so far.
+    """Return the track of each point at the current force, and the number of tracks so far.
 
-    A point has the track of the nearest previous point, or a new one.
+    last, now: (C_1, C_2) of the points at the previous and at the current force. names: tracks of the points in `last`.
+    tracks: number of tracks before. Points of `last` and `now` are paired so that the sum of their distances is
+    smallest. A point of `now` has the track of its partner, or a new one if it has no partner.
     """
     gaps = np.linalg.norm(np.nan_to_num(last[:, None] - now[None]), axis=2)
     found = {new: names[old] for old, new in zip(*linear_sum_assignment(gaps), strict=True)}
@@ -165,7 +167,10 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
 
 
 def _letters(points):
-    """Return a letter per track: the label of its point at the force nearest to that with the most fixed points."""
+    """Return a letter per track, the label of one of its points.
+
+    The point is that at the force nearest to a reference force, the middle one of those with the most fixed points.
+    """
     counts = points["value"].value_counts().sort_index()
     most = counts.index[counts == counts.max()]
     here = points.assign(apart=(points["value"] - most[len(most) // 2]).abs() if len(most) else 0.0)
@@ -173,7 +178,7 @@ def _letters(points):
 
 
 def _draw_track(axes, rows, module, letter):
-    """Draw the line of a track and its markers; return the line."""
+    """Draw C of a module along a track against the second force, with markers; return the line."""
     C, (colour, style) = f"C{module}", LINES[(rows["track"].iloc[0] - 1) % len(LINES)]
     line = axes.plot(rows["value"], rows[C], color=colour, linestyle=style, label=f"fixed point {letter}")
     marked = rows.iloc[::MARKER_SPACING]

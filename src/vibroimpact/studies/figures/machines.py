@@ -104,9 +104,9 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
 
     Returns "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz],
     swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (True at an impact); "summary", a row
-    per clearance: L [m], the frequency [Hz] with the largest swing, and there the power [W], the share of it lost in
-    impacts, and the swing [mm]; force, the F10 [N] at which L is the best of the clearances. Only the ratio L / F10
-    matters, so that this force is proportional to L.
+    per clearance: L [m]; frequency [Hz], at which the swing is largest; at this frequency power [W], share (of the
+    power that is lost in impacts) and swing [mm]; force, the F10 [N] at which L is the best of the clearances. This
+    force is proportional to L, since only the ratio L / F10 matters.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]
@@ -131,9 +131,9 @@ def _machines(plant, L, hertz):
 
 
 def _linear(machine, band):
-    """Yield the curves of the linear systems over the band [Hz].
+    """Yield the curves of the linear systems over the band [Hz]: displacement [mm] against frequency [Hz].
 
-    The curves in mm do not depend on L, which is only the unit of length of the dimensionless system.
+    The clearance of `machine` is only the unit of length of the dimensionless system; the curves do not depend on it.
     """
     unit, fine = machine.omega10 / (2 * np.pi), np.linspace(*band, FINE)
     linear = compared(machine.dimensionless(), tuple(band / unit))
@@ -143,7 +143,7 @@ def _linear(machine, band):
 
 
 def _at_worst(machine, energy, cycles):
-    """Return the frequency of a machine [Hz], the mean power of its forces [W], and the share of it lost in impacts."""
+    """Return the forcing frequency [Hz], the mean power of the forces [W], and the share that impacts dissipate."""
     joule, hertz = machine.k1 * machine.L**2, machine.omega1 / (2 * np.pi)
     work, impacts = energy["work"].sum(), energy["impacts"].sum()
     return {"frequency": hertz, "power": joule * work * hertz / cycles, "share": impacts / work}

@@ -42,7 +42,7 @@ COLUMNS = {
 
 
 def compute(system) -> dict:
-    """Perturb the most unstable exact orbit of the fixed points that (10.26) calls stable, and simulate the motion.
+    """Perturb the most unstable of the exact orbits whose fixed points (10.26) calls stable, and simulate the motion.
 
     Returns "motion", "impacts" (see `animation.compute`); "distance": columns t, distance (Euclidean, between state and
     orbit, once a period); "flights": columns t (end of a flight of ball 2), length (forcing periods); "orbit": label,
@@ -81,7 +81,7 @@ def page_data(tables: dict[str, pd.DataFrame]) -> dict:
 
 
 def animate(tables: dict[str, pd.DataFrame], path) -> None:
-    """Write a GIF file in which the curves of the figure grow with time, by two periods per frame."""
+    """Write a GIF file to `path` in which the curves of the figure grow by two forcing periods from frame to frame."""
     frames = []
     for cycle in range(1, CYCLES + 1, 2):
         past = {name: tables[name][tables[name]["t"] <= cycle] for name in ("distance", "flights")}
@@ -93,7 +93,10 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
 
 
 def _called_stable(system):
-    """Return label and orbit of the most unstable motion that (10.26) calls stable, or (None, None)."""
+    """Return the most unstable exact orbit whose fixed point (10.26) calls stable, after the label of this point.
+
+    The result is (None, None) if none of these orbits is an unstable motion.
+    """
     points = fixed_points(system)
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))
     found = [

@@ -32,7 +32,7 @@ COLOURS = {
     **dict.fromkeys((QUASI_PERIODIC, IDLE, NO_IMPACTS, UNSETTLED), "#848484"),
 }
 MARKS = {SYMMETRIC: "s", HOPPING: "^", QUASI_PERIODIC: "x", IDLE: "x", NO_IMPACTS: "x", UNSETTLED: "x"}
-"""Marks in the cells of regimes that are rare in a map, in addition to the colour."""
+"""Mark in each cell of a regime that is rare in a map, in addition to the colour of the regime."""
 _MARK = {"linestyle": "none", "color": "white", "markersize": 2.4, "markeredgewidth": 0.6}
 _BOX = {"edgecolor": BLACK, "linewidth": 0.4}
 
