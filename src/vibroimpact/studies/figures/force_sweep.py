@@ -71,10 +71,10 @@ def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]
     C_max : float
         The manifold is shown for 0 <= C <= C_max, or further if a fixed point lies beyond.
 
-    Returns three tables. "csv": columns value, track (number from 1; see `_continued`), C1, B1, C2, B2, label (as in the
-    chapter, see `theory.fixed_points.labels`), and one column for each of VERDICTS, the criteria of the theory and the
-    exact orbit ("no orbit" if there is none). "orbits", with a row per multiplier of each exact orbit: columns value,
-    track (that of the orbit's fixed point; ASYMMETRIC_TRACK for asymmetric orbits), C1, C2, exact, real, imag.
+    Returns three tables. "csv": columns value, track (number from 1; see `_continued`), C1, B1, C2, B2, label (as in
+    the chapter, see `theory.fixed_points.labels`), and one column for each of VERDICTS, the criteria of the theory and
+    the exact orbit ("no orbit" if there is none). "orbits", with a row per multiplier of each exact orbit: columns
+    value, track (that of the orbit's fixed point; ASYMMETRIC_TRACK for asymmetric orbits), C1, C2, exact, real, imag.
     "manifold": columns series, C, B as in figure 10.4.
     """
     rows, last, tracks = [], np.empty((0, 2)), 0

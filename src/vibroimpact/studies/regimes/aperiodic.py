@@ -17,10 +17,10 @@ RESONANT = (0.1, 0.9)
 """Limits of the share of time in bursts. A module with a share below the first limit counts as never in resonance, with
 a share above the second limit as always in resonance."""
 DISCARDED = 1
-"""Number of initial blocks to discard, in which the perturbation turns to the direction of largest growth."""
+"""Number of first blocks that an exponent leaves out, while the perturbation turns to the direction of most growth."""
 SECOND_LENGTH_FACTOR = 10
-"""Length of the second estimate of an exponent, relative to the first. The second estimate is made only if the first is
-not positive."""
+"""Length of the run for the second estimate of an exponent, relative to the run for the first estimate. The second
+estimate is made only if the first one is not certainly positive."""
 
 POSITIVE, ZERO, OPEN = "positive", "zero", "open"
 NEVER, AT_TIMES, ALWAYS = "never", "at times", "always"
@@ -37,7 +37,7 @@ NAMES = {
 
 
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
-    """Return the regime of a motion that does not repeat, from a run over whole cycles and its continuation.
+    """Return the regime of a motion that does not repeat, from `run` over whole cycles and from longer runs after it.
 
     Parameters
     ----------
@@ -57,9 +57,9 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
 
 
 def sign(exponent: Measured) -> str:
-    """Return the sign of an exponent: POSITIVE, ZERO, or OPEN if the error leaves it open.
+    """Return POSITIVE, ZERO, or OPEN if the sign of `exponent` is uncertain.
 
-    A negative exponent is OPEN too: the motion still approaches a periodic one.
+    An exponent that is certainly negative is OPEN too, since the motion still approaches a periodic one.
     """
     if exponent.mean > ERROR_FACTOR * exponent.error:
         return POSITIVE
@@ -85,9 +85,9 @@ def resonant_shares(run: Run) -> np.ndarray:
 
 
 def recurs(system, state, cycles: int) -> bool:
-    """Return True if a motion returns near its start in the second half of `cycles` cycles.
+    """Return True if the motion from `state` comes back near `state` in the second half of `cycles` cycles.
 
-    A motion that decays does not return, so the result is False.
+    "Near" is defined by RECURRENT. A motion that decays does not come back, so the result is False.
     """
     states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
     extent = np.ptp(states, axis=0)

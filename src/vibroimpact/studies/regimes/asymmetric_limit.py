@@ -24,7 +24,7 @@ _MOST_NODES = 6
 
 @dataclass(frozen=True, eq=False)
 class Station:
-    """An exact orbit at one epsilon: the system and the root (6,) of the asymmetric equations."""
+    """An exact asymmetric orbit: its system, with one value of epsilon, and its root (6,) of `AsymmetricConditions`."""
 
     system: object
     root: np.ndarray
@@ -48,7 +48,7 @@ class Station:
 def follow(system, root, values) -> list[Station]:
     """Return the orbits of a branch: that of `root`, then one for each epsilon of `values`.
 
-    `root` (6,) solves the asymmetric equations of the system; `values` descend from the epsilon of the system. The list
+    `root` (6,) solves `AsymmetricConditions` of the system; `values` descend from the epsilon of the system. The list
     ends early where the branch meets a symmetric orbit or Newton's method loses the branch.
     """
     root = np.asarray(root, dtype=float)
@@ -83,10 +83,11 @@ def leads_to(stations, points):
 
 
 def onset(stations) -> float:
-    """Return the epsilon at which the orbit emanates from a symmetric one (v^2 = 0), or 0 if it does not.
+    """Return the epsilon at which the asymmetric orbit emanates from a symmetric one, or 0 if this is not above 0.
 
-    The polynomial for epsilon in v^2 through the last stations (at most `_MOST_NODES`) is evaluated at v^2 = 0. A line
-    through two stations would give only three correct digits if their epsilons differ by a fifth.
+    The polynomial for epsilon in v^2 through the last stations (at most `_MOST_NODES`) is evaluated at v^2 = 0, where
+    the orbit is symmetric. A line through the last two stations instead would give only three correct digits if their
+    epsilons differ by a fifth.
     """
     last = stations[-_MOST_NODES:]
     epsilon, skew = (

@@ -16,11 +16,11 @@ from vibroimpact.system.state import NAMES, active_mask, states_array
 OPEN = -1
 """Label of an initial state that has not settled, as in Attractors.jl."""
 _SAME, _SAME_IDLE = 1e-6, 1e-4
-"""Largest difference of displacements between equal motions. The second value applies if a ball is at rest: Newton's
-method does not refine such a motion, and part of the transient remains."""
+"""Largest difference of displacements between two motions that count as one attractor. The second value applies if a
+ball is at rest: Newton's method does not refine a motion with a ball at rest, so that part of its transient remains."""
 
 _COORDINATES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
-"""Name of a coordinate -> its index in the state; for W_i, the indices of X_i and Y_i. W_i sets Y_i = X_i - W_i."""
+"""Name of a coordinate -> its index in the state; for W_i, the indices of X_i and Y_i, from which Y_i = X_i - W_i."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,7 +226,7 @@ def _attractor(regime):
 
 
 def _same(one, other):
-    """Return True if two observed motions are the same attractor."""
+    """Return True if two motions, each the Regime of an initial state, are on the same attractor."""
     moving = _moving(one)
     if (one.name, one.repeats) != (other.name, other.repeats) or not np.array_equal(moving, _moving(other)):
         return False
@@ -239,6 +239,6 @@ def _same(one, other):
 
 
 def _moving(regime):
-    """Return the indices of the displacements of active modules, without those of balls at rest."""
+    """Return the indices in a state of the displacements of the boxes and moving balls of active modules."""
     samples, moves = regime.run.samples, active_mask(regime.run.system)
     return np.array([k for k in range(4) if moves[k] and (k in (0, 2) or samples[:, 4 + k].any())])

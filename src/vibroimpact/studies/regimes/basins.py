@@ -33,9 +33,9 @@ def plane(state, points: int) -> np.ndarray:
 
 
 def ends(system, states, observation: Observation) -> list[str]:
-    """Return the regime that each initial state ends in.
+    """Return the regime in which the motion from each initial state ends.
 
-    The name is MIRRORED for an asymmetric response with positive flight asymmetry.
+    The regime is called MIRRORED for an asymmetric response with positive `Regime.flight_asymmetry`.
     """
     regimes = settle(system, states, observation)
     return [MIRRORED if one.name == ASYMMETRIC and one.flight_asymmetry > 0 else one.name for one in regimes]

@@ -1,9 +1,9 @@
 """Continue folds and symmetry breaking of 1:1 responses in the plane of two parameters.
 
-On such a curve the equations of a response hold and one more function vanishes. At a fold, this function is the
-determinant of the Jacobian of the equations. At the symmetry breaking of an exact orbit, it is the determinant of the
-part of the Jacobian of the asymmetric equations that belongs to antisymmetric changes of the impact times. At the
-symmetry breaking of a fixed point, it is the distance of C_i from its upper limit (Masri).
+On a curve of special points the equations of a response hold and one more function vanishes. At a fold, this function
+is the determinant of the Jacobian of the equations. At the symmetry breaking of an exact orbit, it is the determinant
+of the part of the Jacobian of `AsymmetricConditions` that belongs to antisymmetric changes of the impact times. At the
+symmetry breaking of a fixed point, it is the difference between C_i and its upper limit for stable impacts (Masri).
 """
 
 from collections.abc import Callable
@@ -51,7 +51,10 @@ class Plane:
             raise Lost(str(error)) from None
 
     def margin(self, z) -> float:
-        """Return the distance of z = (..., p, q) from the nearest edge, relative to the width; negative outside."""
+        """Return the distance of z = (..., p, q) from the nearest edge over the rectangle's width in that direction.
+
+        The result is negative outside the rectangle.
+        """
         low, high = self.limits.T
         return float(np.minimum((z[-2:] - low) / (high - low), (high - z[-2:]) / (high - low)).min())
 
@@ -121,9 +124,10 @@ def bifurcation_curves(
 def symmetry_breaking(system, x) -> float:
     """Return the determinant that vanishes where the symmetry of an orbit breaks.
 
-    `x` is the root (tau_1, tau_2, C_1, C_2) of the orbit. An antisymmetric change shifts the impact times of a
-    module at its two walls by opposite amounts. Of the conditions of restitution at both walls, such a change affects
-    only their sum, not their difference. The result is the determinant of the derivatives of these sums.
+    `x` is the root (tau_1, tau_2, C_1, C_2) of the orbit. An antisymmetric change shifts the impact times of a module
+    at its two walls by opposite amounts. Each module has a condition of restitution at each wall. An antisymmetric
+    change affects the sum of the two conditions of a module, but not their difference. The result is the determinant of
+    the derivatives of the sums of both modules.
     """
     jacobian = AsymmetricConditions(system)(asymmetric_root(system, x)[None])[1][0]
     opposite = np.array([[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0]]) @ jacobian[:, :4] @ _OPPOSITE
@@ -172,9 +176,9 @@ def _curve(plane, family, kind):
 
 
 def _half(plane, family, curve, longest, report, start):
-    """Return the points (x, p, q) and the Places of a curve from the start in one direction.
+    """Return the points (x, p, q) and the Places of a curve from the Place `start` on, along its tangent.
 
-    The curve ends at the edge of the rectangle, or where a ball speed vanishes.
+    The curve ends at the edge of the rectangle `plane`, or where a ball speed vanishes.
     """
 
     def margin(z):

@@ -30,7 +30,7 @@ COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", 
 
 @dataclass(frozen=True)
 class Path:
-    """A line in parameter space: the named parameters have the value p, the others keep their values in `system`."""
+    """A line in parameter space: the parameters in `names` have the value p, all others those of `system`."""
 
     system: object
     names: tuple[str, ...]
@@ -44,7 +44,8 @@ class Path:
 class Node:
     """A point of a branch.
 
-    p, x: parameter and root. amplitudes: C_1, C_2, shape (2,). kind: type of special point, or "".
+    p, x: value of the parameter, and root of the equations. amplitudes: C_1, C_2, shape (2,). kind: type of special
+    point, or "" if the point is not special.
     stable, admissible: properties of the motion at this point; None at a special point.
     """
 
@@ -62,7 +63,8 @@ class Branch(Representation):
 
     If the curve is closed, the first node is also the last.
 
-    places: points of the curve with tangents, at all nodes that are not special and at some ends.
+    places: points of the curve with their tangents. All nodes that are not special have a place, and some ends of the
+    curve.
     """
 
     family: object
@@ -82,9 +84,9 @@ class Branch(Representation):
         return [node for node in self.nodes if node.kind]
 
     def pieces(self) -> list[tuple[Node, list[Node]]]:
-        """Return the pieces between special points, each as (inner node, list of nodes including both ends).
+        """Return the pieces between special points, each as (inner node, list of all its nodes with both ends).
 
-        The stability at the inner node is the stability of the piece.
+        The inner node is one that is not special; its stability is that of the piece.
         """
         cuts = [k for k, node in enumerate(self.nodes) if node.kind]
         found, inner = [], None
@@ -126,10 +128,11 @@ def branches(
 ) -> list[Branch]:
     """Return the branches of a family that pass a seed (a value of p), and those that emanate from them.
 
-    A branch ends at the ends of the interval, where a ball speed vanishes, or where it is lost. It also ends where it
-    joins an image of itself. At a symmetric orbit, it joins its mirror image. At a motion with a shorter period, it
-    joins itself shifted by forcing periods. Only one of the images is followed. A branch that neither passes a seed nor
-    emanates from another branch is missed. A seed at which the search for roots fails is skipped with a warning.
+    A branch ends at the ends of the interval, where a ball speed vanishes, or where the continuation loses it. A branch
+    of asymmetric motions also ends at a symmetric motion, where it meets its mirror image, and a branch of motions of
+    several periods at a motion with a shorter period, where it meets itself shifted in time. Only one of the images is
+    followed. A branch that neither passes a seed nor emanates from another branch is missed. A seed at which the search
+    for roots fails is skipped with a warning.
 
     Parameters
     ----------
@@ -177,7 +180,7 @@ def branches(
 
 
 def equations(family, path: Callable) -> Callable:
-    """Return a function that computes residual and Jacobian of a family's equations at x and parameters p."""
+    """Return a function of x and of the parameters of `path` that computes residual and Jacobian of a family."""
 
     def at(x, *p):
         try:
@@ -189,9 +192,9 @@ def equations(family, path: Callable) -> Callable:
 
 
 def images(family, system, x, near) -> list[np.ndarray]:
-    """Return all roots of the motion of a root x, and of its mirror image.
+    """Return all roots that describe the motion with the root `x`, or its mirror image.
 
-    Their angles differ by at most half a turn from those of the root `near`.
+    The angles of the returned roots differ by at most half a turn from those of the root `near`.
     """
     found, turn = family.images(system, x.copy()), family.turn(system)
     for image in found:
@@ -212,7 +215,7 @@ def _seeds(family, path, seeds, report):
 
 
 def _half(family, path, interval, curve, longest, report, start):
-    """Return the nodes and the Places of a branch from the start in one direction."""
+    """Return the nodes and the Places of a branch from the Place `start` on, along its tangent."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
@@ -258,7 +261,10 @@ def _node(family, path, z, kind="", member=None):
 
 
 def _special(family, path, curve, before, tests, after, values):
-    """Return the special points between two neighbouring places, in order along the curve."""
+    """Return the special points between the neighbouring Places `before` and `after`, in order along the curve.
+
+    tests, values: values of the test functions at `before` and at `after`, by kind of special point.
+    """
 
     def test(z, kind):
         if kind == FOLD:

@@ -26,11 +26,12 @@ REGIMES = (*PERIODIC, *APERIODIC, IDLE, NO_IMPACTS, UNSETTLED)
 _PER_CYCLE = 2
 _MOST_STARTS = 1_000_000
 _SHRUNK, _LONGEST = 1e-6, 10_000
-"""A run near a periodic motion is continued until the largest multiplier predicts that the distance has shrunk by the
-factor _SHRUNK, for at most _LONGEST cycles."""
+"""A run near a periodic motion is continued until, as the largest multiplier predicts, its distance from this motion
+has shrunk by the factor _SHRUNK, but for at most _LONGEST cycles."""
 _REPEATED, _MIRRORED = 1e-8, 1e-6
-"""Tolerances for the repetition and for the symmetry of a periodic motion that is known to rounding. The
-second one is larger: near symmetry breaking the asymmetry grows like the square root of the distance in a parameter."""
+"""Tolerances for the repetition and for the symmetry of a periodic motion that is known to rounding. The tolerance for
+the symmetry is larger, since beyond symmetry breaking the asymmetry grows like the square root of the change of a
+parameter."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,9 +53,9 @@ class Regime:
 
     @property
     def mean_amplitudes(self) -> np.ndarray:
-        """Amplitudes C_i, shape (2,), from half of each ball's mean path per cycle.
+        """Amplitudes C_i, shape (2,), from half of the mean distance that each ball covers per cycle.
 
-        On a 1:1 response they are the amplitudes of the saw-tooth.
+        On a 1:1 response, C_i is the amplitude of the saw-tooth.
         """
         path = np.array([self._path(ball) for ball in (1, 3)])
         return sawtooth_amplitude(self.run.system.epsilon, path / (2 * self.run.cycles))
@@ -81,10 +82,11 @@ class Regime:
 def classify_after(system, state, window: int, nearness: float) -> Regime:
     """Return the regime of the motion from `state` (8,), at the start of a forcing cycle, over a window of cycles.
 
-    If the displacements repeat within `nearness`, Newton's method computes the periodic motion itself. If this motion
-    is near and attracting, and the run approaches it (`_approaches`), a window of this motion is classified instead of
-    the window of the run. Thus a slow spiral into a 1:1 response is distinguished from a modulated motion before the
-    spiral ends. A motion that does not repeat is unsettled here (see `settling`).
+    If the displacements in the window repeat within `nearness`, Newton's method computes the periodic motion. If the
+    periodic motion is near and attracting, and the run approaches it (`_approaches`), a window of the periodic motion
+    is classified instead of the window of the run. Thus a slow spiral into a 1:1 response is distinguished from a
+    modulated motion before the spiral ends. A motion that does not repeat is called unsettled here; `settling` names
+    its regime.
     """
     run = _window(system, state, window)
     if not _at_rest(run).any():
@@ -98,7 +100,7 @@ def classify_after(system, state, window: int, nearness: float) -> Regime:
 
 
 def _attracting(system, state, cycles, reach):
-    """Return the attracting motion that repeats after `cycles` cycles, if it is within `reach` of a state, or None."""
+    """Return the attracting motion that repeats after `cycles` cycles and is within `reach` of `state`, or None."""
     try:
         orbit = refined(system, state, cycles)
     except ValueError:
@@ -133,7 +135,9 @@ def _distance(run, samples):
 
 
 def classify(run: Run) -> tuple[str, int | None]:
-    """Return the name of a settled regime, and the number of cycles after which it repeats (or None).
+    """Return the name of the regime of a settled motion, and the number of cycles after which the motion repeats.
+
+    The number is None if the motion does not repeat.
 
     run: has samples every half period, both ends included.
 

@@ -43,7 +43,7 @@ class Lost(ArithmeticError):
 
 
 class Place(NamedTuple):
-    """A point z = (x, p) of the curve and its unit tangent, both (d + 1,).
+    """A point z = (x, p) of a curve F(z) = 0 and the unit tangent of the curve there, both (d + 1,).
 
     determinant: of [[dF/dz], [tangent]]; 0 at a branch point. closing: True if a closed curve is back at its start.
     """
@@ -79,13 +79,14 @@ class Curve:
     def singular(self, z: np.ndarray) -> bool:
         """Return True if dF/dz is singular at z within rounding, so that the tangent is not unique.
 
-        The smallest singular value is compared with the median, since the largest is unbounded near grazing.
+        The smallest singular value is compared with the median one, not with the largest, which is unbounded near
+        grazing.
         """
         sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
         return bool(sizes[-1] <= _SINGULAR * (1 + np.median(sizes)))
 
     def step(self, place: Place, length: float) -> np.ndarray:
-        """Return the point z of the curve near the end of a step of a given length along the tangent.
+        """Return the point z of the curve near the end of a step of `length` along the tangent of `place`.
 
         Raises
         ------
@@ -149,10 +150,10 @@ class Curve:
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
-        """Return the points and places of the curve through a root z, in order; a closed curve is passed once.
+        """Return the points and places of the whole curve through a root z, in order; a closed curve is traced once.
 
-        half(start) returns the points and places from a start in the direction of its tangent. The root is refined
-        first, since a multiple root is known to half of the digits only.
+        half(start) returns the points and places from the Place `start` in the direction of its tangent. The root is
+        refined first, since a multiple root is known to half of the digits only.
         """
         for _ in range(_STEPS):
             change = np.linalg.lstsq(self._by_z(z), self.equations(z[:-1], z[-1])[0])[0]
@@ -171,7 +172,7 @@ class Curve:
         return any(self.image_on_segment(*pair, z) is not None for pair in pairwise(places))
 
     def image_on_segment(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
-        """Return the image of a root z that lies on the curve between two neighbouring places, or None."""
+        """Return that image of a root z which lies on the curve between neighbours `place` and `after`, or None."""
         chord = after.z - place.z
         length = np.linalg.norm(chord)
         for image in self.images(z, place.z):
@@ -192,7 +193,11 @@ class Curve:
         unbalanced, plane = left[:, -1:], right[-2:]
 
         def at(angle):
-            """Return the point y at an angle of the circle with F(y) + part * unbalanced = 0, and the number `part`."""
+            """Return a point y with F(y) + part * unbalanced = 0, and the number `part`.
+
+            y is near the circle: its projection onto the plane of both null vectors has the given angle on the circle.
+            `unbalanced` is the left null vector of dF/dz. On a branch, `part` is 0.
+            """
             guess = z + _CIRCLE * np.array([np.cos(angle), np.sin(angle)]) @ plane
             y, part = guess, 0.0
             for _ in range(_STEPS // 4):
@@ -225,10 +230,11 @@ class Curve:
         return np.column_stack([self.equations(z[:-1], z[-1])[1], self._by_p(z)])
 
     def _ahead(self, place, length):
-        """Return the places of one step, the end of the step last; [] if the curve turns too much or is lost.
+        """Return the places of one step from `place`, the end of the step last.
 
-        If the step passes a branch point, the list also has that point, between a place just before and one just after.
-        If the determinant changes sign without a branch point, the step has jumped to another curve: the result is [].
+        If the step passes a branch point, the list also has this branch point, between a place just before it and one
+        just after it. The result is [] if the curve turns too much or is lost, or if the determinant changes sign
+        without a branch point, since the step has then jumped to another curve.
         """
         after = self._next(place, length)
         if after is None or after.determinant * place.determinant > 0:
@@ -256,7 +262,7 @@ class Curve:
     def _place_at(self, place, z):
         """Return the place on the curve that coincides with z, as a list of one entry, or [] if z is not on the curve.
 
-        Every step along the tangent goes to the foot of the perpendicular from z.
+        The search starts from `place`. Each step along the tangent has the length of the projection of z onto it.
         """
         for _ in range(_FEET):
             place = self._next(place, place.tangent @ (z - place.z))
@@ -279,11 +285,11 @@ class Curve:
         return [one for one in after if one and abs(place.tangent @ one.tangent) < np.cos(_TURN)][:1]
 
     def _bisected(self, place, after, before: Callable):
-        """Bisect the curve between two places until they are less than _RESOLVED apart, and return both.
+        """Return two places between `place` and `after`, less than _RESOLVED apart, found by bisection of the curve.
 
-        The result is None if the curve does not join the two places.
-
-        before(place): True if a place between both belongs to the side of the first one.
+        before(middle) is True for the first of both places and all places of the curve before it. If no step leads on
+        from a singular place, the bisection stops there. The result is None if the curve does not join `place` and
+        `after`.
         """
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
@@ -298,7 +304,13 @@ class Curve:
 
 
 def _solve(blocks, right):
-    """Return the solution of a bordered linear system given by its blocks."""
+    """Return the solution of the linear system with the matrix in `blocks` (rows of blocks) and the right side `right`.
+
+    Raises
+    ------
+    Lost
+        If the matrix is singular.
+    """
     try:
         return np.linalg.solve(np.vstack([np.hstack(row) for row in blocks]), right)
     except np.linalg.LinAlgError:

@@ -53,7 +53,7 @@ def flight_asymmetry(orbit) -> np.ndarray:
 
 
 def pattern(orbit) -> str | None:
-    """Return IN_PHASE or ANTIPHASE, or None if a ball has no flight asymmetry."""
+    """Return the pattern of an orbit, IN_PHASE or ANTIPHASE, or None if |v| of a ball is below LEAST_ASYMMETRY."""
     v = flight_asymmetry(orbit)
     return None if not _both_asymmetric(v) else IN_PHASE if v.prod() > 0 else ANTIPHASE
 
@@ -63,7 +63,10 @@ def _both_asymmetric(v):
 
 
 def patterns(system) -> dict[str, np.ndarray]:
-    """Return the root (6,) of a stable orbit of each pattern, for one of two mirror images."""
+    """Return, for each pattern with a stable orbit, the root (6,) of such an orbit in `AsymmetricConditions`.
+
+    Of two mirror images, the one with the flight asymmetry v_1 > 0 is returned.
+    """
     roots = [
         root for root in AsymmetricOrbits.roots(system) if _both_asymmetric(1 - 2 * flight_fractions(system, root))
     ]
@@ -73,7 +76,7 @@ def patterns(system) -> dict[str, np.ndarray]:
 
 
 def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
-    """Yield each pattern found at SOUGHT with the range of couplings in which it is stable.
+    """Yield each pattern that has a stable orbit at a coupling of SOUGHT, with its orbits in the range of stability.
 
     The coupling damper changes in proportion.
 
@@ -99,7 +102,10 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
 
 
 def _followed(system, root, value, name, limit):
-    """Yield the couplings towards a limit, each with its Orbit, while the pattern remains the same and stable."""
+    """Yield (coupling, Orbit) in steps from the coupling `value` to `limit`, as long as the orbit is stable.
+
+    root: root of the orbit at `value`. name: its pattern, which the yielded orbits share.
+    """
     way, step = np.sign(limit - value), STEP
     while step > SHARP and value != limit:
         reached = value * np.exp(way * step)
@@ -127,11 +133,11 @@ def _end(orbit):
 
 
 def splitting(system, root) -> np.ndarray:
-    """Return the difference of both patterns to leading order: `root` (6,) minus the root of the other pattern.
+    """Return `root` (6,) minus the `mirrored` root of the other pattern, to leading order.
 
-    The root of the other pattern is compared after ball 2 is mirrored back (`mirrored`). Only even harmonics of the
-    coupling contribute, since they change sign if one module is mirrored. The result is twice the inverse Jacobian of
-    the exact conditions times the even harmonics that the coupling transmits.
+    If one module is mirrored, one pattern turns into the other, except that the even harmonics that act through the
+    coupling change their sign. The result is therefore -2 times the inverse Jacobian of the exact conditions times the
+    contribution of these even harmonics to the conditions.
     """
     conditions = AsymmetricConditions(system)
     times, strengths = root[:4].reshape(2, 2), root[4:]
@@ -150,18 +156,21 @@ def splitting(system, root) -> np.ndarray:
 
 
 def mirrored(system, root) -> np.ndarray:
-    """Return a root (6,) with ball 2 mirrored: its walls exchange roles half a period later."""
+    """Return the root (6,) that has the mirrored motion of ball 2: its walls are exchanged half a period later."""
     return root[[0, 1, 3, 2, 4, 5]] + np.array([0, 0, 1, 1, 0, 0]) * system.period / 2
 
 
 def asymmetric_orbits(system, both: bool = True) -> list:
-    """Return the stable asymmetric orbits of a system, or only those with two asymmetric balls if `both`."""
+    """Return the stable asymmetric orbits of a system; if `both`, only those with two asymmetric balls."""
     found = [one for one in orbits(system) if not one.symmetric and one.admissible and one.stable]
     return [one for one in found if pattern(one) or not both]
 
 
 def shares(asymmetric, states, cycles: int) -> dict[str, float]:
-    """Return the fraction of the initial states (n, 8) that end on each pattern after `cycles` forcing cycles."""
+    """Return, by pattern, the fraction of the initial states `states`, (n, 8), that end on an orbit of this pattern.
+
+    asymmetric: the orbits. cycles: number of forcing cycles after which the states are compared with the orbits.
+    """
     ends = finals(asymmetric[0].system, states, cycles)
     near = {name: np.zeros(len(ends), bool) for name in (IN_PHASE, ANTIPHASE)}
     for orbit in asymmetric:

@@ -17,9 +17,9 @@ class Comparison:
 
     offset: coordinates of the orbit minus those of the fixed point; for a symmetric orbit C and impact phases [rad] of
     both modules, (4,). distance: norm of the offset.
-    multipliers, predicted_multipliers: (8,) complex; the exact ones, and those predicted by slow flow (first four) and
-    impact map (last four). Exact and predicted multipliers are paired to be as close as possible.
-    rates, predicted: log(mu) / (epsilon 2 pi / Omega) of the first four multipliers, exact and by the slow flow.
+    multipliers, predicted_multipliers: (8,) complex; those of the exact orbit, and those predicted by slow flow (first
+    four) and impact map (last four). The exact multipliers are in the order that brings them closest to the predicted.
+    rates, predicted: log(mu) / (epsilon 2 pi / Omega) of the first four multipliers mu, exact and by the slow flow.
 
     For a single machine all arrays have half as many entries.
     """
@@ -38,12 +38,12 @@ class Comparison:
 
     @property
     def slow_error(self) -> float:
-        """Largest error of a predicted slow rate."""
+        """Largest |`rates` - `predicted`|."""
         return float(np.abs(self.rates - self.predicted).max())
 
     @property
     def fast_error(self) -> float:
-        """Largest error of a predicted fast multiplier."""
+        """Largest |`multipliers` - `predicted_multipliers`| of the multipliers that the impact map predicts."""
         return float(np.abs(self.multipliers - self.predicted_multipliers)[len(self.predicted) :].max())
 
 
@@ -61,7 +61,11 @@ def distance_to_orbit(system, point) -> Comparison:
 
 
 def paired(system, offset, exact, slow, fast) -> Comparison:
-    """Compare half of the exact multipliers with the slow eigenvalues, and the other half with the fast multipliers."""
+    """Pair the exact multipliers with predicted ones, and return the Comparison.
+
+    exact: multipliers of the orbit. slow: eigenvalues of the slow flow, which predict half of them. fast: multipliers
+    of the impact map over a cycle, which predict the other half. offset: see `Comparison`.
+    """
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
     # Errors are of order epsilon^2 for slow multipliers and epsilon for fast ones; the weights make them comparable.
@@ -78,9 +82,9 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
 
 
 def order(epsilon, errors) -> tuple[float, float]:
-    """Return the exponent p of errors ~ epsilon^p and its standard error (nan for 2 points).
+    """Return the exponent p of errors ~ epsilon^p, and the standard error of p (nan for 2 points).
 
-    The logarithms are fitted by least squares.
+    A straight line is fitted to log(errors) over log(epsilon) by least squares.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """Families of motions for continuation: equations, members, and test functions that vanish at special points.
 
-The test functions are symmetric polynomials in the multipliers mu of a monodromy matrix, so that they change sign at
-their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j, vanishes where a pair reaches the
+The test functions of an orbit, except that for grazing, are symmetric polynomials in its multipliers mu, so that they
+are real and change sign at their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j, vanishes where a pair reaches the
 unit circle (Neimark-Sacker if the pair is complex). For a symmetric orbit mu are the multipliers over half a period
 followed by mirroring, and mu = -1 breaks the symmetry. A symmetric orbit cannot double its period before its symmetry
 breaks (Swift and Wiesenfeld 1984). Folds and branch points (mu = 1) are found by the continuation instead.
@@ -44,12 +44,12 @@ class _OwnImage:
 
     @staticmethod
     def images(system, x) -> list[np.ndarray]:
-        """Return the roots of the motion x and of its mirror image: x alone, since both are the same motion."""
+        """Return [x]: a motion that is its own mirror image needs only its own root x."""
         return [x]
 
     @staticmethod
     def merging(system, x) -> str:
-        """Return the kind of special point if x equals an image of itself, which ends the branch, or ""."""
+        """Return "": the branch does not end at a motion that is its own image, since all its motions are."""
         return ""
 
 
@@ -62,7 +62,7 @@ class SymmetricOrbits(_OwnImage):
 
     @staticmethod
     def turn(system) -> float:
-        """Return the value of a full turn of the unknown impact times, a forcing period."""
+        """Return the forcing period: impact times that differ by it describe the same motion."""
         return system.period
 
     @classmethod
@@ -72,12 +72,12 @@ class SymmetricOrbits(_OwnImage):
 
     @classmethod
     def equations(cls, system, x):
-        """Return the residual (d,) and Jacobian (d, d) of the conditions on x, (d,).
+        """Return the residual (d,) and Jacobian (d, d) at x, (d,), of the conditions of the exact orbits.
 
         Raises
         ------
         Lost
-            If both modules are active, and x is a response of one module.
+            If both modules are active, but in the response x only one of them has impacts.
         """
         _require_both_modules(cls, system, x)
         residual, jacobian = cls._conditions(system)(x[None])
@@ -85,7 +85,7 @@ class SymmetricOrbits(_OwnImage):
 
     @classmethod
     def speed(cls, x) -> float:
-        """Return the smaller C_i (I_i for asymmetric orbits), which vanishes if a ball speed vanishes."""
+        """Return the smaller of both C_i (I_i for asymmetric orbits), which vanishes if a ball speed vanishes."""
         return x[cls.angles.stop :].min()
 
     @staticmethod
@@ -174,13 +174,17 @@ class PeriodicOrbits(AsymmetricOrbits):
         return self.orbit.run.start[None]
 
     def images(self, system, x) -> list[np.ndarray]:
-        """Return the states of the motion and of its mirror image at the stroboscopic instant of every period."""
+        """Return the states of the motion x and of its mirror image at the stroboscopic instants of all its periods."""
         begin, halves = self._begin(system), np.arange(2 * self.orbit.periods)
         states = simulate(system, x, self.orbit.periods, begin, begin + halves * system.period / 2).samples
         return list(states * (-1.0) ** halves[:, None])
 
     def merging(self, system, x) -> str:
-        """Return PERIOD_DOUBLING if x has a shorter period than the motion, SYMMETRY_BREAKING if symmetric, or ""."""
+        """Return the kind of special point if x equals one of its own `images` that differed at the start, or "".
+
+        The kind is PERIOD_DOUBLING if this image is the motion itself, shifted by forcing periods, and
+        SYMMETRY_BREAKING if it is the mirror image.
+        """
         images = self._equal_images(system, x) & ~self._own
         return PERIOD_DOUBLING if images[::2].any() else SYMMETRY_BREAKING if images.any() else ""
 
@@ -188,7 +192,7 @@ class PeriodicOrbits(AsymmetricOrbits):
         return np.array([np.abs(image - x).max() < _MERGED for image in self.images(system, x)])
 
     def equations(self, system, x):
-        """Return the residual (8,) of the stroboscopic map at x, and its Jacobian (8, 8).
+        """Return final state minus x after the periods of the motion, (8,), and the Jacobian (8, 8) of this residual.
 
         Raises
         ------
@@ -207,17 +211,20 @@ class PeriodicOrbits(AsymmetricOrbits):
         return 1.0
 
     def amplitudes(self, system, x) -> np.ndarray:
-        """Return the amplitudes C_i from half of each ball's mean path per cycle, shape (2,)."""
+        """Return the amplitudes C_i, shape (2,), from half of the mean distance that each ball covers per cycle."""
         return _of_modules(system, Regime(self._run(system, x), OTHER, None).mean_amplitudes)
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Return the values of the test functions, by kind; there is none for grazing, where the branch is lost."""
+        """Return the values of the test functions, by kind of special point.
+
+        There is no test function for grazing, since the branch is lost there.
+        """
         return _tests(orbit.multipliers, PERIOD_DOUBLING)
 
     @staticmethod
     def stable(system, orbit) -> bool | None:
-        """Return the stability of the motion, None if it is undecided."""
+        """Return True if the motion is stable, False if it is unstable, None if its stability is undecided."""
         return orbit.stable
 
     def member(self, system, x):
@@ -228,7 +235,7 @@ class PeriodicOrbits(AsymmetricOrbits):
         return simulate(system, x, self.orbit.periods, self._begin(system), [self._begin(system)])
 
     def _begin(self, system):
-        """Return the stroboscopic instant, at the same forcing phase as that of the given motion."""
+        """Return the time tau of the stroboscopic instant in `system`, at the forcing phase of the given motion."""
         return self.orbit.run.tau0 / self.orbit.system.period * system.period
 
 
@@ -240,7 +247,7 @@ class FixedPoints(_OwnImage):
 
     @staticmethod
     def turn(system) -> float:
-        """Return the value of a full turn of the unknown phases [rad]."""
+        """Return 2 pi: phases [rad] that differ by it describe the same motion."""
         return 2 * np.pi
 
     @classmethod
@@ -251,12 +258,12 @@ class FixedPoints(_OwnImage):
 
     @classmethod
     def equations(cls, system, x):
-        """Return the residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4).
+        """Return the residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4) at x, (4,).
 
         Raises
         ------
         Lost
-            If both modules are active, and x is a response of one module.
+            If both modules are active, but in the response x only one of them has impacts.
         """
         _require_both_modules(cls, system, x)
         residual, jacobian, part = x - cls.rest, np.eye(4), ~_inactive(cls, system)
@@ -284,7 +291,8 @@ class FixedPoints(_OwnImage):
     def tests(system, point) -> dict[str, float]:
         """Return the values of the test functions, by kind of special point.
 
-        At a fold of the manifold one eigenvalue of the slow flow is infinite; a power of det M removes this pole.
+        At a fold of the manifold one eigenvalue of the slow flow is infinite, so that the test function for Hopf would
+        have a pole. A factor, a power of det M (`linearisation`), removes this pole.
         """
         r = rho(system.kappa)
         M = linearisation(system, point.psi, point.C)[1]
@@ -304,7 +312,7 @@ class FixedPoints(_OwnImage):
 
     @staticmethod
     def admissible(point) -> bool:
-        """Return True, since all fixed points are shown."""
+        """Return True, since fixed points are shown whether or not their balls stay between the walls."""
         return True
 
     @staticmethod
@@ -338,12 +346,14 @@ def _of_modules(system, values):
 
 
 def _require_both_modules(family, system, x):
-    """Raise Lost if x is a response of one module, although both modules are active.
+    """Raise Lost if both modules are active, but in the response x only one of them has impacts.
+
+    The unknowns of the other module then have the values of an inactive module, `family.rest`.
 
     Raises
     ------
     Lost
-        If x is a response of one module and both modules are active.
+        If only one of the two active modules has impacts in x.
     """
     held = np.abs(x - family.rest) < _HELD
     if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
@@ -358,6 +368,9 @@ def asymmetric_root(system, x) -> np.ndarray:
 
 
 def _tests(mu, at_minus_one):
-    """Return the test functions of multipliers mu, by kind; `at_minus_one` is the kind at mu = -1."""
+    """Return the values of the test functions of the multipliers `mu`, by kind of special point.
+
+    at_minus_one: kind of the special point at which a multiplier is -1.
+    """
     found = {at_minus_one: 1 + mu, NEIMARK_SACKER: np.array([1 - a * b for a, b in combinations(mu, 2)])}
     return {name: float(np.prod(factors).real) for name, factors in found.items()}

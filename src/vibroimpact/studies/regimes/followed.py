@@ -11,19 +11,19 @@ from vibroimpact.studies.regimes.branches import images
 from vibroimpact.studies.regimes.families import AsymmetricOrbits
 
 SEARCHED = (0.25, 0.5, 0.75)
-"""Positions in the list of values at which orbits are searched, as fractions of its length."""
+"""Orbits are searched at the values with these positions in the list of values, as fractions of its length."""
 LARGEST_CHANGE = 0.1
-"""Largest change of a root on a branch between neighbouring values, which are close together in a slider."""
+"""Largest change of a root between neighbouring values on a branch; the values of a slider are close together."""
 SAME = 1e-6
 
 
 def followed(systems: dict) -> Iterator[tuple[float, object]]:
     """Yield (value, Orbit) for each orbit on the branches of stable asymmetric orbits.
 
-    Stable orbits are searched at a few of the values, and followed to both sides by Newton's method until the branch
-    folds, or the orbit is inadmissible or symmetric. Of two mirror images one is followed. Branches without a stable
-    orbit at the searched values are missed. A resonance of undamped boxes ends a branch. If the resonance is at a
-    searched value, there is a warning, and no orbit is searched there.
+    Stable orbits are searched at a few of the values, see SEARCHED, and followed to both sides by Newton's method until
+    the branch folds, or the orbit is inadmissible or symmetric. Of two mirror images one is followed. Branches without
+    a stable orbit at a value in SEARCHED are missed. A branch also ends where undamped boxes resonate. If they resonate
+    at a value in SEARCHED, there is a warning, and no orbit is searched there.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def followed(systems: dict) -> Iterator[tuple[float, object]]:
 
 
 def _stable(system):
-    """Return the roots of stable admissible orbits, one for each pair of mirror images."""
+    """Return the roots of the stable admissible asymmetric orbits, one for each pair of mirror images."""
     stable = []
     try:
         roots = AsymmetricOrbits.roots(system)
@@ -59,13 +59,13 @@ def _stable(system):
 
 
 def _known(x, roots, system):
-    """Return True if a root or its mirror image is in a list of roots."""
+    """Return True if the root `x` or the root of its mirror image is in the list `roots`."""
     near = (image - root for root in roots for image in images(AsymmetricOrbits, system, x, root))
     return any(np.abs(gap).max() < SAME for gap in near)
 
 
 def _along(values, systems, x):
-    """Follow a root through the values; yield value, root and Orbit as long as the orbit is admissible."""
+    """Follow the root `x` through `values`; yield (value, root, Orbit) as long as the orbit is admissible."""
     for value, root in follow(lambda value: AsymmetricConditions(systems[value]), x, values, LARGEST_CHANGE):
         orbit = AsymmetricOrbits.member(systems[value], root)
         if not orbit.admissible:

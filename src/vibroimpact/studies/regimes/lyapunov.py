@@ -2,8 +2,8 @@
 
 The Jacobian of every cycle, saltation matrices included (Müller 1995), propagates a frame of perturbations, which is
 orthonormalised by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990). The logarithms of the diagonal of R
-are the growth in this cycle. The initial time is not perturbed: the flow in phase space extended by time has one more
-exponent, 0, and its attractor has one more dimension.
+are the growth in this cycle. The initial time is not perturbed. With the time as another coordinate, the flow has one
+more exponent, 0, and the dimension of its attractor is larger by one.
 
 If a ball sticks, two directions are lost. If both balls stick at the same time, four directions are lost. If such
 double sticks have a positive frequency, almost every point of the attractor has one in its past. Four exponents are
@@ -36,8 +36,8 @@ class Exponent(NamedTuple):
     """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
     The error is the root of the sum of squares of two errors: the standard error from block means, and ln(t1 / t0) /
-    (t1 - t0). The second error is the apparent rate, over the blocks from t0 to t1, of a perturbation that grows
-    linearly in time, for example for a ball at rest. The true exponent of such a perturbation is 0.
+    (t1 - t0), where the blocks last from the time t0 to t1. The second error is the rate that a perturbation which
+    grows linearly in time, as that of a ball at rest does, shows over the blocks. Its true exponent is 0.
     """
 
     mean: float
@@ -55,9 +55,9 @@ def largest_lyapunov(
 ) -> Measured:
     """Return the largest Lyapunov exponent of the motion reached from an initial state, in nats per period.
 
-    An exponent above about three errors indicates chaos. For a periodic motion it is the logarithm of the modulus of
-    the largest Floquet multiplier, over the period. The exponent is computed from the exact Jacobian through impacts,
-    chatter and sticking, for the active modules.
+    An exponent above about three times its error indicates chaos. For a periodic motion, the exponent is the logarithm
+    of the modulus of the largest Floquet multiplier, divided by the period of the motion. The exponent is computed from
+    the exact Jacobian through impacts, chatter and sticking, for the active modules.
 
     Parameters
     ----------
@@ -78,8 +78,8 @@ def largest_lyapunov(
     Returns
     -------
     Measured
-        .mean, .error and .scatter. The error includes the apparent rate of a perturbation that grows linearly in
-        time, as for a ball at rest.
+        .mean, .error and .scatter. The error includes the rate that a perturbation which grows linearly in time, as
+        that of a ball at rest does, shows over `cycles`; its true exponent is 0.
 
     Raises
     ------
@@ -122,9 +122,9 @@ class Spectrum:
     Attributes
     ----------
     growth : ndarray
-        Logarithm of the growth in eight directions in each of n cycles, (n, 8), or (n, 4) if one module is active. A
-        ball that sticks loses the memory of how it came to its wall: two of the values are -inf, or four if both balls
-        stick at the same time.
+        Logarithm of the growth in eight directions in each of n cycles, (n, 8), or (n, 4) if one module is active. If a
+        ball sticks in a cycle, its motion afterwards does not depend on how it came to its wall: two values of the
+        cycle are -inf, or four if both balls stick at the same time.
     contraction : ndarray
         Logarithm of the contraction of volume in each cycle, in closed form, (n,); the sum of `growth`.
     stuck : ndarray
@@ -143,8 +143,8 @@ class Spectrum:
     def without_double_sticks(self) -> "Spectrum":
         """Return the spectrum over the cycles in which the balls do not stick at the same time.
 
-        The result depends little on the number of excluded cycles. After each excluded cycle, four directions start
-        again and align within about ten cycles, which are not excluded.
+        After each excluded cycle, four directions of the frame of perturbations start again. They align within about ten
+        cycles. These cycles are not excluded, since they change the result little.
         """
         others = self.stuck < BOTH
         return Spectrum(_largest_first(self.growth[others]), self.contraction[others], self.stuck[others])
@@ -196,8 +196,8 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     """Return all Lyapunov exponents of the motion reached from an initial state, in nats per period.
 
     The exponents are those of the map from one forcing period to the next; the exponent 0 of a shift in time is not
-    included. A ball that sticks loses two directions, whose exponents are -inf. A perturbation that grows linearly in
-    time t, as for a ball at rest, has the apparent exponent ln(t) / t, which the errors do not include.
+    included. If a ball sticks, two directions are lost, whose exponents are -inf. A perturbation that grows linearly in
+    time t, as that of a ball at rest does, has the exponent 0, but shows ln(t) / t; the errors do not include this.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     state, cycles, settle
         As for `largest_lyapunov`.
     discarded : int, default 100
-        Forcing periods to discard before `cycles`, in which the perturbations turn to their directions.
+        Forcing periods to discard before `cycles`, in which each perturbation turns to the direction of its exponent.
 
     Returns
     -------
@@ -245,9 +245,12 @@ def _largest_first(rates):
 def contraction(system, impacts, stuck) -> np.ndarray:
     """Return the logarithm of the contraction of volume in state space in each cycle, shape (n,).
 
+    impacts, stuck: number of impacts, and largest number of balls that stick at the same time, in each cycle.
+
     A flight of time t contracts volume by exp(-tr(D) t), with the damping matrix D of the active modules. An impact
-    contracts it by kappa^2: in the coordinates gap, rate of the gap and motion of the centre of mass, the saltation
-    matrix is triangular, with -kappa for the gap and -kappa for the rate. A ball that sticks leaves no volume: -inf.
+    contracts volume by kappa^2: if the coordinates of its module are W, W' and the motion of the centre of mass, the
+    saltation matrix is triangular, with -kappa for W and -kappa for W'. In a cycle in which a ball sticks, no volume is
+    left, and the result is -inf.
     """
     damping = np.diag(damping_matrix(system))[active_mask(system)[[0, 2]]].sum()
     volume = 2 * np.asarray(impacts) * np.log(system.kappa) - damping * system.period
@@ -257,8 +260,8 @@ def contraction(system, impacts, stuck) -> np.ndarray:
 def kaplan_yorke(exponents) -> float:
     """Return the Kaplan-Yorke dimension (1979) of exponents (n,), largest first.
 
-    In this dimension volumes neither grow nor shrink: it is the number of largest exponents, interpolated linearly, at
-    which their sum is 0. If all exponents are negative, the dimension is 0.
+    The dimension is the number of largest exponents whose sum is 0, interpolated linearly between whole numbers. In
+    this dimension volumes neither grow nor shrink. If all exponents are negative, the dimension is 0.
     """
     exponents = np.asarray(exponents)
     sums = np.cumsum(exponents)
@@ -269,7 +272,10 @@ def kaplan_yorke(exponents) -> float:
 
 
 def _frame_growth(system, state, runs, directions):
-    """Simulate consecutive runs of given numbers of cycles; yield for each the growth of a tangent frame."""
+    """Simulate consecutive runs, each of a number of cycles in `runs`; yield for each run the growth of a tangent frame.
+
+    directions: number of perturbations in the frame.
+    """
     places = np.flatnonzero(active_mask(system))
     frame, state = np.zeros((8, directions)), inactive_at_rest(system, state)
     frame[places] = np.linalg.qr(_VECTORS[: len(places), : len(places)])[0][:, :directions]
@@ -281,6 +287,6 @@ def _frame_growth(system, state, runs, directions):
 
 
 def _settled(system, state, settle):
-    """Return the state (8,) after a transient."""
+    """Return the state (8,) after a transient of `settle` forcing periods from `state`."""
     instance("system", system, System)
     return finals(system, checked_state(state)[None], whole("settle", settle, 0, _MOST))[0]

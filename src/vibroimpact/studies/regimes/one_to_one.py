@@ -10,7 +10,7 @@ from vibroimpact.theory.fixed_points.symmetric_points import search
 from vibroimpact.theory.response import leading_order, mean_power
 
 SAMPLES = 512
-"""Number of samples in half a period; their maximum is below the true maximum by at most 5e-6 of its value."""
+"""Number of samples in half a period; the largest sample is below the true maximum by at most 5e-6 of the maximum."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +27,7 @@ class Amounts:
 
 
 def by_theory(system) -> list[Amounts]:
-    """Return the Amounts to leading order, (10.9) and (10.10), for each fixed point of (10.23)."""
+    """Return the Amounts of the response to leading order, (10.9) and (10.10), at each fixed point of (10.23)."""
     tau = np.linspace(0.0, system.period / 2, SAMPLES)
     return [
         Amounts(
@@ -40,7 +40,7 @@ def by_theory(system) -> list[Amounts]:
 
 
 def by_exact_orbits(system) -> list[Amounts]:
-    """Return the Amounts for each admissible symmetric orbit, from an exact run over one period.
+    """Return the Amounts of each admissible symmetric orbit, from an exact run over one period.
 
     Raises
     ------

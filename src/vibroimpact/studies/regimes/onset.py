@@ -31,7 +31,10 @@ def predicted(path, values) -> np.ndarray:
 
 
 def observed(values, p, names) -> np.ndarray:
-    """Return True for each of `values`, (n,), at which an initial state ends in a modulated or chaotic response."""
+    """Return True for each of `values`, (n,), at which an initial state ends in a modulated or chaotic response.
+
+    p, names: for each initial state, the value at which it was simulated, and the regime in which it ends.
+    """
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
 
@@ -46,17 +49,18 @@ def longest_range(values, flags) -> tuple[float, float]:
 
 
 def onsets(path, values, p, names) -> list[tuple]:
-    """Return the range of modulated responses along a path, by slow flow and by simulation, and how often both agree.
+    """Return the range of modulated responses along a path, by slow flow and by simulation, and where both agree.
 
     Parameters
     ----------
     path, values
         As for `predicted`; the values are evenly spaced.
     p, names
-        Value of the parameter at each initial state, and the regime that the state ends in.
+        For each initial state, the value at which it was simulated, and the regime in which it ends.
 
-    Returns two rows with COLUMNS: names of the path, source, both ends of the longest range, spacing of the values,
-    agreement. The list is empty if other parameters than forces vary along the path.
+    Returns two rows, one for each source, with COLUMNS: names of the parameters of the path, source, both ends of the
+    longest range, spacing of the values, and the share of the values at which both sources agree. The list is empty if
+    parameters other than forces vary along the path.
     """
     if not set(path.names) <= FORCES:
         return []

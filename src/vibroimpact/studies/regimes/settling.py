@@ -70,9 +70,9 @@ class Observation:
 
 
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
-    """Return the regime that each initial state ends in, in order.
+    """Return the regime in which the motion from each initial state ends, in the order of `states`.
 
-    Motions that cannot be classified run for `retest` more cycles.
+    Motions that cannot be classified after all rounds run for `retest` more cycles.
 
     Motions that do not repeat are tested regime by regime. One of the motions in a regime, the witness, runs for
     `retest` more cycles. If any initial state ends in a periodic motion, there are up to MOST_WITNESSES witnesses,
@@ -100,9 +100,10 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
 
 
 def _rounds(system, states, observation, progress):
-    """Return the regime of each initial state after all rounds.
+    """Return the regime in which the motion from each initial state is after all rounds.
 
-    Motions that do not repeat are classified after the last round, and continue if the classification fails.
+    Motions that do not repeat are classified after the last round. If the classification of a motion fails, the motion
+    runs for `retest` more cycles and is classified again.
     """
     found: list[Regime | None] = [None] * len(states)
     waiting, now = np.arange(len(states)), states
@@ -129,7 +130,7 @@ def named(run, observation: Observation) -> Regime:
 
 
 def _passing(regime):
-    """Return True if a longer run may end in another regime."""
+    """Return True if the motion should run for another round: it is unsettled, or a ball is idle but it does not repeat."""
     return regime.name == UNSETTLED or (regime.name == IDLE and regime.repeats is None)
 
 
@@ -138,7 +139,7 @@ def _continued(system, regime, observation):
 
 
 def _test_classification(system, regimes, members, observation, progress):
-    """Test by longer runs the regime of the motions `members`, and update `regimes` in place (see `settle`)."""
+    """Test by longer runs the regime of the motions with indices `members`; update `regimes` in place (see `settle`)."""
     before = regimes[members[-1]].name
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
@@ -159,5 +160,5 @@ def _continue(system, regimes, places, observation, progress):
 
 
 def _same_kind(before, after):
-    """Return True if two names are equal, or if both are in CHAOS."""
+    """Return True if two names of regimes are equal, or if both are in CHAOS."""
     return before == after or (before in CHAOS and after in CHAOS)

@@ -14,8 +14,8 @@ DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 class MotionSpectrum(NamedTuple):
     """Spectrum of a motion without the cycles in which both balls stick at the same time.
 
-    errors, dimension_error: bootstrap errors of the exponents and of the dimension. double_sticks: number of cycles
-    left out.
+    errors, dimension_error: bootstrap errors of the exponents and of the dimension. double_sticks: number of the cycles
+    that are left out.
     """
 
     spectrum: Spectrum
@@ -41,9 +41,11 @@ def spectra_of(system, states, cycles: int, block: int) -> list[MotionSpectrum]:
 def rows(key: dict, found) -> list[dict]:
     """Return the rows of the table for motions of one regime.
 
-    Each row has the mean over motions, its standard error, and the mean of the bootstrap errors of single motions.
+    Each row has the mean of a quantity over the motions, the standard error of this mean, and the mean of the bootstrap
+    errors of single motions. The sum of the exponents and the contraction are means over the cycles in which no ball
+    sticks. The rate of double sticks is that of all motions together.
 
-    Sum and contraction are means over the cycles in which no ball sticks. Double sticks are counted over all motions.
+    key: columns that all rows share. found: the MotionSpectrum of each motion.
     """
     size = found[0].spectrum.growth.shape[1]
     columns = {f"exponent {k + 1}": [(one.spectrum.exponents[k], one.errors[k]) for one in found] for k in range(size)}
@@ -56,16 +58,17 @@ def rows(key: dict, found) -> list[dict]:
 
 
 def _rate(count, others):
-    """Return the rate of rare events per OF_CYCLES cycles, and its standard error.
+    """Return the rate per OF_CYCLES cycles of an event that occurs in `count` cycles but not in `others`.
 
-    The error assumes Poisson statistics. If there was no event, the result is the error for one event.
+    The standard error of the rate assumes Poisson statistics. If the event does not occur, the standard error is that
+    for a single event.
     """
     scale = OF_CYCLES / (count + others)
     return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}
 
 
 def _mean_without_sticks(one, values):
-    """Return the mean of the values over the cycles in which no ball sticks."""
+    """Return the mean of `values`, one for each cycle of the Spectrum `one`, over the cycles in which no ball sticks."""
     return values[one.stuck == 0].mean()
 
 
