@@ -4,8 +4,8 @@ The machine is a mass on a spring and a damper, driven over a band of frequencie
 an unbalance. Candidates are compared by their peak: the largest displacement over the band, from rest and from other
 initial states. A peak from a few initial states is a lower bound, and selecting the lowest of many such peaks adds a
 bias. So the best few candidates are measured again: from more initial states, after a longer transient, and with
-slightly more and less clearance. The design is the candidate with the lowest worst peak in this neighbourhood. Text,
-table and plot of the design use the same grid of frequencies and the same window of time.
+slightly more and less clearance. The design is the candidate with the lowest worst peak in this neighbourhood. The
+text, the table and the plot of the design use the same grid of frequencies and the same window of time.
 """
 
 import math
@@ -28,7 +28,7 @@ from vibroimpact.system.progress import track
 from vibroimpact.system.state import IMPACT, RELEASE, STICK, inactive_at_rest
 
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.5, 0.8)
-"""Default candidates for the restitution coefficient; steel on steel with damping has about 0.6."""
+"""Default candidates for the restitution coefficient; for steel on steel with damping it is about 0.6."""
 CLEARANCE_FACTOR, WIDEST_FACTOR, COARSE_CLEARANCES = 4, 8, 8
 """Default clearances: COARSE_CLEARANCES values from (F / k) (M / m) / CLEARANCE_FACTOR to (F / k) (M / m) times
 CLEARANCE_FACTOR. The lower end is at most the peak without ball / WIDEST_FACTOR, the upper end at most this peak."""
@@ -37,9 +37,9 @@ DIGITS = 3
 FEW = 3
 """Number of best candidates that are measured again."""
 PER_WIDTH, LEAST, MOST = 6, 41, 801
-"""Frequencies per half-power width of the resonance without ball; smallest and largest number in a band."""
+"""Frequencies per half-power width of the resonance without ball; least and largest number of frequencies in a band."""
 FEW_STARTS, MORE_STARTS = 3, 6
-"""Number of initial states for each candidate (at every other frequency), and for each of the best few."""
+"""Number of initial states for each candidate, which is run at every other frequency, and for each of the best few."""
 SETTLED, LONGEST = 5, 2000
 """Length of the transient in time constants of the machine, and its upper limit in forcing periods."""
 SHORT, LONG = 100, 600
@@ -47,10 +47,11 @@ SHORT, LONG = 100, 600
 WINDOW = 300
 """Forcing periods of the window for each of the best few."""
 NEAR, FRAGILE = 0.02, 1.1
-"""Relative difference in clearance between a design and its two neighbours; a design is fragile if the peak of a
-neighbour is more than FRAGILE times its peak. A motion is settled if its later peak is at least its peak / FRAGILE."""
+"""NEAR is the relative difference in clearance between a design and its two neighbours. A design is fragile if the peak
+of a neighbour exceeds FRAGILE times that of the design. The largest motion of a design is settled if its displacement
+in the LATER periods after the window is at least the peak of the design divided by FRAGILE."""
 LATER = 1000
-"""Forcing periods for which the largest motion at a frequency continues, to show if it is a transient."""
+"""Forcing periods for which the largest motion at each frequency is continued, to show whether it is a transient."""
 CURVES = {
     "without_m": ("without ball", {"color": "0.55", "linewidth": 1.6}),
     "with_m": ("with the ball, settled", {"color": "black", "linewidth": 1.2}),
@@ -59,7 +60,7 @@ CURVES = {
 }
 """Lines of the plot of a design: columns of its response, with labels and styles."""
 SENSITIVITY_FACTORS = (0.8, 1.2)
-"""Clearances of the sensitivity analysis, relative to that of the design."""
+"""Clearances of the sensitivity analysis, relative to the clearance of the design."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,9 +76,9 @@ class Design:
         Largest displacement over the band [m] once settled: in `window[1]` forcing periods after the transient of
         `window[0]`. The peak is the largest `with_m` of `response`.
     near : tuple of float
-        Smallest and largest peak [m] among those with 2 % less, the same and 2 % more clearance.
+        Smallest and largest of three peaks [m]: with 2 % less clearance, with the same and with 2 % more.
     settling : float
-        Largest displacement before the window, from rest [m].
+        Largest displacement from rest [m] during the transient, before the window.
     without, fixed : float
         Peak without ball [m], and with the ball fixed in the box [m].
     absorber, absorber_stroke : float
@@ -91,12 +92,12 @@ class Design:
         Forcing periods of the transient and of the window.
     candidates : list of dict
         One row per pair of clearance and restitution: clearance_m, restitution, peak_m from a few initial states. The
-        best few have again_m, measured as `peak`, and near_m, the larger value of `near`; all others have nan there.
-        The chosen pair has the smallest near_m.
+        best few pairs have again_m, measured as `peak`, and near_m, the larger value of `near`; for all other pairs
+        both are nan. The chosen pair has the smallest near_m.
     response : list of dict
         One row per frequency: frequency_Hz; the displacements without_m, with_m (in the window, the largest of all
-        initial states), settling_m (before the window, from rest) and absorber_m. The rest is for the largest motion
-        with the ball in the window: impacts_per_s; the mean impact_speed_m_s of the ball against the wall; the mean
+        initial states), settling_m (before the window, from rest) and absorber_m. All other entries describe the motion
+        behind with_m: impacts_per_s; the mean impact_speed_m_s of the ball against the wall; the mean
         impulse_Ns of an impact; impulse_Ns_per_s; sticking, the share of time that the ball rests on a wall; later_m,
         the displacement in the 1000 periods after the window, which is smaller than with_m if this motion is a
         transient.
@@ -268,7 +269,13 @@ def design(
 
 
 def _choices(name, values, end) -> list[float]:
-    """Return the values in ascending order, after a check that each is above 0 and below `end`."""
+    """Return `values` in ascending order, after a check that each is above 0 and below `end`.
+
+    Raises
+    ------
+    ValueError
+        If a value is not, or if there are none; the message begins with `name`.
+    """
     given = np.unique(reals(name, values)).tolist()
     if not given or not 0 < given[0] <= given[-1] < end:
         upper = f" and below {end:g}" if end < math.inf else ""
@@ -384,11 +391,11 @@ class _Study:
         self.wait = max(self.settle, LONG)
 
     def linear(self, reference) -> float:
-        """Return the peak [m] of a linear system, built by `reference`, over the band."""
+        """Return the peak [m] over the band of the linear system that `reference` builds."""
         return self.machine.L * reference(self.system, self.scale).peak(self.band)
 
     def scale(self, Omega):
-        """Return the force at dimensionless frequencies, relative to the force at the natural frequency."""
+        """Return the force at the dimensionless frequencies `Omega`, divided by the force at Omega = 1."""
         return self.machine.force(Omega * self.machine.omega10) / self.machine.F10 * np.ones_like(Omega)
 
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
@@ -456,7 +463,7 @@ def _impacts(machine, run) -> dict:
 def _at_rest(events, run):
     """Return the total time tau during which the ball rests on a wall.
 
-    It rests from a stick (or the start of the run) to the next release (or the end of the run).
+    The ball rests from a stick (or the start of the run) to the next release (or the end of the run).
     """
     changes = events[np.isin(events["kind"], (STICK, RELEASE))]
     times, sticks = changes["tau"], changes["kind"] == STICK

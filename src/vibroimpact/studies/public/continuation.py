@@ -41,8 +41,8 @@ def branches(
     Pseudo-arclength continuation (Keller 1977) passes folds and branch points. It also follows the branches that
     emanate from branch points, and asymmetric orbits that emanate from symmetric ones. Each branch is divided at its
     special points: folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf, grazing. If a branch
-    ends inside `between`, the last special point gives the reason: speed zero, lost, symmetry breaking (the branch
-    meets its mirror image) or period doubling (the branch meets a motion with a shorter period).
+    ends inside `between`, the special point at its end gives the reason: speed zero, lost, symmetry breaking (the
+    branch meets its mirror image) or period doubling (the branch meets a motion with a shorter period).
 
     Parameters
     ----------
@@ -51,10 +51,10 @@ def branches(
     along : str or sequence of str
         A parameter of System, or several that vary together.
     between : tuple of float
-        First and last value of the parameter.
+        Least and greatest value of the parameter.
     of : str or PeriodicOrbit, default 'both'
-        "theory" (fixed points of the slow flow), "exact" (orbits), "both", or one motion of the system of any period
-        (`periodic_orbit`). The branch of a given motion ends as "lost" where a ball grazes or an event falls on the
+        "theory" (fixed points of the slow flow), "exact" (1:1 orbits), "both", or one given motion of any period, from
+        `periodic_orbit`. The branch of a given motion ends as "lost" where a ball grazes or an event falls on the
         stroboscopic instant.
     seeds : int, default 5
         Number of values in `between` at which to search for motions. Branches that pass none of these values and
@@ -197,7 +197,7 @@ def bifurcation_curves(
 
 
 def with_parameters(known, names) -> tuple[str, ...]:
-    """Return the names as a tuple if all are in `known`, the parameters of System.
+    """Return `names` as a tuple if all are in `known`, the parameters of System.
 
     Raises
     ------
@@ -211,7 +211,7 @@ def with_parameters(known, names) -> tuple[str, ...]:
 
 
 def _checked_system(system, names) -> System:
-    """Return the system if all names are parameters of System, else raise ValueError."""
+    """Return `system` if it is a System and all `names` are parameters of System, else raise ValueError."""
     with_parameters(asdict(instance("system", system, System)), names)
     return system
 
@@ -230,7 +230,7 @@ def _families(of):
 
 
 def _report(words, progress) -> Callable:
-    """Return a function that writes a progress line: `words`, then the values of parameters."""
+    """Return a function of parameter values that, if `progress`, writes a progress line: `words`, then the values."""
     return lambda *values: (
         wants_progress(progress) and write_line(f"{words} {', '.join(f'{value:.4g}' for value in values)}")
     )

@@ -33,7 +33,7 @@ def sweep(
 ) -> list[dict]:
     """Return observations at all points of a grid of one or two parameters.
 
-    If an observation fails at a point, the row has the reason under "failed"; other rows are not affected.
+    If an observation fails at a point, the row of this point has the reason under "failed"; no other row is affected.
 
     Parameters
     ----------
@@ -46,11 +46,11 @@ def sweep(
         square, mean ball speeds), "envelopes" (5 % and 95 % quantiles of the amplitude per cycle), "energy" (share of
         the work of the forces that impacts dissipate), "peaks" (amplitude exceeded by one cycle in a hundred along a
         band) and "regimes" (share of the initial states that end in each regime, and the regime reached from rest).
-        The following ones do not simulate: "fixed_points" (number of fixed points of the theory and of stable ones) and
-        "orbits" (number of exact 1:1 orbits and of stable ones).
+        The following ones do not simulate: "fixed_points" (number of fixed points of the theory, and how many of them
+        are stable) and "orbits" (number of exact 1:1 orbits, and how many of them are stable).
     starts : int, default 5
-        Number of initial states, evenly spread, the first at rest. A ball may stay idle from rest, although it moves
-        from any other initial state.
+        Number of initial states, evenly spread, the first at rest. A ball that starts at rest may stay idle, although
+        it moves from any other initial state.
     seed : int, default 0
         Seed of the scrambling of the initial states.
     cycles : int, default 1000

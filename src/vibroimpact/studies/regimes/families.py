@@ -1,10 +1,11 @@
 """Families of motions for continuation: equations, members, and test functions that vanish at special points.
 
 The test functions of an orbit, except that for grazing, are symmetric polynomials in its multipliers mu, so that they
-are real and change sign at their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j, vanishes where a pair reaches the
-unit circle (Neimark-Sacker if the pair is complex). For a symmetric orbit mu are the multipliers over half a period
-followed by mirroring, and mu = -1 breaks the symmetry. A symmetric orbit cannot double its period before its symmetry
-breaks (Swift and Wiesenfeld 1984). Folds and branch points (mu = 1) are found by the continuation instead.
+are real and change sign at their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j,
+vanishes where a pair of multipliers reaches the unit circle (Neimark-Sacker if the pair is complex). For a symmetric
+orbit mu are the multipliers over half a period followed by mirroring, and mu = -1 breaks the symmetry. A symmetric
+orbit cannot double its period before its symmetry breaks (Swift and Wiesenfeld 1984). Folds and branch points (mu = 1)
+are found by the continuation instead.
 
 The unknowns of an inactive module (not in `System.modules`) are held at the constants `rest`: angles at 0; sizes, C_i
 or I_i, at 1, so that a size of 0 always means a ball without speed. The amplitude of such a module is NaN.

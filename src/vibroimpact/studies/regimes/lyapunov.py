@@ -143,8 +143,8 @@ class Spectrum:
     def without_double_sticks(self) -> "Spectrum":
         """Return the spectrum over the cycles in which the balls do not stick at the same time.
 
-        After each excluded cycle, four directions of the frame of perturbations start again. They align within about ten
-        cycles. These cycles are not excluded, since they change the result little.
+        The result depends little on how many cycles are excluded. After each excluded cycle, four directions of the
+        frame of perturbations start again and align within about ten cycles; these cycles are not excluded.
         """
         others = self.stuck < BOTH
         return Spectrum(_largest_first(self.growth[others]), self.contraction[others], self.stuck[others])
@@ -272,9 +272,9 @@ def kaplan_yorke(exponents) -> float:
 
 
 def _frame_growth(system, state, runs, directions):
-    """Simulate consecutive runs, each of a number of cycles in `runs`; yield for each run the growth of a tangent frame.
+    """Simulate consecutive runs; yield the growth of a frame of perturbations in each run.
 
-    directions: number of perturbations in the frame.
+    runs: numbers of cycles of the runs. directions: number of perturbations in the frame.
     """
     places = np.flatnonzero(active_mask(system))
     frame, state = np.zeros((8, directions)), inactive_at_rest(system, state)

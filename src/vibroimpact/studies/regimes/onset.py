@@ -49,7 +49,7 @@ def longest_range(values, flags) -> tuple[float, float]:
 
 
 def onsets(path, values, p, names) -> list[tuple]:
-    """Return the range of modulated responses along a path, by slow flow and by simulation, and where both agree.
+    """Return the range of modulated responses along a path, by slow flow and by simulation, and the agreement of both.
 
     Parameters
     ----------

@@ -130,7 +130,7 @@ def named(run, observation: Observation) -> Regime:
 
 
 def _passing(regime):
-    """Return True if the motion should run for another round: it is unsettled, or a ball is idle but it does not repeat."""
+    """Return True if a motion may end in another regime: if unsettled, or if not repeating and with an idle ball."""
     return regime.name == UNSETTLED or (regime.name == IDLE and regime.repeats is None)
 
 
@@ -139,7 +139,7 @@ def _continued(system, regime, observation):
 
 
 def _test_classification(system, regimes, members, observation, progress):
-    """Test by longer runs the regime of the motions with indices `members`; update `regimes` in place (see `settle`)."""
+    """Test the regime of the motions with indices `members` by longer runs; update `regimes` in place, see `settle`."""
     before = regimes[members[-1]].name
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]

@@ -68,7 +68,7 @@ def _rate(count, others):
 
 
 def _mean_without_sticks(one, values):
-    """Return the mean of `values`, one for each cycle of the Spectrum `one`, over the cycles in which no ball sticks."""
+    """Return the mean of `values`, one per cycle of the Spectrum `one`, over the cycles in which no ball sticks."""
     return values[one.stuck == 0].mean()
 
 

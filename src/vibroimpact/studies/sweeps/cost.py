@@ -4,13 +4,13 @@ import math
 from collections.abc import Mapping
 
 RUNS = ("amplitudes", "envelopes", "energy")
-"""Observations with one run over `cycles` per initial state; "peaks" and "regimes" also simulate, but differently."""
+"""Observations that need one run over `cycles` per initial state; the runs of "peaks" and "regimes" are others."""
 CYCLE = 5e-6
 """Core seconds per forcing cycle of one run, as measured by `make benchmark` (a settled cycle has four impacts)."""
 POINT = 0.01
-"""Core seconds per point without simulations, for flow tables, fixed points and orbits."""
+"""Core seconds that a point takes in addition to its simulations: for flow tables, fixed points and orbits."""
 RETESTED = 0.1
-"""Assumed share of motions that do not repeat, and are therefore tested over `retest` cycles."""
+"""Assumed share of the motions that do not repeat; these motions are tested over `retest` cycles."""
 MOST_TILES = 10_000
 """Largest number of tiles, each of which is a file and a job."""
 
@@ -40,7 +40,10 @@ def core_seconds(request: Mapping) -> float:
 
 
 def tiles(request: Mapping, seconds: float) -> int:
-    """Return the number of tiles that take about `seconds` core seconds each, at most one tile per point."""
+    """Return the number of tiles into which to divide a sweep so that each takes about `seconds` core seconds.
+
+    The number is at most one per point, and at most MOST_TILES.
+    """
     return max(1, min(math.ceil(core_seconds(request) / seconds), points(request["axes"]), MOST_TILES))
 
 

@@ -13,12 +13,12 @@ LINEAR, LOGARITHMIC = "linear", "logarithmic"
 SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
 """Spacing of the values of an axis, by name."""
 LOW_DISCREPANCY_STEPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
-"""Steps by dimension; their multiples modulo 1 spread evenly over a line or a square (Roberts 2018)."""
+"""By dimension, the step whose multiples modulo 1 spread evenly over the unit interval or square (Roberts 2018)."""
 
 
 @dataclass(frozen=True)
 class Axis:
-    """Dimensionless parameters that vary together; each value is one number for all, or a tuple with one for each."""
+    """Parameters of System that vary together; each of `values` is one number for all, or a tuple with one for each."""
 
     along: tuple[str, ...]
     values: tuple[float | tuple[float, ...], ...]

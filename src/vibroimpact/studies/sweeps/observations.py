@@ -33,13 +33,16 @@ def observed(system, spec: Spec) -> dict:
 
 
 def _regimes(system, states, spec):
-    """Return the share of the initial states that end in each regime, and the regime reached from rest."""
+    """Return the share of the initial states from which the motion ends in each regime, and the regime from rest."""
     names = [regime.name for regime in settle(system, states, Observation(**spec.observation))]
     return *(names.count(name) / len(names) for name in REGIMES), names[0]
 
 
 def _amplitudes(system, states, spec):
-    """Return, over all starts, largest |X_i|, root mean square of X_i, mean ball speeds, number of unfinished runs."""
+    """Return the largest |X_i|, the root mean square of X_i, the mean ball speeds, and the number of unfinished runs.
+
+    The amplitudes and speeds, two of each, are those of all finished runs together.
+    """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
     if not len(done):
@@ -59,8 +62,8 @@ def _envelopes(system, states, spec):
 def _peaks(system, states, spec):
     """Return the highest peak along the band, over all starts (`absorbers.peaks`), and four other values.
 
-    These are the largest root mean square of both boxes, the value of the first parameter at the peak, the peak with
-    one ball (`_one_ball`), and the number of unfinished runs.
+    The four others are the largest root mean square of X_1 or X_2, the value of the first parameter in `spec.band` at
+    the highest peak, the peak with one ball (`_one_ball`), and the number of unfinished runs.
     """
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
@@ -74,15 +77,15 @@ def _peaks(system, states, spec):
 
 
 def _one_ball(runs):
-    """Return the peak of the runs from rest if exactly one ball is idle, the same ball in every run; else nan."""
+    """Return the highest peak of the runs from rest if exactly one ball is idle in all of these runs, else nan."""
     still = [not runs.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
     return peak_of(runs.largest[:, :1]).max() if sum(still) == 1 else np.nan
 
 
 def _energy(system, states, spec):
-    """Return the share of the work of the forces that impacts dissipate, and the number of starts without impacts.
+    """Return the share of the work of the forces that impacts dissipate, and the number of runs without impacts.
 
-    Starts without impacts are excluded from the share.
+    The share is that of all finished runs with impacts together.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]
@@ -93,7 +96,7 @@ def _energy(system, states, spec):
 
 
 def fixed_point_counts(system) -> tuple[int, int]:
-    """Return the number of fixed points of the theory, and the number of those that are stable by the theory."""
+    """Return the number of fixed points of the slow flow, and the number of those that the theory calls stable."""
     points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
     return len(points), sum(FixedPoints.stable(system, point) for point in points)
 

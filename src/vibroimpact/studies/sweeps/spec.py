@@ -6,16 +6,16 @@ from vibroimpact.studies.sweeps.cost import RUNS
 from vibroimpact.studies.sweeps.grid import axis
 
 POINT, FAILED = "point", "failed"
-"""Columns of every table: number of the point, and reason of a failure, or ""."""
+"""First and last column of the table of a sweep: number of the point, and why an observation failed there, or ""."""
 
 
 @dataclass(frozen=True)
 class Spec:
     """Observations at every point of a sweep, and their settings.
 
-    observe: names of observations. starts, seed: see `regimes.classification.starts`. cycles, settle: forcing periods
-    of a run, and of the transient at its start, which is left out. band: arguments of `grid.axis` for the parameters
-    along which peaks are searched. observation: arguments of `regimes.settling.Observation`.
+    observe: names of observations. starts, seed: `count` and `seed` of `regimes.classification.starts`. cycles, settle:
+    forcing periods of a run, and of the transient at its start, which is left out. band: arguments of `grid.axis` for
+    the parameters along which peaks are searched. observation: arguments of `regimes.settling.Observation`.
     """
 
     observe: tuple[str, ...]
@@ -28,6 +28,6 @@ class Spec:
 
     @property
     def runs(self) -> int:
-        """Number of runs at a point, over all observations."""
+        """Number of runs that all observations together need at a point."""
         along_band = len(axis(**self.band).values) if "peaks" in self.observe else 0
         return self.starts * (along_band + sum(name in ("regimes", *RUNS) for name in self.observe))

@@ -2,8 +2,8 @@
 
 The balance is linear in w_i = u_i / beta_i, with coefficients that depend on the chart parameters x_i alone
 (docs/derivation.md, section 11). By Cramer's rule w_i = m_i / Delta, where the code calls the numerators m_i n1 and n2.
-Since |u_i| = 1, |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2 on the square |x_i| <= 1. `completeness.points` proves that
-no point is missed.
+Since |u_i| = 1, the conditions are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2 on the square |x_i| <= 1.
+`completeness.points` proves that no fixed point is missed.
 
 Points with v^2 < 0 are kept too. They are not motions at leading order, but continue the branch beyond symmetry
 breaking. A motion close to such a point exists once terms of order epsilon raise v^2 above 0.
@@ -50,11 +50,12 @@ class AsymmetricPoint(Representation):
     asymmetric : ndarray
         True for a module on the asymmetric branch, shape (2,).
     squared : ndarray
-        v^2 of each module, shape (2,), where v is the difference of both flight times over the period; 0 if symmetric.
+        v^2 of each module, shape (2,), where v is the difference of both flight times divided by the period; 0 for a
+        module on the symmetric branch.
     C, B, psi, slow_eigenvalues : ndarray
         As for a FixedPoint.
     middle : ndarray
-        Phase of U half-way from the impact with W = +1 to the next one [rad], shape (2,).
+        Phase of U_i half-way from the impact with W_i = +1 to the next impact [rad], shape (2,).
     """
 
     charts: tuple[str, str]
@@ -68,9 +69,9 @@ class AsymmetricPoint(Representation):
     slow_eigenvalues: np.ndarray
 
     def fast(self, kappa) -> np.ndarray:
-        """Return the multipliers of the impact maps of both modules over a cycle, shape (4,).
+        """Return the multipliers of the impact maps of both modules over a cycle, at constant B and phi, shape (4,).
 
-        B and phi are held constant. For a single machine the shape is (2,).
+        For a single machine the shape is (2,).
         """
         return np.concatenate([one[1] for one in self._modules(kappa)])
 
@@ -114,7 +115,7 @@ class AsymmetricPoint(Representation):
 
 
 class Balance:
-    """The two conditions on (x_1, x_2) in one pair of charts; for an inactive module the condition is x_i = 0."""
+    """The two conditions for a fixed point on (x_1, x_2) in one pair of charts; x_i = 0 if module i is inactive."""
 
     def __init__(self, system, one: Chart, two: Chart):
         self._idle = ~np.isin([1, 2], system.modules)
@@ -145,12 +146,18 @@ class Balance:
 
 
 def _product(one, other):
-    """Return the product of two functions of (x_1, x_2); rows of all arrays (3, n) are value and both derivatives."""
+    """Return the product of two functions of (x_1, x_2), each given as an array (3, n).
+
+    The rows of all three arrays are the value at n places, the derivative by x_1 and the derivative by x_2.
+    """
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
 
 
 def _size(function):
-    """Return the squared modulus of a function of (x_1, x_2); rows (3, n) are value and both derivatives."""
+    """Return the squared modulus of a function of (x_1, x_2), as an array (3, n) like `function`.
+
+    The rows are the value at n places, the derivative by x_1 and the derivative by x_2.
+    """
     return (function[0].conj() * function).real * np.array([[1], [2], [2]])
 
 

@@ -1,7 +1,7 @@
 """The manifold of symmetric and asymmetric motions in three charts: polynomials of a real parameter x in [-1, 1].
 
 A module's complex amplitude is b = z u / beta with |u| = 1, and the first harmonic of its saw-tooth is n u / beta. So
-the describing function of the ball is N = n / z. The saw-tooth amplitude is C = path / beta. In the table,
+the describing function of the ball is N = n / z. The amplitude of the saw-tooth is C = path / beta. In the table,
 c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v) are entire functions of v^2 (docs/derivation.md, section 11):
 
     chart         x      z                          n          beta                            path
@@ -10,8 +10,9 @@ c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v) are entire functions of v^2 (
     asymmetric    v^2    -(4 c / pi^2 + i rho s)    mu c^2 s   ((1 - x) s - 4 c / pi^2) c      (1 - x) s c
 
 On the asymmetric branch the flight from wall +1 takes the fraction (1 - v) / 2 of the cycle, and the flight back the
-fraction (1 + v) / 2; v is the difference. All quantities except the impact phases are functions of v^2, since a motion
-and its mirror image have opposite v. Stability on the branch is for constant B and phi.
+fraction (1 + v) / 2, so that v is the difference of both fractions. All quantities except the impact phases are
+functions of v^2, since a motion and its mirror image have opposite v. Stability on the asymmetric branch means
+stability of the impacts at constant B and phi.
 """
 
 import functools
@@ -33,7 +34,7 @@ _ROUNDING = 1e-12  # error of a trace
 
 @dataclass(frozen=True, eq=False)
 class Chart:
-    """The polynomials of one chart."""
+    """The polynomials z, n, beta and path of one chart of the manifold (see the module docstring)."""
 
     z: Polynomial
     n: Polynomial
@@ -82,7 +83,7 @@ def amplitudes(squared, kappa):
 
 
 def impact_phases(v, kappa):
-    """Return the phases of U [rad] at the impact with W = +1 and at the following one with W = -1; -1 < v < 1."""
+    """Return the phases of U [rad] at an impact with W = +1 and at the next impact, with W = -1, for -1 < v < 1."""
     chart, v = charts(kappa)[ASYMMETRIC], np.asarray(v, dtype=float)
     middle, half = np.angle(-chart.z(v**2) / chart.beta(v**2)), np.pi * (1 - v) / 2
     return middle - half, middle + half
@@ -94,7 +95,10 @@ def slope_change(v, kappa):
 
 
 def trace(squared, kappa):
-    """Return the trace of the map of perturbations over one cycle (two impacts); the determinant is kappa^4."""
+    """Return the trace of the linear map of perturbations over one cycle, on the asymmetric branch at v^2 = `squared`.
+
+    A cycle has two impacts, so that the determinant of the map is kappa^4.
+    """
     squared = np.asarray(squared, dtype=float)
     G = 1 - squared - (1 - squared) / amplitudes(squared, kappa)[0]  # (2 v / pi) cot(pi v / 2)
     tangent = (np.tan(np.pi / 2 * np.sqrt(squared.astype(complex))) ** 2).real
@@ -108,20 +112,20 @@ def trace(squared, kappa):
 def multipliers(squared: float, kappa: float) -> np.ndarray:
     """Return the multipliers, shape (2,), of perturbations of impact time and ball speed over one cycle.
 
-    B and phi are held constant.
+    The motion is that on the asymmetric branch at v^2 = `squared`; B and phi are constant.
     """
     return np.roots([1.0, -trace(squared, kappa), kappa**4]).astype(complex)
 
 
 def period_doubling(kappa: float) -> float:
-    """Return the v^2, from 0.17 to 0.22, at which a multiplier is -1; the branch is stable between 0 and this v^2."""
+    """Return the v^2 at which a multiplier is -1, between 0.17 and 0.22; the branch is stable from 0 to this v^2."""
     return brentq(lambda squared: trace(squared, kappa) + 1 + kappa**4, 0.0, 0.3, xtol=1e-15)
 
 
 def stable(squared: float, kappa: float) -> str:
-    """Return the verdict "stable", "unstable" or "undecided".
+    """Return the verdict "stable", "unstable" or "undecided" on the motion with v^2 = `squared`.
 
-    A point is stable if both multipliers are inside the unit circle.
+    The motion is stable if both of its `multipliers` are inside the unit circle.
     """
     return verdict(1 + kappa**4 - abs(trace(squared, kappa)), _ROUNDING)
 
@@ -129,7 +133,7 @@ def stable(squared: float, kappa: float) -> str:
 def overshoot(v: float, kappa: float) -> float:
     """Return the largest |W_0| - 1 over a cycle, or 0 if the ball stays between the walls.
 
-    The largest |W_0| is at a turning point of a flight, W_0' = 0.
+    If the ball does not stay between the walls, |W_0| is largest at a turning point of a flight, where W_0' = 0.
     """
     _, B = amplitudes(v**2, kappa)
     a, b = impact_phases(v, kappa)

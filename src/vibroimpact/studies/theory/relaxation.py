@@ -1,9 +1,9 @@
 """Compute the strongly modulated response by the slow flow: drift along the manifold, loss of resonance, return.
 
 A ball in resonance is on the stable part of the manifold, which is symmetric or, beyond symmetry breaking, asymmetric.
-When the amplitude of the box has fallen to the fold, B = B_min, the ball leaves resonance. The model assumes that it
-then rests in the middle of its box without any effect, until the walls reach it at B = 1. Then the ball is in resonance
-again (docs/derivation.md, section 12). No parameter is fitted.
+When the amplitude of the box has fallen to the fold, B = B_min, the ball leaves resonance. The model assumes that the
+ball then rests in the middle of its box, without any effect on the box, until B has grown to 1, so that the walls reach
+the ball. Then the ball is in resonance again (docs/derivation.md, section 12). No parameter is fitted.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from vibroimpact.theory.manifold import B_min, C_min, C_of_B, rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances
 
 RETURN = 1.0
-"""Amplitude of a box at which its walls reach a ball at rest in the middle."""
+"""Amplitude B of a box at which its walls reach a ball that rests in the middle of the box."""
 _PER_CYCLE = 24
 _NODES = 2000
 _LARGEST_SQUARED = 0.9  # largest v^2 in the tables
@@ -29,9 +29,10 @@ _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 class Relaxation:
     """Statistics of both modules in a relaxation oscillation, each (..., 2).
 
-    bursts: mean length of the complete intervals in resonance, in forcing periods; nan if there are none.
-    share: share of time that each ball is in resonance.
-    largest: largest box amplitude B.
+    bursts: mean length, in forcing periods, of the intervals in resonance that begin and end in the time observed; nan
+        if there are none.
+    share: share of the time observed in which each ball is in resonance.
+    largest: largest amplitude B of each box.
     """
 
     bursts: np.ndarray
@@ -82,7 +83,10 @@ def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Re
 
 
 def _mean_length(states):
-    """Return the mean number of steps of the intervals in resonance that both begin and end in `states`."""
+    """Return the mean length, in steps, of the intervals in resonance that both begin and end in `states`.
+
+    states: 1 for each step in resonance, else 0, shape (n,). The result is nan if there is no such interval.
+    """
     changes = np.diff(states)
     begins, ends = np.flatnonzero(changes > 0), np.flatnonzero(changes < 0)
     ends = ends[ends > begins[0]] if len(begins) else ends[:0]
@@ -92,9 +96,9 @@ def _mean_length(states):
 def lost_at(system, point) -> float:
     """Return the factor on both forces, below 1, at which the symmetric module of a fixed point leaves resonance.
 
-    At this factor, C of the module falls to the fold of the manifold. The result is nan if C is below the fold at the
-    given forces, if C stays above the fold down to half of the forces, or if the fixed point ends before C reaches the
-    fold.
+    At this factor, C of the symmetric module falls to the fold of the manifold. The result is nan if no module is
+    symmetric, if C is below the fold at the given forces, if C stays above the fold down to half of the given forces,
+    or if the fixed point ceases to exist before C reaches the fold.
 
     Parameters
     ----------
