@@ -274,7 +274,7 @@ def _choices(name, values, end) -> list[float]:
     Raises
     ------
     ValueError
-        If a value is not, or if there are none; the message begins with `name`.
+        If a value is outside this range, or if there are no values; the message begins with `name`.
     """
     given = np.unique(reals(name, values)).tolist()
     if not given or not 0 < given[0] <= given[-1] < end:

@@ -122,7 +122,7 @@ def quickest_decay(system: System, impulses, times, module: int = 1, fraction: f
 
 
 def _energies(system, states):
-    """Return the stored energy of states (..., 8) in the order of a flight: all of the boxes, then all of the balls."""
+    """Return the stored energy of `states`, (..., 8), whose first four components belong to the boxes."""
     values = np.moveaxis(states, -1, 0)
     return stored(system.stiffness2, system.alpha12, system.epsilon, values[:4], values[4:])
 

@@ -92,7 +92,10 @@ class Linear:
         return self._highest(self.strokes, band)
 
     def _highest(self, measure, band):
-        """Return the largest amplitude or stroke in a band; inf if the band contains an undamped resonance."""
+        """Return the largest value of `measure` in a band; inf if the band contains an undamped resonance.
+
+        measure: the method `amplitudes` or `strokes`.
+        """
         low, high = checked_band(band)
         resonances = np.abs(self.poles.imag)
         inside = resonances[(resonances > low) & (resonances < high)]

@@ -17,7 +17,7 @@ from vibroimpact.system import System
 from vibroimpact.system.state import inactive_at_rest
 
 QUANTILE = 0.99
-"""The peak is the displacement that a cycle does not exceed in this fraction of all cycles."""
+"""The largest displacement in a cycle is at most the peak in this fraction of all cycles."""
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ def fold_of_the_manifold(evidence):
 
 
 def no_penetration(evidence):
-    """Sample a cycle, and check that |W_0| exceeds 1 for C < 0, but not at the fixed points or for any C >= 0."""
+    """Check by samples of a cycle that |W_0| exceeds 1 for C < 0, but neither at the fixed points nor for C >= 0."""
     kappa = evidence.system.kappa
     points = evidence.fixed_points[["C1", "C2"]].to_numpy()
     end = largest_C(kappa)
@@ -118,7 +118,7 @@ def _stable(C, kappa):
 
 
 def _stable_above(limit, kappa):
-    """Return True where motions are stable, at 499 values of C from a limit to the largest admissible C."""
+    """Return True where the impact map is stable, at 499 values of C from `limit` to the largest admissible C."""
     return _stable(np.linspace(limit, largest_C(kappa), 500)[1:], kappa)
 
 

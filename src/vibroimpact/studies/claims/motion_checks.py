@@ -42,7 +42,7 @@ def steady_two_impacts(evidence, case):
 
 
 def numerical_results_are_similar(evidence, case, label):
-    """Compare a simulated response with the predicted one: amplitudes C and B, and the symmetry."""
+    """Compare the simulated response of a case with that predicted at a fixed point: C, B and the symmetry."""
     row, simulation = evidence.points(case).loc[label], evidence.simulations[case]
     tau, displacements = (simulation.samples.iloc[:-1][names].to_numpy() for names in ("tau", DISPLACEMENTS))
     measured = measure(evidence.systems[case], tau, displacements, simulation.impacts)
@@ -61,7 +61,7 @@ def numerical_results_are_similar(evidence, case, label):
 
 
 def transients_are_long(evidence, case):
-    """Check that on a stable exact orbit of the case a perturbation needs more than 10 cycles to shrink to a tenth."""
+    """Check that the slowest perturbation of all stable orbits needs more than 10 cycles to shrink to a tenth."""
     motions = evidence.motions(case)
     stable = motions[motions["exact"] == STABLE]
     cycles = (np.log(0.1) / np.log(stable["modulus_1"])).max()
@@ -129,7 +129,7 @@ def beating(evidence, case):
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
-    """Check that the first case of `sequence` has a stable fixed point, and the last has none but modulated motions."""
+    """Check that the first case of `sequence` has stable fixed points, and the last none, but modulated responses."""
     points = [evidence.points(case) for case in sequence]
     in_theory = [int((rows["theory"] == STABLE).sum()) for rows in points]
     exactly = [int((rows["exact"] == STABLE).sum()) for rows in points]
@@ -152,7 +152,7 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
 def unstable_means_modulated(evidence, case):
     """Check that the exact orbits of a case are unstable and that all its spread starts end strongly modulated.
 
-    The chapter claims this for one case. `numbers` contains the modulated share of each case without a stable orbit.
+    The chapter claims this for `case`. `numbers` contains the modulated share of each case without a stable orbit.
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
@@ -195,7 +195,7 @@ def periodic_solutions(evidence, f10_hat, f20_hat):
 
 
 def _at_epsilon(evidence):
-    """Return the rows of the grid of verdicts for the epsilon of the cases."""
+    """Return the rows of `verdict_grid` with the epsilon of the chapter's cases."""
     grid = evidence.verdict_grid
     return grid[grid["epsilon"] == evidence.system.epsilon]
 
@@ -231,13 +231,13 @@ def assesses_stability(evidence):
 
 
 def restitution_far_from_unity(evidence, kappas, forces):
-    """Compare fixed points with exact orbits at restitution coefficients from small to large.
+    """Compare fixed points with exact orbits at restitution coefficients `kappas`, from small to large.
 
-    The balls must also stay between the walls.
+    Both forces have each value of `forces`. The balls must stay between the walls.
 
     Each fixed point must have a symmetric orbit at a distance proportional to epsilon, and every symmetric orbit must
-    belong to a fixed point. Forces without a fixed point are skipped, but each coefficient needs a fixed point at one
-    of the forces at least.
+    belong to a fixed point. Forces without a fixed point are skipped, but each restitution coefficient needs a fixed
+    point at one or more of the forces.
     """
     parts, numbers = {}, {}
     for kappa in kappas:

@@ -24,7 +24,7 @@ CONTINUATION_VALUES = 111
 
 
 def number_of_fixed_points(evidence, case, number):
-    """Check the number of fixed points, and that interval arithmetic proves the list of them complete."""
+    """Check the number of fixed points; interval arithmetic must prove that the list of fixed points is complete."""
     proof = evidence.proofs[case]["fixed_points"]
     listed = len(evidence.points(case))
     parts = {f"{number} with C1, C2 >= 0": listed == number and proof["complete"]}
@@ -46,7 +46,7 @@ def phases_can_be_eliminated(evidence):
 
 
 def label_of_a_point(evidence, case, label, says):
-    """Check a caption's verdict on a point against the theory and against the exact orbit of the point."""
+    """Check a caption's verdict `says` on a fixed point against the theory and against the point's exact orbit."""
     row = evidence.points(case).loc[label]
     orbits = evidence.orbits.query("case == @case").set_index("label")
     theory = row["theory"]
@@ -160,14 +160,14 @@ def singular_and_bifurcating(evidence, case, f20_range):
 
 
 def _determinant_on_branch(system, f20):
-    """Return the determinant of (10.24) at the fixed point with the second largest C_2."""
+    """Return the determinant of (10.24) at that fixed point under the force `f20` which has the second largest C_2."""
     there = system.with_(f20_hat=f20)
     points = sorted(fixed_points(there), key=lambda point: point.C[1])
     return determinant(there, points[-2].C)
 
 
 def _nearest_singular(system, point):
-    """Return the smallest |C_i - C| between a fixed point and a singular point of module i at C, for i = 1, 2."""
+    """Return the smallest difference in C_i between a fixed point and a singular point S_i, for i = 1, 2."""
     gaps = [np.abs(singular_points(system, point, i)[:, 0] - point.C[i - 1]) for i in (1, 2)]
     return np.concatenate(gaps).min(initial=np.inf)
 

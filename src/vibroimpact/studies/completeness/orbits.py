@@ -43,7 +43,7 @@ _TERMS = 3
 
 @dataclass(frozen=True)
 class Proof:
-    """Proof that the list of symmetric orbits of a system is complete; float64 parameters are taken as exact.
+    """Result of the proof for the symmetric orbits of a system; its float64 parameters are taken as exact.
 
     isolated: ascending intervals of the lag (tau_2 - tau_1) / T, or of C for a single machine, each with exactly one
         symmetric response.
@@ -161,9 +161,9 @@ class _Condition:
         return _coefficients(F), _coefficients(D)
 
     def _taylor(self, motion, direction):
-        """Return the Taylor coefficients of a free motion of the boxes in time.
+        """Return the Taylor coefficients, in the time forward or backward, of a free motion of the boxes.
 
-        motion: its state. direction: 1 for forward in time, -1 for backward.
+        motion: state from which the motion starts. direction: 1 for forward, -1 for backward.
         """
         terms = [motion]
         for k in range(1, _TERMS):

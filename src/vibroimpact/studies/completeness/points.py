@@ -44,7 +44,7 @@ Box = tuple[tuple[float, float], ...]
 
 @dataclass(frozen=True)
 class Proof:
-    """Proof that the list of fixed points of a system is complete; its float64 hatted parameters are taken as exact.
+    """Result of the proof for the fixed points of a system; its float64 hatted parameters are taken as exact.
 
     isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point; for asymmetric
         points, pairs of charts and boxes of the chart parameters. For a single machine a box has one interval, and one
@@ -126,7 +126,7 @@ def _in_amplitudes(pair, box) -> Box:
 
 
 def _same(box, known):
-    """Return True if the inner half of a box, which contains its zero, lies in the box `known`."""
+    """Return True if the inner half of `box`, where the zero of `box` lies, is contained in the box `known`."""
     shrunk = [((3 * low + high) / 4, (low + 3 * high) / 4) for low, high in box]
     return all(low >= a and high <= b for (low, high), (a, b) in zip(shrunk, known, strict=True))
 

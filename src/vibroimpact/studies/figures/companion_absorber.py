@@ -114,7 +114,7 @@ STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgew
 MARGIN_FACTOR = 1.25
 """The margin of the best clearance is the range of clearances with peaks up to MARGIN_FACTOR times the lowest peak."""
 PLATEAU_FACTOR = 1.2
-"""On the plateau, the range of small kappa, the lowest peaks are at most PLATEAU_FACTOR times the lowest of all."""
+"""The plateau is the range of small kappa with lowest peaks of at most PLATEAU_FACTOR times the lowest of all."""
 FROM, TO = "plateau from", "plateau to"
 REMEASURED_PEAKS = 2
 """Number of the lowest peaks of a sweep that are measured again."""
@@ -239,7 +239,7 @@ def _remeasured(system, place, band, states, cycles, settle):
 
 
 def _regime(system, place, observation, number, seed):
-    """Return the regime in which most starts end at a point of a sweep, at the frequency of its peak."""
+    """Return the regime in which most of `number` starts end at a point of a sweep, at the frequency of its peak."""
     there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
     names = Counter(regime.name for regime in settled(there, spread_starts(number, seed), Observation(**observation)))
     return names.most_common(1)[0][0]
@@ -272,7 +272,10 @@ def _strokes(system, linear, band):
 
 
 def _response_ratios(system, response, band):
-    """For each pair of forces and each linear system, yield statistics of the response with balls over its response."""
+    """For each pair of forces and each linear system, yield statistics of a ratio over the frequencies.
+
+    The ratio is the response with balls divided by the response of the linear system.
+    """
     for pair, rows in response.groupby(FORCES, sort=False):
         for name, one in linear_systems(system, pair, band).items():
             times = rows["ratio"] / ratios(system, one, rows["sigma_e_hat"])
@@ -284,7 +287,8 @@ def _response_ratios(system, response, band):
 def _decays(system, linear):
     """Yield rows with the time, in forcing periods, in which the energy decays after an impulse on box 1.
 
-    With balls, the impulse is the one with the quickest decay. In a linear system, all impulses have the same time.
+    With balls, the impulse is the one with the quickest decay. In a linear system, the time is the same for each
+    impulse.
     """
     times = [decay_time(system, impulse, fraction=ENERGY_FRACTION) for impulse in IMPULSES]
     found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=ENERGY_FRACTION)[1]}

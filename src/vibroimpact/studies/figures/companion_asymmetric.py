@@ -143,7 +143,7 @@ POINT_MARK = _MARK | {"marker": "o", "markerfacecolor": "white", "markersize": 4
 ORBIT_MARKS = [_MARK | {"marker": marker, "markersize": size} for marker, size in (("D", 3.6), ("^", 5.0), ("s", 4.0))]
 """Marks of the exact orbits of the first, second and further cases."""
 C_MARGIN = 0.1
-"""Margin, in C, of the panel of the manifold around the asymmetric branch and the markers."""
+"""Margin, in C, around the asymmetric branch and the markers in the panel of the manifold."""
 UNEQUAL_FROM = 1e-3
 """Value of v^2 above which the two flights of a ball count as unequal."""
 _PHASES, _SPEEDS = (
@@ -213,7 +213,7 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, fi
 
 
 def _manifold(kappa, C_max):
-    """Return the pieces of both branches.
+    """Return the pieces of the symmetric and of the asymmetric branch of the manifold.
 
     The asymmetric branch ends where its B equals the B of the symmetric branch at C_max.
     """

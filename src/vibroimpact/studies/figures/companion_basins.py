@@ -90,7 +90,7 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: a colour per regime, a circle at the orbit, a diamond at its mirror image."""
+    """Draw the tables of `compute`: colours of the regimes, a circle at the orbit and a diamond at its mirror image."""
     starts, orbits = tables["csv"], tables["orbits"].set_index("series")
     figure = new_figure(SINGLE_COLUMN, 100.0)
     axes = figure.add_subplot()

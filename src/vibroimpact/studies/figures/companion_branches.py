@@ -136,7 +136,7 @@ DOTS = {
     VARYING: {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "markersize": 3.0, "color": GREY},
     PASSING: {"linestyle": "none", "marker": "x", "markeredgewidth": 0.7, "markersize": 3.4, "color": BLACK},
 }
-"""Styles of the dots for the regimes in which simulations end."""
+"""Style of the dots by the kind of regime in which a simulation ends."""
 KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
 CASE = {"color": GREY, "linewidth": 0.6, "zorder": 0.7}
 HUES = {
@@ -274,7 +274,10 @@ def _cases(theory, exact, cases):
 
 
 def _branches(axes, nodes):
-    """Draw all pieces and marks; return each name with the line of its longest piece, a stable one if there is any."""
+    """Draw all pieces of branches with their marks; return each branch name with the line of one of its pieces.
+
+    That piece is the longest stable one, or the longest one if none is stable.
+    """
     named = {}
     # Successive pieces of the same stability are one line: dashes that start again at each piece would look solid.
     begins = nodes[["series", "stable", "branch"]].ne(nodes[["series", "stable", "branch"]].shift()).any(axis=1)
@@ -300,7 +303,7 @@ def _marks(axes, nodes):
 
 
 def _crowded(axes, nodes):
-    """Return xlim and ylim of a window around the densest group of at least three marks, or None without a group."""
+    """Return xlim and ylim of a window around the densest group of three or more marks, or None if there is none."""
     marks = pd.concat([rows[["p", "C2"]] for _, rows in _marks(axes, nodes).values()]).to_numpy(float)
     size = CROWDED_FRACTION * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
     near = (np.abs(marks[:, None] - marks) < size).all(axis=2)

@@ -126,7 +126,7 @@ ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", VANI
 """Marker in the figure for each reason why the stable range of a pattern ends."""
 _END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
 BAND = (14.0, 16.5)
-"""Lower and upper edge of the band above the errors that marks couplings with missing orbits, in %."""
+"""Lower and upper edge [%] of the band above the errors; marks in the band are at couplings with missing orbits."""
 _KEY = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.18), "fontsize": 8}
 _KEY |= {"handlelength": 1.3, "handletextpad": 0.4, "columnspacing": 0.6}
 """Arguments that place the legend of a panel below the label of its x axis, in small type."""
@@ -256,7 +256,8 @@ def _power_at(system, force):
     """Return the rows of the table of powers at one force, and quantities for the summary.
 
     If some starts have not reached the asymmetric orbit after SETTLED cycles, one quantity is the share of the starts
-    that have. If there is also a symmetric orbit, another quantity is the power of the asymmetric orbit over its power.
+    that have. If there is also a symmetric orbit, another quantity is the power of the asymmetric orbit
+    divided by that of the symmetric one.
     """
     unit, begun, quantities = force**2, starts(STARTS, SEED), {}
     symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]

@@ -59,7 +59,7 @@ LOOKS = {
 }
 """Names and styles of the errors in the figure."""
 SLOPES = {"slow": (1, 20.0), TWO_TERMS: (2, 0.1)}
-"""For each curve with a triangle: its slope, and the factor by which its sloping side passes above the last error."""
+"""For each curve with a triangle: the arguments `slope` and `times` of `_slope`."""
 
 
 def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict | None = None) -> dict:
@@ -122,7 +122,10 @@ def _compared(system, point, epsilon):
 
 
 def _two_terms(system, point, found):
-    """Return the distances with the first-order term added to the fixed point; nan if no orbit gives this term."""
+    """Return the distance between orbit and fixed point, with the first-order term added to the fixed point.
+
+    found: the comparisons for which to return it. The distances are nan if no orbit gives the first-order term.
+    """
     added = np.nan
     with suppress(NoOrbit):
         added = first_order(system, point)[:, np.isfinite(point.C)].ravel()
@@ -150,7 +153,10 @@ def draw(tables: dict) -> Figure:
 
 
 def _slope(axes, epsilon, error, slope, times):
-    """Draw a triangle with the given slope next to the end of a curve."""
+    """Draw a triangle with the given slope next to the last point (epsilon, error) of a curve.
+
+    times: factor by which the sloping side of the triangle, extended, passes above this point.
+    """
     x = epsilon * np.array([0.05, 0.5])
     y = error * times * (x / epsilon) ** slope
     axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))

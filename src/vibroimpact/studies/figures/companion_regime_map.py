@@ -66,7 +66,7 @@ SPEC = {
 
 BORDERS = ("fixed points", STABLE_POINTS := "stable points")
 HALVINGS = 4
-"""Number of bisections between two cells with different numbers of points; the error is at most 1/32 of a cell."""
+"""Number of bisections between two cells with different numbers of fixed points; the error is up to 1/32 of a cell."""
 COEXISTING = "coexisting"
 SMALLEST_NAMED_PATCH = 20
 """Smallest size, in cells, of a patch that bears the name of its regime; the legend lists regimes without a name."""

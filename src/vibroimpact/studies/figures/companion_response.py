@@ -170,7 +170,11 @@ def _linear(system, panel, pair, detunings, band):
 
 
 def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
-    """Return the table of a sweep with added columns ratio, low and high (divided by f) and label (main regime)."""
+    """Return the table of a sweep with four more columns: ratio, low, high, and label (the regime of most starts).
+
+    ratio is the largest |X_i|; low and high are quantiles of the amplitude per cycle, of the box that moves more. All
+    three are divided by the larger force f.
+    """
     force = system.epsilon * table[FORCES].max(axis=1)
     boxes = table[["high_X1", "high_X2"]].to_numpy().argmax(axis=1)
     low, high = (table[[f"{name}_X1", f"{name}_X2"]].to_numpy()[range(len(table)), boxes] for name in ("low", "high"))
@@ -181,7 +185,7 @@ def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def linear_systems(system, pair, band: dict) -> dict:
-    """Return the linear systems for comparison, by name, with forces in the ratio of `pair`, the larger one being 1."""
+    """Return the linear systems for comparison, by name, under the forces `pair` divided by the larger of both."""
     f10, f20 = (float(value / max(pair)) for value in pair)
     return _compared(system.with_(f10_hat=f10, f20_hat=f20), frequencies(system, band))
 

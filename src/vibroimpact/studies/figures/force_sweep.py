@@ -169,7 +169,8 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
 def _letters(points):
     """Return a letter per track, the label of one of its points.
 
-    The point is that at the force nearest to a reference force, the middle one of those with the most fixed points.
+    The label is that at the force nearest to a reference force, which is the middle one of the forces with the most
+    fixed points.
     """
     counts = points["value"].value_counts().sort_index()
     most = counts.index[counts == counts.max()]

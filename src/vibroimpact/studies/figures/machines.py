@@ -191,7 +191,7 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
 
 
 def _name_linear(axes, without, best):
-    """Name the linear systems: `without` on its falling flank, `best` below the middle of its line."""
+    """Write the names of the linear systems: beside the falling flank of `without`, and below the middle of `best`."""
     high = without[without["swing"] >= 0.75 * without["swing"].max()]
     beside = {"textcoords": "offset points"}
     axes.annotate("without balls", high[["frequency", "swing"]].iloc[-1], (5, 0), color=GREY, **beside)

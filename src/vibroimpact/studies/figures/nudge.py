@@ -93,9 +93,9 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
 
 
 def _called_stable(system):
-    """Return the most unstable exact orbit whose fixed point (10.26) calls stable, after the label of this point.
+    """Return (label, orbit) of the most unstable exact orbit whose fixed point (10.26) calls stable.
 
-    The result is (None, None) if none of these orbits is an unstable motion.
+    label: of the fixed point. The result is (None, None) if none of these orbits is an unstable motion.
     """
     points = fixed_points(system)
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))
@@ -110,7 +110,7 @@ def _called_stable(system):
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw the tables of `compute`: distance on a logarithmic axis, with its growth by the multiplier, and flights."""
+    """Draw the tables of `compute`: the distance, with the growth that the multiplier predicts, and the flights."""
     figure = new_figure(DOUBLE_COLUMN, 62.0)
     left, right = figure.subplots(1, 2)
     distance, flights = tables["distance"], tables["flights"]

@@ -12,7 +12,7 @@ ERROR_FACTOR = 3.0
 RESOLVED = 0.02
 """Largest uncertainty, per forcing period, at which an exponent consistent with 0 counts as 0."""
 RECURRENT = 0.1
-"""A motion recurs if it returns to its start within this fraction of its extent, in every coordinate."""
+"""A motion recurs if it returns to its first state within this fraction of the motion's extent in every coordinate."""
 RESONANT = (0.1, 0.9)
 """Limits of the share of time in bursts. A module with a share below the first limit counts as never in resonance, with
 a share above the second limit as always in resonance."""

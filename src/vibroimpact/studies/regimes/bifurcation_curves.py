@@ -51,7 +51,7 @@ class Plane:
             raise Lost(str(error)) from None
 
     def margin(self, z) -> float:
-        """Return the distance of z = (..., p, q) from the nearest edge over the rectangle's width in that direction.
+        """Return the distance of z = (..., p, q) from the nearest edge, divided by the rectangle's width across it.
 
         The result is negative outside the rectangle.
         """

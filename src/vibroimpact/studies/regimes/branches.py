@@ -180,7 +180,7 @@ def branches(
 
 
 def equations(family, path: Callable) -> Callable:
-    """Return a function of x and of the parameters of `path` that computes residual and Jacobian of a family."""
+    """Return the function (x, *p) -> residual and Jacobian of the equations of `family` for the system path(*p)."""
 
     def at(x, *p):
         try:
@@ -203,7 +203,7 @@ def images(family, system, x, near) -> list[np.ndarray]:
 
 
 def _seeds(family, path, seeds, report):
-    """Yield the roots z = (x, p) at each seed."""
+    """Yield all roots of `family` as z = (x, p), for each seed p."""
     for p in seeds:
         report(p)
         try:

@@ -113,8 +113,8 @@ def _approaches(run, motion, repeats, multiplier):
     """Return True if a run has reached an attracting periodic motion, or approaches it when it is continued.
 
     A chaotic run may repeat within `nearness` close to a periodic motion, but outside the basin of this motion. So the
-    run is continued until the largest multiplier predicts a distance shrunk by the factor _SHRUNK. The distance has to
-    shrink at least at half of the predicted exponential rate.
+    run is continued for the time in which, as the largest multiplier predicts, its distance from the periodic motion
+    shrinks by the factor _SHRUNK. The distance has to shrink at half of the predicted exponential rate or faster.
 
     motion: a window of the periodic motion, which repeats after `repeats` cycles; it starts where the run ends.
     """
@@ -130,7 +130,7 @@ def _approaches(run, motion, repeats, multiplier):
 
 
 def _distance(run, samples):
-    """Return the largest difference between the displacements of a run's samples and of other samples (n, 8)."""
+    """Return the largest difference between displacements in the samples of a run and in `samples`, (n, 8)."""
     return np.abs(run.samples - samples)[:, :4].max()
 
 

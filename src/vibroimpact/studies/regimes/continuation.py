@@ -215,7 +215,7 @@ class Curve:
             return []
 
     def _by_p(self, z):
-        """Return dF/dp, shape (d,), at z, by one-sided differences at the edge of the domain of F."""
+        """Return dF/dp, shape (d,), at z, by central differences, or one-sided ones at the edge of the domain of F."""
         x, p = z[:-1], z[-1]
         h = _DIFFERENCE * (1 + abs(p))
         for stencil in _STENCILS:
@@ -252,7 +252,7 @@ class Curve:
         ]
 
     def _next(self, place, length):
-        """Return the place after one step, or None if it is not found or the curve turns too much."""
+        """Return the place after one step from `place`, or None if no place is found or the curve turns too much."""
         try:
             after = self.place(self.step(place, length), place.tangent)
         except Lost:
@@ -262,7 +262,8 @@ class Curve:
     def _place_at(self, place, z):
         """Return the place on the curve that coincides with z, as a list of one entry, or [] if z is not on the curve.
 
-        The search starts from `place`. Each step along the tangent has the length of the projection of z onto it.
+        The search starts from `place`. Each step along the tangent leads to the foot of the perpendicular from z onto
+        the tangent.
         """
         for _ in range(_FEET):
             place = self._next(place, place.tangent @ (z - place.z))

@@ -26,7 +26,7 @@ VANISHES = "asymmetry vanishes"
 SOUGHT = (1.0, 14.0, 30.0)
 """Couplings at which stable orbits of each pattern are searched."""
 LEAST_ASYMMETRY = 0.05
-"""Smallest |v| of both modules in an asymmetric pattern."""
+"""Smallest |v| at which the flights of a ball count as asymmetric."""
 STEP, SHARP = 0.1, 3e-5
 """Longest and shortest step in the logarithm of the coupling."""
 _HARMONICS = 2 * np.arange(1, 200)

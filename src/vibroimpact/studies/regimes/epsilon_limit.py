@@ -101,7 +101,7 @@ def order(epsilon, errors) -> tuple[float, float]:
 
 
 def _nearest(system, point):
-    """Return the root of the symmetric orbit nearest to a fixed point, and the offset of the orbit."""
+    """Return the root of the symmetric orbit nearest to a fixed point, and the `offset` of `Comparison` for both."""
     roots = symmetric_solutions(system)
     if not len(roots):
         raise NoOrbit("system: it has no symmetric 1:1 orbit")

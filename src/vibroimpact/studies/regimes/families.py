@@ -55,7 +55,7 @@ class _OwnImage:
 
 
 class SymmetricOrbits(_OwnImage):
-    """Symmetric exact orbits: x = (tau_1, tau_2, C_1, C_2)."""
+    """Symmetric exact orbits: x = (tau_1, tau_2, C_1, C_2), where ball i meets wall +1 at tau_i."""
 
     name, angles = "symmetric orbit", slice(0, 2)
     modules, rest = symmetric.MODULES, np.array([0.0, 0.0, 1.0, 1.0])
@@ -107,7 +107,7 @@ class SymmetricOrbits(_OwnImage):
 
     @staticmethod
     def stable(system, orbit) -> bool:
-        """Return True if all multipliers are inside the unit circle."""
+        """Return True if all multipliers of `orbit` are inside the unit circle."""
         return bool(abs(orbit.multipliers[0]) < 1)
 
     @staticmethod
@@ -117,13 +117,16 @@ class SymmetricOrbits(_OwnImage):
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Return True if a zero of a test is a special point of its kind: a Neimark-Sacker pair must be complex."""
+        """Return True if a zero of the test function `kind` is special: the pair of a Neimark-Sacker point must be complex."""
         mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
 
 
 class AsymmetricOrbits(SymmetricOrbits):
-    """Asymmetric exact orbits: x = (p_1, q_1, p_2, q_2, I_1, I_2)."""
+    """Asymmetric exact orbits: x = (p_1, q_1, p_2, q_2, I_1, I_2).
+
+    Ball i meets wall +1 at p_i and wall -1 at q_i; its velocity changes by I_i at p_i and by -I_i at q_i.
+    """
 
     name, angles = "asymmetric orbit", slice(0, 4)
     modules, rest = asymmetric.MODULES, np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
@@ -181,10 +184,10 @@ class PeriodicOrbits(AsymmetricOrbits):
         return list(states * (-1.0) ** halves[:, None])
 
     def merging(self, system, x) -> str:
-        """Return the kind of special point if x equals one of its own `images` that differed at the start, or "".
+        """Return the kind of special point if x equals one of its `images`, or "".
 
-        The kind is PERIOD_DOUBLING if this image is the motion itself, shifted by forcing periods, and
-        SYMMETRY_BREAKING if it is the mirror image.
+        Images that are equal to the state of the given motion are left out. The kind is PERIOD_DOUBLING if x equals an
+        image that is shifted by forcing periods, and SYMMETRY_BREAKING if x equals a mirror image.
         """
         images = self._equal_images(system, x) & ~self._own
         return PERIOD_DOUBLING if images[::2].any() else SYMMETRY_BREAKING if images.any() else ""
@@ -318,7 +321,7 @@ class FixedPoints(_OwnImage):
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Return True if a zero of a test is a special point of its kind: a Hopf pair must be complex."""
+        """Return True if a zero of the test function `kind` is special: the pair of a Hopf point must be complex."""
         values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
 
@@ -329,7 +332,7 @@ FAMILIES = {family.name: family for family in (SymmetricOrbits, AsymmetricOrbits
 def flight_fractions(system, x) -> np.ndarray:
     """Return the flight time from wall +1 to wall -1 as a fraction of the period, for each module, shape (2,).
 
-    x is a root (6,) of the asymmetric equations. The fraction of an inactive module is 1/2.
+    x is a root (6,) of `AsymmetricConditions`. The fraction of an inactive module is 1/2.
     """
     u = wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
     return np.where(np.isin([1, 2], system.modules), u, 0.5)
@@ -362,7 +365,7 @@ def _require_both_modules(family, system, x):
 
 
 def asymmetric_root(system, x) -> np.ndarray:
-    """Convert the root (tau_1, tau_2, C_1, C_2) of a symmetric orbit to a root (6,) of the asymmetric equations."""
+    """Convert the root x = (tau_1, tau_2, C_1, C_2) of a symmetric orbit to the root (6,) of `AsymmetricConditions`."""
     times = np.stack([x[:2], x[:2] + system.period / 2], axis=1).ravel()
     root = np.append(times, 4 * path_of(system.epsilon, x[2:]) / system.period)
     return np.where(_inactive(AsymmetricOrbits, system), AsymmetricOrbits.rest, root)

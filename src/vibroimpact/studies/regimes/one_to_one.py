@@ -18,7 +18,8 @@ class Amounts:
     """Summary of a response.
 
     largest: (2,), the largest |X_i|. impact_share: share of the work of the forces that impacts dissipate.
-    stable: by slow flow and impact map for the theory, by all multipliers for an exact orbit.
+    stable: True if the response is stable, by slow flow and impact map for the theory, by all multipliers for an exact
+    orbit.
     """
 
     largest: np.ndarray

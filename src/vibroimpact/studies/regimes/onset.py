@@ -40,7 +40,7 @@ def observed(values, p, names) -> np.ndarray:
 
 
 def longest_range(values, flags) -> tuple[float, float]:
-    """Return the first and last value of the longest unbroken range of values (n,) with a True flag, or nan."""
+    """Return the first and last value of the longest unbroken range of `values` with True in `flags`, or (nan, nan)."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
     if not len(edges):
         return np.nan, np.nan

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 
 RUNS = ("amplitudes", "envelopes", "energy")
-"""Observations that need one run over `cycles` per initial state; the runs of "peaks" and "regimes" are others."""
+"""Observations that need one run over `cycles` per initial state; "peaks" and "regimes" need runs of other kinds."""
 CYCLE = 5e-6
 """Core seconds per forcing cycle of one run, as measured by `make benchmark` (a settled cycle has four impacts)."""
 POINT = 0.01

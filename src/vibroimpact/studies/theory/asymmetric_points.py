@@ -130,7 +130,7 @@ class Balance:
         self._functions = [(function, function.deriv(), side) for function, side in sides]
 
     def __call__(self, x):
-        """Return the residuals (n, 2) and Jacobians (n, 2, 2) at x, shape (n, 2)."""
+        """Return the residuals (n, 2) and the Jacobians (n, 2, 2) of the conditions at x, shape (n, 2)."""
         q1, q2, z1, z2, n1, n2, b1, b2 = (
             np.array([f(x[:, side]), (1 - side) * slope(x[:, side]), side * slope(x[:, side])])
             for f, slope, side in self._functions

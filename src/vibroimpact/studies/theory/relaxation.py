@@ -41,7 +41,7 @@ class Relaxation:
 
 
 def describing_function(kappa: float):
-    """Return the function B -> N on the stable symmetric manifold and, beyond its end, on the asymmetric branch."""
+    """Return the function B -> N on the stable symmetric branch and, for larger B, on the asymmetric branch."""
     r, chart = rho(kappa), charts(kappa)[ASYMMETRIC]
     squared = np.linspace(0.0, _LARGEST_SQUARED, _NODES)
     skewed = np.abs(chart.z(squared) / chart.beta(squared))
