@@ -233,7 +233,7 @@ def assesses_stability(evidence):
 def restitution_far_from_unity(evidence, kappas, forces):
     """Compare fixed points with exact orbits at restitution coefficients `kappas`, from small to large.
 
-    Both forces have each value of `forces`. The balls must stay between the walls.
+    Both forces are equal, to each value of `forces` in turn. The balls must stay between the walls.
 
     Each fixed point must have a symmetric orbit at a distance proportional to epsilon, and every symmetric orbit must
     belong to a fixed point. Forces without a fixed point are skipped, but each restitution coefficient needs a fixed

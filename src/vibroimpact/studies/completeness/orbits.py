@@ -161,9 +161,9 @@ class _Condition:
         return _coefficients(F), _coefficients(D)
 
     def _taylor(self, motion, direction):
-        """Return the Taylor coefficients, in the time forward or backward, of a free motion of the boxes.
+        """Return the Taylor coefficients of a free motion of the boxes, in forward or backward time.
 
-        motion: state from which the motion starts. direction: 1 for forward, -1 for backward.
+        motion: the first coefficient, the state. direction: 1 for forward time, -1 for backward time.
         """
         terms = [motion]
         for k in range(1, _TERMS):

@@ -117,7 +117,7 @@ class SymmetricOrbits(_OwnImage):
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Return True if a zero of the test function `kind` is special: the pair of a Neimark-Sacker point must be complex."""
+        """Return True if a zero of the test `kind` is a special point; for Neimark-Sacker, the pair must be complex."""
         mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
 
@@ -321,7 +321,7 @@ class FixedPoints(_OwnImage):
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Return True if a zero of the test function `kind` is special: the pair of a Hopf point must be complex."""
+        """Return True if a zero of the test `kind` is a special point; for Hopf, the pair must be complex."""
         values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
 
