@@ -105,15 +105,6 @@ def test_limits_like_the_printed_one_against_the_captions():
         assert below == border
 
 
-def test_the_force_at_which_point_b_passes_a_limit():
-    limit = 4 / (4 + 2 * 0.35 / (np.pi * 1.65))
-
-    def above(f20):
-        return sorted(point.C.min() for point in vi.fixed_points(SYSTEMS["unequal"].with_(f20_hat=f20)))[1] - limit
-
-    assert brentq(above, 0.89, 0.9) == said(r"third at \$\\hat f_\{20\} = ([\d.]+)\$")
-
-
 @pytest.mark.parametrize("column", range(5))
 def test_C_at_which_the_symmetry_of_a_single_module_breaks(column):
     """The force is raised until a half-period multiplier of the upper orbit is -1."""
