@@ -73,10 +73,9 @@ def without_record(tree):
     "damage",
     [
         edited_under_an_old_date,
-        of_another_figure,
         *(
             pytest.param(one, marks=THOROUGH)
-            for one in (edited, cut_off, without_record, with_a_record_without_entries)
+            for one in (of_another_figure, edited, cut_off, without_record, with_a_record_without_entries)
         ),
     ],
 )
@@ -91,7 +90,8 @@ def test_a_result_that_is_not_what_its_job_wrote_is_made_anew(rebuilt, damage):
     assert (rebuilt / FIXED_POINTS).read_bytes() == right
 
 
-@pytest.mark.parametrize("first", ["this", pytest.param("the other", marks=THOROUGH)])
+@THOROUGH
+@pytest.mark.parametrize("first", ["this", "the other"])
 def test_results_of_another_config_that_are_copied_in_are_made_anew(rebuilt, tmp_path, first):
     """They are copied with their dates, which are older or newer, and with everything below results/."""
     other = whole_copy(rebuilt, tmp_path / "other")
@@ -116,7 +116,7 @@ CHECKOUT = {
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=THOROUGH if name == "environment.lock" else ()) for name in CHECKOUT]
+    "name", [pytest.param(name, marks=() if name.endswith("mplstyle") else THOROUGH) for name in CHECKOUT]
 )
 def test_a_file_of_the_checkout_that_is_changed_under_an_old_date_is_seen(rebuilt, name):
     """rsync, tar and cp -p set such dates."""
@@ -128,6 +128,7 @@ def test_a_file_of_the_checkout_that_is_changed_under_an_old_date_is_seen(rebuil
     assert rule in rebuilt.planned(rule)
 
 
+@THOROUGH
 def test_a_page_is_the_same_in_each_build(rebuilt):
     page = rebuilt / "results/notebooks/fig10_01.html"
     before = page.read_text()
