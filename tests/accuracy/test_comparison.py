@@ -42,3 +42,15 @@ def test_the_cost_is_that_of_the_fastest_good_run_on_the_worst_problem_and_the_c
         ["q", 1e-6, 1, "a", "", 0],
         ["q", 1e-6, 2, "b", "", 1],
     ]
+
+
+def test_what_the_article_says_of_a_build(built):
+    """All four solvers of SciPy handle chatter, and are silently wrong in grazing only, where impacts are missed."""
+    stress_tests = pd.read_csv(built / "results/accuracy/stress_tests.csv")
+    scipy = stress_tests[stress_tests["method"].isin(["RK45", "DOP853", "Radau", "LSODA"])]
+    bad = scipy[scipy["verdict"] == "silently wrong"]
+    assert set(bad["test"]) == {"hits by 1e-6", "hits by 1e-10", "hits by 1e-14"}
+    assert (bad["missed"] > 0).all()
+    chatter = stress_tests[stress_tests["group"] == "chatter"].groupby("method")["verdict"].unique()
+    assert chatter["power law"].tolist() == ["silently wrong"]
+    assert chatter["Ivanov, events"].tolist() == ["did not finish"]

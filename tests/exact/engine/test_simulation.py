@@ -1,6 +1,7 @@
 """The engine against flights by hand, other integrators, symmetries and the laws it claims to keep."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
@@ -165,3 +166,21 @@ def test_zero_cycles_and_no_force(chapter):
     rest = vi.simulate(chapter(0.0, 0.0), np.zeros(8), 5)
     assert len(rest.events) == 0
     np.testing.assert_array_equal(rest.final, np.zeros(8))
+
+
+SPECTRA = {
+    "undamped, uncoupled and identical": dict(
+        alpha12_hat=0.0, gamma12_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, sigma20_hat=0.0
+    ),
+    "defective: critically damped": dict(
+        alpha12_hat=0.0, gamma12_hat=0.0, gamma1_hat=20.0, gamma2_hat=20.0, sigma20_hat=0.0
+    ),
+    "stiff": dict(alpha12_hat=4000.0, sigma20_hat=900.0),
+    "nearly elastic": dict(kappa=0.995),
+    "nearly plastic": dict(kappa=0.004),
+}
+
+
+@pytest.mark.parametrize("changes", SPECTRA.values(), ids=SPECTRA)
+def test_any_spectrum(chapter, changes):
+    audit(vi.simulate(chapter(1.0, 0.7, **changes), START, 25), tolerance=2e-11)

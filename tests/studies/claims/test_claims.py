@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 from scipy.optimize import fsolve
@@ -276,3 +277,16 @@ def test_the_verdicts_that_hang_on_which_point_is_b_and_which_is_c(evidence, swa
     found = {claim["id"]: claim["verdict"] for claim in other if claim["verdict"] != EXPECTED[claim["id"]]}
     assert found == expected
     assert all(f"`{claim}`" in PAGE_OF_ERRATA for claim in expected)
+
+
+def test_confusion_matrices_count_every_point(evidence, judged):
+    numbers = judged["assesses-stability"]["numbers"]
+    grid = evidence.verdict_grid.query("epsilon == 0.1")
+    # docs/studies/findings.md: one more exists only if its ball may leave the box.
+    of_all = judged["periodic-solutions"]["numbers"]["without an orbit between the walls"]
+    assert numbers["without an orbit"] + 1 == of_all
+    for name, column in (("(10.26)", "printed_10_26"), ("fast and slow", "theory")):
+        called = np.where(grid[column] == "stable", "stable", "other")
+        counts = pd.crosstab(called, grid["exact"]).loc[["stable", "other"]]
+        assert numbers[f"{name}, epsilon = 0.1"] == counts[["stable", "unstable"]].to_numpy().tolist()
+        assert numbers[f"{name}, epsilon = 0.1, no orbit"] == counts["no orbit"].tolist()

@@ -57,3 +57,15 @@ def test_a_sweep_is_the_same_bytes_on_a_cluster(slurm, tmp_path):
     assert (there / TABLE).read_bytes() == (here / TABLE).read_bytes()
     submitted = "".join(path.read_text() for path in there.path.glob(".snakemake/log/*.log")).count("with SLURM jobid")
     assert submitted == 4, "what takes a second goes to no scheduler"
+
+
+@pytest.mark.thorough
+def test_a_sweep_is_the_same_bytes_in_any_number_of_tiles(tmp_path):
+    tree = copied(ROOT, tmp_path / "tree")
+    tree.edit("config/studies.yaml", "sweeps:\n", SWEEP)
+    tables = []
+    for tiles in (1, 3):
+        tree.snakemake("--set-scatter", f"plane={tiles}", "--", TABLE)
+        tables.append((tree / TABLE).read_bytes())
+        assert len(list((tree / "results/sweeps/plane/tiles").glob(f"*-of-{tiles}.csv"))) == tiles
+    assert tables[0] == tables[1]

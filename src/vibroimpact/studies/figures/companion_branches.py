@@ -281,7 +281,7 @@ def _branches(axes, nodes):
     named = {}
     # Successive pieces of the same stability are one line: dashes that start again at each piece would look solid.
     begins = nodes[["series", "stable", "branch"]].ne(nodes[["series", "stable", "branch"]].shift()).any(axis=1)
-    begins |= nodes.index.to_series().diff().ne(1)
+    begins |= nodes.index.to_series().diff().ne(1)  # rows that are not admissible were left out in between
     for (family, stable, _), piece in nodes.groupby(["series", "stable", begins.cumsum()], sort=False):
         line = axes.plot(piece["p"], piece["C2"], **(STABLE if stable else UNSTABLE) | {"color": HUES[family]})
         name, length = NAMES.get(family, "stable" if stable else "unstable"), np.ptp(piece["p"].clip(*axes.get_xlim()))

@@ -379,7 +379,7 @@ def draw(tables: dict) -> Figure:
 
 def _draw_errors(axes, table):
     axes.axhspan(*BAND, color=LIGHT_GREY, linewidth=0)
-    axes.text(8.0, np.mean(BAND), "no exact motion", ha="center", va="center", fontsize=8)
+    axes.text(8.0, np.mean(BAND), "a point missing", ha="center", va="center", fontsize=8)
     looks = {PROPORTION: ("o", BLACK, 3.2, "-"), HELD: ("s", "white", 3.8, (0, (3, 1.5)))}
     for (name, (marker, face, size, style)), row in zip(looks.items(), np.linspace(*BAND, 4)[2:0:-1], strict=True):
         look = {"marker": marker, "markerfacecolor": face, "markersize": size, "color": BLACK, "markeredgewidth": 0.7}
