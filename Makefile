@@ -75,7 +75,7 @@ test: development  ## run linters and the test suite, including one run of the p
 	.venv/bin/pytest --numprocesses 2 --dist worksteal
 
 test-all: export THOROUGH := 1
-test-all: test  ## run `test` with all slow tests: Slurm with faults, a byte-identical rebuild, all kinds of faults
+test-all: test  ## run `test` and all slow tests, such as builds on Slurm with faults and a byte-identical rebuild
 
 # Run a tool that is not in the locks.
 TOOL = $(TEMPORARY) .venv/bin/uv tool run --cache-dir .cache/uv

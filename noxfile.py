@@ -12,7 +12,7 @@ PACKAGES = [nox.param(None, id="lock"), nox.param("lowest-direct", id="lowest"),
 PIN = (
     *("pip", "compile", "pyproject.toml", "--output-file", "environment.lock", "--upgrade", "--all-extras"),
     *("--generate-hashes", "--no-annotate", "--no-emit-find-links", "--no-emit-index-url", "--quiet"),
-    *("--only-binary", ":all:", "--no-binary", "connection-pool"),  # pure Python; all others would need a compiler
+    *("--only-binary", ":all:", "--no-binary", "connection-pool"),  # pure Python, so that it needs no compiler
 )
 TARGETS = "set-up", "figures", "check-figures", "test-quick"
 

@@ -23,7 +23,7 @@ class Chart {
 
   layout() {
     this.width = Math.max(this.svg.clientWidth, 240);
-    this.height = this.fixed || this.width - this.left - this.right + this.top + this.bottom; // a square inside
+    this.height = this.fixed || this.width - this.left - this.right + this.top + this.bottom; // default: square inside
     set(this.svg, { viewBox: `0 0 ${this.width} ${this.height}`, height: this.height });
     this.back.replaceChildren();
     this.inner = [this.width - this.left - this.right, this.height - this.top - this.bottom];
@@ -56,7 +56,8 @@ class Machine {
     });
   }
 
-  // X, Y: displacements of both modules; ages: for each module, cycles since the last impact at wall +1 and at wall -1.
+  // X, Y: displacements of both boxes and of both balls; ages: for each module, cycles since the last impacts
+  // at wall +1 and at wall -1.
   show(X, Y, ages, stuck = [0, 0]) {
     const { PLACES, EDGE, SIDE } = Machine, at = X.map((x, i) => PLACES[i] + x);
     this.modules.forEach(({ box, lights, ball }, i) => {

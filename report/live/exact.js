@@ -8,7 +8,7 @@
 
 const VibroImpact = (() => {
   const DEGREE = 16, STEP = 0.5, ROUNDING = 4 * Number.EPSILON;
-  const NEGLIGIBLE = 1e-18, LOW = 1e-12; // limits for completing a chatter: change of the state, height of a hop
+  const NEGLIGIBLE = 1e-18, LOW = 1e-12; // a chatter is completed at a smaller change of the state and smaller hop
   const MOST_EVENTS = 100000; // maximum number of events in one call of advance
 
   const value = (c, t) => c.reduceRight((sum, coefficient) => sum * t + coefficient, 0);
@@ -36,7 +36,8 @@ const VibroImpact = (() => {
     return t;
   }
 
-  // Find all sign changes of a polynomial in (0, T), ascending. Between two turning points there is at most one change.
+  // Find all sign changes of a polynomial in (0, T), in ascending order. Between two turning points there is at
+  // most one change.
   function zeros(c, T) {
     if (c.length < 2 || hasNoZero(c, T)) return [];
     const ends = [0, ...zeros(derivative(c), T), T], found = [];
@@ -106,7 +107,7 @@ const VibroImpact = (() => {
       return a;
     }
 
-    // Return the magnitude of rounding errors in module i, of an acceleration (tiny) and of a gap (blur).
+    // Return the rounding error of an acceleration (tiny) or of a gap (blur) in module i.
     tiny(i) {
       const { K, C, f } = this.system, { X, V } = this;
       return ROUNDING * (Math.abs(f[i]) + [0, 1].reduce((sum, j) => sum + Math.abs(K[i][j] * X[j]) + Math.abs(C[i][j] * V[j]), 0));
@@ -116,7 +117,7 @@ const VibroImpact = (() => {
       return ROUNDING * (2 + [...this.X, ...this.V, this.Y[i], this.U[i]].reduce((sum, x) => sum + Math.abs(x), 0));
     }
 
-    // Find the time until the next event of module i, an impact or the release of a sticking ball; Infinity if beyond T.
+    // Return the time until the next event of module i (impact, or release of a sticking ball), or Infinity after T.
     next(i, series, T) {
       const a = series[i], wall = this.stuck[i];
       if (wall) return firstFall(derivative(derivative(a)).map((force) => wall * force), T);
@@ -200,9 +201,9 @@ const VibroImpact = (() => {
       both[i] = wall;
       const jet = this.series(both)[i].map((coefficient) => wall * coefficient), sticks = this.stuck[i] !== 0;
       const tiny = this.tiny(i), force = 2 * jet[2], change = 6 * jet[3];
-      let hold = force; // the sign decides; if the force vanishes within rounding, use the first nonzero derivative
+      let hold = force; // its sign decides; if the force is 0 within rounding, its first nonzero derivative is used
       if (Math.abs(force) <= tiny) hold = jet.slice(3, 6).find((coefficient) => coefficient !== 0) ?? 0;
-      else if (sticks && force < 0 && change > 0 && -(force ** 3) < tiny * change ** 2) hold = change; // too short to release the ball
+      else if (sticks && force < 0 && change > 0 && -(force ** 3) < tiny * change ** 2) hold = change; // pulled too briefly for a release
       const leaves = sticks && ((pulled && change < 0) || hold < 0);
       if (leaves || (!sticks && hold > 0)) {
         this.note(i, wall, leaves ? "release" : "stick");
@@ -211,7 +212,7 @@ const VibroImpact = (() => {
     }
 
     // Complete the chatter of ball i if its remaining hops are negligible. Each hop is kappa times as long as the previous
-    // hop, so that all hops together take 2 u / (a (1 - kappa)). Return true if the chatter was completed.
+    // hop, so that all hops together take 2 speed / (push (1 - kappa)). Return true if the chatter was completed.
     complete(i) {
       const { e, kappa, K } = this.system, series = this.series(this.stuck), jet = series[i], wall = this.touching[i];
       const push = 2 * wall * jet[2], speed = -wall * (this.V[i] - this.U[i]), height = (speed * speed) / (2 * push);

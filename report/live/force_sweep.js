@@ -80,7 +80,8 @@ class Branches {
   }
 }
 
-// Chart of the unit circle and the multipliers of exact orbits; those beyond the frame are at its edge, with their modulus.
+// Chart of the unit circle and the multipliers of exact orbits. A multiplier beyond the frame is
+// drawn at its edge, with its modulus.
 class Circle {
   constructor(svg, { orbits }) {
     this.orbits = orbits;

@@ -1,5 +1,5 @@
-// Show a predicted motion after a small perturbation. The distance from the prediction grows by the multiplier in each
-// period, until flights become asymmetric.
+// Show a predicted motion after a small perturbation. The distance from the prediction grows by the factor |multiplier|
+// in each period, until flights become asymmetric.
 "use strict";
 
 const SECONDS = 10;

@@ -2,9 +2,9 @@
 "use strict";
 
 const STEPS = 160; // steps per cycle; a frame advances by one or more steps
-const SETTLED = 400, SKIPPED = 200, KEPT = 5; // numbers of cycles: run before the page opens, skipped by the button, kept to draw
+const SETTLED = 400, SKIPPED = 200, KEPT = 5; // cycles before the page opens, skipped by the button, drawn
 const SPEED = 0.5; // initial speed of both balls in a case
-const REPEATS = 2e-3; // a motion repeats if the distance between states one period apart is smaller
+const REPEATS = 2e-3; // a motion repeats if the distance between states one period apart is smaller than this
 const niceAbove = (x) => [0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32].find((end) => end >= x) ?? 2 * x;
 
 // Chart of a quantity over the last cycles: exact values, and the prediction of the theory, which also covers the next moments.

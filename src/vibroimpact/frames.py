@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-_PER_CYCLE, _MOST = 64, 20_000  # points of a plot: number per cycle, and largest total number
+_PER_CYCLE, _MOST = 64, 20_000  # points of a plot: number per cycle, largest number in all
 
 
 def to_frame(result: Any) -> "pandas.DataFrame":

@@ -103,7 +103,7 @@ if WITH_MODEL:
     try:
         SOURCES = [
             (file, read(file)) for file in config_files()
-        ]  # read here, before Snakemake reads them, because its error messages are longer
+        ]  # read here, before Snakemake reads them, whose error messages are longer
     except ConfigError as error:
         refuse(error)
 

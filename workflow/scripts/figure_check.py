@@ -12,7 +12,7 @@ from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.result_records import replacing
 from vibroimpact_pipeline.specs import spec_of, specs
 
-BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # a folder if the workflow is a module with a prefix
+BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # the prefix, if the workflow is a module that has one
 FOLDER = BUILD / snakemake.params.page
 REFERENCE = ROOT / snakemake.params.reference
 TERMINAL = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
@@ -32,7 +32,7 @@ with running(snakemake):
     if others := " ".join(verdict["figure"] for verdict in found if verdict["status"] != PASSED):
         report += [f'To accept intended changes: make accept REASON="why" FIGURES="{others}"']
         report += ["PICTURES=1 keeps the reference tables and redraws their pictures."]
-    for stream in (sys.stdout, TERMINAL):  # the log and the terminal
+    for stream in (sys.stdout, TERMINAL):  # print to the log and to the terminal
         print(*report, sep="\n", file=stream, flush=True)
     if has_failed(found, snakemake.params.strict):
         sys.exit("Some figures differ from the reference set.")

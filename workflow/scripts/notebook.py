@@ -78,7 +78,7 @@ def parameters_of(config: dict) -> dict:
     return given
 
 
-BUILD = snakemake.output[0].rpartition("results/")[0]  # a folder if the workflow is a module with a prefix
+BUILD = snakemake.output[0].rpartition("results/")[0]  # the prefix, if the workflow is a module that has one
 
 with running(snakemake) as out:
     for figure, shown in snakemake.params.pages.items():

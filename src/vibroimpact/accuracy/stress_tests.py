@@ -53,8 +53,8 @@ class StressTest:
 REST = (0.0,) * 8
 SETTLED = (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869)
 MODULATED = (0.0647, 0.5421, -0.1898, 0.0, -0.2101, -0.6997, 0.0459, 0.0)
-PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 just before a soft impact; its box pushes it
-RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 at rest on its wall; its box pushes it
+PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 just before a soft impact on box 1, which pushes it
+RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 at rest on a wall of box 1, which pushes it
 TOGETHER = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)  # both modules move in the same way
 MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # module 2 mirrors module 1
 FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # on the manifold at C = C_min, (10.25)

@@ -77,7 +77,7 @@ def _integrate(system, settings, cycles, times):
         run = simulate(system, settings["initial_state"], cycles, sample_times=times)
         certificate = {name: value for name, value in vars(run.certificate).items() if np.isfinite(value)}
         return run, {"method": "float64", "certificate": certificate}
-    from vibroimpact.accuracy.reference.run import proven_run  # float64 runs do not need its packages
+    from vibroimpact.accuracy.reference.run import proven_run  # loads packages that float64 runs do not need
 
     proof = proven_run(
         system,

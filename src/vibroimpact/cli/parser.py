@@ -104,7 +104,7 @@ def _put(table: Table, output: Path | None):
         if failed or (output is None and not table.answer):
             table.write(sys.stdout)
             sys.stdout.flush()
-    except BrokenPipeError:  # the reading end was closed, by `head` for example
+    except BrokenPipeError:  # the reading end of the pipe was closed, by `head` for example
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if failed:
         raise failed
@@ -117,6 +117,6 @@ def _draw(table, options):
         from vibroimpact.figures.plotting.style import save, styled
 
         save(styled(table.plot)(), {options.plot.suffix.removeprefix("."): options.plot})
-    except Exception as error:  # of any kind, since drawing reads fonts and may run other programs
+    except Exception as error:  # drawing may raise any error, since it reads fonts and may run other programs
         reason = f"{error}".strip().partition("\n")[0]
         options.parser.exit(1, f"{options.parser.prog}: plot: {options.plot} cannot be saved: {reason}\n")

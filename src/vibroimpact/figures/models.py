@@ -102,7 +102,7 @@ def _motions(module, system, settings, models, seconds):
     def made(model):
         try:
             return module.compute(system, fixed_point_table("", system), **settings, model=model)
-        except ValueError:  # the model gives no such motion
+        except ValueError:  # the model gives no motion for this figure
             return None
 
     tables = {model: made(model) for model in models}

@@ -109,4 +109,4 @@ def _method(axes, method, rows):
     x, wrong = good["error_state"].clip(SMALLEST, LARGEST), good["missed"] + good["spurious"] > 0
     lane = axes.plot(np.full(failed.sum(), NO_RESULT), rows["seconds_per_cycle"][failed], **mark(method))
     curve = draw_method(axes, method, x, good["seconds_per_cycle"], wrong)
-    return curve if len(good) else lane  # the lines to be named
+    return curve if len(good) else lane  # the lines that get the name of the method

@@ -91,7 +91,7 @@ def hunt_crossley_number(kappa: float) -> float:
     if 1.0 - kappa < NEARLY_ELASTIC:
         return 1.5 * (1.0 - kappa)
 
-    def number(x):  # x = -log(1 - kappa d), since d differs from 1 / kappa by less than rounding if kappa is small
+    def number(x):  # x = -log(1 - kappa d) is the unknown, since d is 1 / kappa up to rounding if kappa is small
         return -math.expm1(-x) / kappa
 
     def excess(x):

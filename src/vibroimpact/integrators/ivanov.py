@@ -218,7 +218,7 @@ def _beyond(z, boxes, signs):
 
 @disk_cached()
 def _ahead_of(z, i, boxes, signs):
-    """Return the distance of ball i to the wall ahead, and |v|; beyond a jump one of the two values is negative."""
+    """Return the distance of ball i to the wall ahead, and v towards it; beyond a jump one of the two is negative."""
     return 1.0 - signs[i] * (z[4 * i] - 2.0 * boxes[i]), signs[i] * z[4 * i + 1]
 
 

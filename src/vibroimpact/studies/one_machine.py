@@ -449,7 +449,7 @@ def _impacts(machine, run) -> dict:
     events = run.events[run.events["module"] == 1]
     states = events["state"][events["kind"] == IMPACT]
     seconds = run.cycles * run.system.period / machine.omega10
-    speeds = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa  # just before the impact
+    speeds = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa  # before impacts
     impulses = machine.m / (1 + run.system.epsilon) * (1 + machine.kappa) * speeds
     return {
         "impacts_per_s": len(states) / seconds,

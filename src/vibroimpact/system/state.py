@@ -45,7 +45,7 @@ def _ordered(name, values):
     if isinstance(values, list | tuple) and not hasattr(values, "_asdict"):
         states = len(values) > 0 and not isinstance(values[0], int | float)
         return [_ordered(f"{name}[{row}]", one) for row, one in enumerate(values)] if states else values
-    dimensions = getattr(values, "dims", ())  # of xarray
+    dimensions = getattr(values, "dims", ())  # names of the dimensions of an xarray object
     if dimensions and dimensions[-1] in getattr(values, "coords", ()):
         raise ValueError(
             f"{name}: arrays labelled by {dimensions[-1]!r} are not supported; pass a table, a mapping or plain numbers"
@@ -72,11 +72,11 @@ def _labels(values):
         return [*names]
     index = getattr(values, "index", None)
     labels = getattr(values, "columns", index)
-    if labels is None or callable(labels):  # a method, such as list.index
+    if labels is None or callable(labels):  # `index` can be a method, such as list.index
         return None
     numbered = [*labels] == [*range(len(labels))]
     of_rows = numbered and labels is not index and not _COMPONENTS.keys().isdisjoint(map(str, index))
-    return None if numbered and not of_rows else [*labels]  # reject states in columns too
+    return None if numbered and not of_rows else [*labels]  # a table with states in columns is rejected too
 
 
 def active_mask(system) -> np.ndarray:

@@ -23,7 +23,7 @@ with running(snakemake) as out:
     specs, data = read(ROOT)
     made = {figure: spec_of(figure, scene, specs) for figure, scene in snakemake.params.figures.items()}
     cited = yaml.safe_load(Path(snakemake.input.citation).read_text(encoding="utf-8"))
-    build = snakemake.output.json.removesuffix("results/datapackage.json")  # a folder if used as a module with a prefix
+    build = snakemake.output.json.removesuffix("results/datapackage.json")  # prefix, if a module has one
     headers = {path.removeprefix(build): header(path) for path in snakemake.input if path.endswith(".csv")}
     package = data_package(headers, files(specs | made, data), data["units"], cited)
     text = json.dumps(package, indent=1, ensure_ascii=False, allow_nan=False) + "\n"

@@ -18,8 +18,8 @@ class Chatter:
 
     def __init__(self, contacts, kappa: Fraction):
         self.contacts = contacts
-        # For kappa above 1/2 only every stride-th impact is used. The ratio is then at most 1/2, and the extrapolation
-        # amplifies rounding by less than a factor of 10.
+        # For kappa above 1/2 only every stride-th impact is used. The ratio kappa^stride is then at most 1/2, and
+        # the extrapolation amplifies rounding by less than a factor of 10.
         self._stride = max(1, math.ceil(math.log(2) / -math.log(kappa)))
         self._ratio = to_ball(kappa) ** self._stride
         self._impacts = 0

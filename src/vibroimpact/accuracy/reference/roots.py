@@ -35,7 +35,7 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
                 continue
             if last < 0:
                 return interval
-            stop = (stop + (stop - start) / 8).mid()  # the root is at the end: search just beyond it
+            stop = (stop + (stop - start) / 8).mid()  # the root may be at `stop`: extend the interval
         if depth > 0.6 * ctx.prec:
             raise Undecidable(
                 f"approach within {float(abs(series(middle)).upper()):.1e} cannot be distinguished from a contact"

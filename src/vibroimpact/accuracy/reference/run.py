@@ -18,7 +18,7 @@ from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, Trajectory
 from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
 
-ROUNDED = Fraction(1, 10**12)  # largest distance beyond a wall that counts as rounding
+ROUNDED = Fraction(1, 10**12)  # largest distance of a ball beyond a wall that counts as rounding
 
 
 @dataclass(frozen=True, eq=False)

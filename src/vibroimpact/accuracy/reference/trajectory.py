@@ -13,7 +13,7 @@ from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 # Impacts of a completed chatter are not listed if their rebound speed |W'| is at most this.
 LISTED_SPEED = Fraction(1, 10**12)
-GUARD_BITS = 64  # bits beyond the requested digits
+GUARD_BITS = 64  # bits of precision beyond the requested digits
 SEARCH_BITS = 96  # sufficient to exclude and bracket most events; otherwise the full precision is used
 
 

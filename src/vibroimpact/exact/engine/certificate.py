@@ -132,7 +132,7 @@ def _fly(flow, flight, errors, matrix, product):
     left = flight[LENGTH]
     while left > 0.0:
         flight[LENGTH] = min(left, flow.longest)
-        if flight[LENGTH] > 0.5 * flow.spacing:  # the first entry is the identity, without rounding
+        if flight[LENGTH] > 0.5 * flow.spacing:  # the first entry of a table is the identity, free of rounding
             _add_table(flow.coefficients, flight[BEFORE:AFTER], errors.repeated)
         fill_flight(flow, flight, matrix)
         _propagate(matrix, errors, product)

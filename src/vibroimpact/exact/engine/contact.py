@@ -309,7 +309,7 @@ def _apply_impact(flow, motion, i, moment, log):
     log.counters[RESIDUAL] = max(log.counters[RESIDUAL], abs(1.0 - wall * relative))
     box, ball = impact(q, boxes[2 + i], balls[2 + i])
     motion = with_boxes_and_balls(motion, with_velocity(boxes, i, box), with_velocity(balls, i, ball))
-    if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # the rebound is below rounding
+    if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # rebound speed below rounding
         motion = _joined(q, motion, i)
     record(log, moment.elapsed, i, wall, IMPACT, motion.boxes, motion.balls, velocity)
     return motion, _ends_soon(flow, motion, moment.remaining, i, wall)

@@ -106,7 +106,7 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
     images = rates.reshape(-1, SIZE * SIZE) @ OPERATORS
     equations[..., :-1, :-1] = images.reshape(*rates.shape[:2], TRIANGLE, TRIANGLE)
-    # S is defined up to a multiple of the form sin^2 + cos^2, which is constant; these entries select one S.
+    # The matrix S is defined up to a multiple of the form sin^2 + cos^2, which is constant; these entries select one S.
     equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED
     sides = np.zeros((TRIANGLE + 1, len(kernels)))
     sides[:-1] = kernels[:, ROWS, COLUMNS].T
@@ -230,7 +230,7 @@ def accumulate_energy(flow, flights, events, squares, period, rows):
         if n < len(events):
             event = events[n]
             if not completes_chatter(events, n):
-                passed = event[0]  # the sum of the lengths would accumulate rounding errors
+                passed = event[0]  # a sum of flight times would accumulate rounding errors
             kappa = q.kappa if event[3] == IMPACT else 0.0
             rows[row, LOSSES + int(event[1]) - 1] += impact_loss(q.epsilon, kappa, event[APPROACH])
     rows[row, STORED] += energy_stored(q.ground, -q.k12, q.epsilon, boxes, balls)

@@ -145,8 +145,8 @@ ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # initial number of rows for even
 MOST_AT_ONCE = 8  # most events at one instant: for each module an impact, a stick, a release and the end of a chatter
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 need more."""
-INTERRUPT_INTERVAL = 200_000  # exclusions between two checks for an interrupt, about 20 ms
-PATIENCE = 100_000  # successive flights of zero duration before a run is stopped
+INTERRUPT_INTERVAL = 200_000  # number of exclusions between two checks for an interrupt, about 20 ms
+PATIENCE = 100_000  # number of successive flights of zero duration after which a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """Terms of the limit on the number of exclusions in a run: constant, per event and per time `Flow.unit`."""
 ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages

@@ -121,7 +121,7 @@ def nearby_zero(c, t):
     """Return the zero of the polynomial c (8,) that Newton's method reaches from t, or nan."""
     inverse = 1.0 / c[1]
     near, b, d, e = -c[0] * inverse, c[2] * inverse, c[3] * inverse, c[4] * inverse
-    if abs(near * b) < 0.05:  # four terms of the series of the inverse function
+    if abs(near * b) < 0.05:  # start from four terms of the series of the inverse function
         t = near + near * near * (near * ((2.0 * b * b - d) + near * (5.0 * b * (d - b * b) - e)) - b)
     for _ in range(MOST_STEPS):
         step = value(c, t) / slope(c, t)
@@ -315,7 +315,7 @@ def module_time(q, motion, i, jets, bound, horizon, short):
 def _sticking_time(q, motion, i, jets, horizon, short):
     """Return the result of `module_time` for a sticking ball; the constraint is that the wall pushes the ball."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
-    # the second term matters if the box is still at rest: rounding of the force that may develop up to the horizon
+    # the second term, rounding of the force that can develop up to the horizon, matters if the box is still at rest
     margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + ZERO_FORCE_MARGIN
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)

@@ -106,7 +106,7 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
     e, kappa, omega, f1, f2 = parameters[:, [0, 1, 7, 8, 9]].T
     f1, f2, ground = e * f1, e * f2, 1.0 + e * parameters[:, 6]
     fastest = np.maximum(np.maximum(1.0, omega), np.maximum(stiff, damped))
-    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two: j h is exact
+    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two, whose multiples are exact
     drive, longest = np.hypot(f1, f2), spacing * (count - 1)
     shift = drive * (2.0 * np.pi / omega) * np.maximum(1.0, 1.0 / np.sqrt(ground))
     numbers = [

@@ -151,7 +151,7 @@ def _note(flow, motion, i, times, rates, least_of):
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
     (low, high), (early, late) = times, rates
     t = low + (high - low) * abs(early) / (abs(early) + abs(late))
-    for _ in range(MOST_STEPS):  # Newton's method on the rate, safeguarded by the bracket
+    for _ in range(MOST_STEPS):  # Newton's method for a zero of the rate, safeguarded by the bracket
         x, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, t)
         jets = jet(q, mode, x, s, c)
         p = jets[0] if i == 0 else jets[1]
@@ -250,13 +250,13 @@ def _of_event(q, walls, boxes, balls, events, n, left):
     """
     i, wall, kind, phase = int(events[n, 1]) - 1, events[n, 2], events[n, 3], events[n, PHASE]
     force = wall * box_accelerations(q, walls, boxes, math.sin(phase))[i]
-    if kind == IMPACT:  # distance beyond the wall that the ball would reach at the end of the run
+    if kind == IMPACT:  # how far beyond the wall the ball would be at the end of the run
         return left * (wall * (boxes[2 + i] - balls[2 + i]) + 0.5 * left * max(force, 0.0))
     if kind == RELEASE:
         change, bend = _changes(q, walls, boxes, phase, i)
         depth = 0.5 * change * change / (wall * bend) if wall * bend > 0.0 else math.inf
         return min(left * abs(change), depth) / _force_weight(q, walls, i)
-    if completes_chatter(events, n):  # the chatter ends after 2 u / (a (1 - kappa))
+    if completes_chatter(events, n):  # it takes 2 u / (a (1 - kappa)), where u is the rebound speed
         return 0.5 * left * force * (1.0 - q.kappa)
     return math.inf
 

@@ -187,7 +187,7 @@ class Run(Representation):
         ball comes to rest on the wall; 2 release: the ball leaves the wall); state, (8,), just after the event.
         """
         rows = self.rows
-        if continues(self.begin):  # a ball at rest on a wall already stuck at the end of the previous run
+        if continues(self.begin):  # omit sticks of balls that already stuck in the previous run
             again = [n for n in range(min(event_loop.MOST_AT_ONCE, len(rows))) if rests_at_start.py_func(rows, n)]
             rows = np.delete(rows, again, axis=0)
         table = np.empty(len(rows), EVENT)

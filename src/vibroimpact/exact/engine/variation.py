@@ -90,7 +90,7 @@ def next_departure(q, events, n, leaving, end):
     i = int(event[1]) - 1
     if event[3] != IMPACT:
         walls = pair(walls, i, int(event[2]) if event[3] == STICK else 0)
-    if completes_chatter(events, n):  # box and ball move together from here on
+    if completes_chatter(events, n):  # box and ball move together from this event on
         boxes, balls = leaving.boxes, leaving.balls
         common = common_velocity(q, boxes[2 + i], balls[2 + i])
         boxes, balls = with_velocity(boxes, i, common), with_velocity(balls, i, common)

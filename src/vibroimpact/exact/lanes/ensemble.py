@@ -94,7 +94,7 @@ def ensemble(
         Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
         the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
         observed cycles are nan. The averages and the largest |X_i| are exact to rounding, except for the largest |X_i|
-        of a box that turns back almost at rest (error up to 1e-5 of its path).
+        of a box that hardly moves near the turning point (error up to 1e-5 of its path).
 
     Raises
     ------

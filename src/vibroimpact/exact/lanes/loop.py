@@ -19,7 +19,7 @@ from vibroimpact.exact.lanes.rows import STATISTICS, STATISTICS_AT
 from vibroimpact.exact.lanes.statistics import accumulate_statistics, discount_rests, find_turns, open_or_close
 
 TABLE = 64  # number of times in a flow table; it is small, since the event loop handles only few events
-NO_REST_DISTANCE = 1e-6  # a ball farther from a wall does not come to rest on it within the next events
+NO_REST_DISTANCE = 1e-6  # a ball farther from a wall does not come to rest on it during one call of `run_until`
 INTERRUPT_INTERVAL = 500_000  # number of steps between two checks for an interrupt, about 20 ms
 
 

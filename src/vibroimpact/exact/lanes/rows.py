@@ -57,7 +57,7 @@ FIRST_TAIL: phase at the start of the run, and its remainder DRIFTS: drift c of 
 for each integral, the two rows of its matrix S (`energy.Squares`) for the velocities of the boxes
 """
 
-LONGEST_STEP = 0.52  # longest step, times the largest rate of boxes and forcing
+LONGEST_STEP = 0.52  # longest step, multiplied by the largest rate of boxes and forcing
 ORDER = next(n for n in range(1, 99) if LONGEST_STEP**n / math.factorial(n - 1) < 2.0**-53)
 """Order n of the Taylor polynomials over a time t <= LONGEST_STEP / r, where r bounds the rates of boxes and forcing.
 
@@ -67,7 +67,7 @@ and the truncation error of a position is t / (n + 1) times as large.
 """
 SECOND = ORDER + 1
 """First row of the polynomial of box 2 in the workspace (2 ORDER + 2, 8); the polynomial of box 1 starts at row 0."""
-TERMS = 7  # number of terms of a polynomial that suffice for the time of a turn in a step
+TERMS = 7  # number of Taylor terms that suffice to compute the time of a turn in a step
 
 
 @inlined

@@ -34,7 +34,7 @@ from vibroimpact.exact.lanes.rows import (
 )
 from vibroimpact.system.state import IMPACT, STICK
 
-PIECE = 4  # length in spacings of the flow table; a box turns at most once in a piece, except when almost at rest
+PIECE = 4  # length in spacings of the flow table; a box turns at most once in a piece unless its velocity stays near 0
 STEPS = 4  # number of Newton steps to find a turn
 
 

@@ -64,7 +64,7 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
     later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
     back = 1 + np.flatnonzero(
         np.abs(later - displacements[0]).max(axis=1) <= tolerance
-    )  # candidates: the first displacements repeat
+    )  # cycles after which the displacements at the start recur
     return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 

@@ -32,7 +32,7 @@ _KICKS = np.array([-1.0, 1.0, -1.0, 1.0])
 MODULES = np.array([1, 1, 2, 2, 1, 2])
 """Module of each unknown (p_1, q_1, p_2, q_2, I_1, I_2), and of each equation."""
 _MODULES = np.eye(2)[MODULES - 1]
-_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # derivatives of the flight times from wall +1 by the impact times
+_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # derivatives of flight times from wall +1 with respect to impact times
 _PLASTIC = 1.2207440846057596  # root of x^4 = x + 1; its powers give a low-discrepancy sequence
 
 

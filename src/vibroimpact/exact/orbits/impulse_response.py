@@ -9,7 +9,7 @@ from scipy.linalg import expm
 from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 
 _TAYLOR_ORDER = 5
-_NODES_PER_RADIAN = 128  # leaves a Taylor remainder of (1/256)^6 / 6! = 5e-18
+_NODES_PER_RADIAN = 128  # so many that the Taylor remainder is (1/256)^6 / 6! = 5e-18
 _FINE_NODES = 4096
 _UNIT_IMPULSES = np.eye(4)[:, 2:]
 
@@ -58,8 +58,8 @@ class ImpulseResponse:
         start = np.linalg.solve(closure, _UNIT_IMPULSES)
         nodes = math.ceil(self.interval * np.linalg.norm(self._rate, 2) * _NODES_PER_RADIAN)
         self._spacing = self.interval / nodes
-        # A table of all nodes would grow as 1/Omega: store Taylor series at the first nodes only, and the propagators
-        # from these nodes to later ones.
+        # Taylor series are stored at the first nodes only, with the propagators from these nodes to later ones, since a
+        # table of all nodes would grow as 1/Omega.
         self._fine = max(_FINE_NODES, math.isqrt(nodes))
         at_nodes = powers(expm(self._rate * self._spacing), min(nodes + 1, self._fine)) @ start
         self._onward = powers(expm(self._rate * self._spacing * self._fine), nodes // self._fine + 1)

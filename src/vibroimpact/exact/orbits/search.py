@@ -140,7 +140,7 @@ class Orbit(Representation):
     def C(self) -> np.ndarray:
         """Saw-tooth amplitudes C_i, (10.11), shape (2,); C_i can be negative for an inadmissible root."""
         plus, minus = self.ball_speeds.T
-        # Both flights of a period cover the same distance: plus t = minus (T - t), t: duration of the first one.
+        # The paths from wall +1 (speed `plus`, time t) and from wall -1 (speed `minus`, time T - t) are equally long.
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
         return sawtooth_amplitude(self.system.epsilon, path)
 

@@ -26,8 +26,8 @@ from vibroimpact.system.amplitude import path_of
 from vibroimpact.system.matrices import stiffness_matrix
 
 _DEGREE = 32
-_PIECES_AT_ONCE = 256  # a fixed number, so that memory does not grow with the period
-_RADIANS_PER_PIECE = 1.0  # of the fastest oscillation; the interpolant of degree 32 is then exact to rounding
+_PIECES_AT_ONCE = 256  # pieces computed at once, a fixed number, so that memory does not grow with the period
+_RADIANS_PER_PIECE = 1.0  # radians of the fastest oscillation; interpolation of degree 32 is then exact to rounding
 _NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are due to rounding
 _NEAR = 1e-3  # the eigenvalue solver may return a double root as a pair off the real axis
 _SAME = 1e-8
@@ -55,7 +55,7 @@ class SymmetricConditions:
         self._idle = ~np.isin(MODULES, system.modules)
         self.amplitudes = forced_amplitude(system)[None] if forced is None else forced
         self._response = impulse_response(system, sign=-1)
-        self._place = -1 / (1 + system.epsilon)  # position of the ball at wall +1, per C
+        self._place = -1 / (1 + system.epsilon)  # Y_i / C_i at the impact at wall +1
         speed = path_of(system.epsilon, 1.0) / (system.period / 2)
         self._kick = 2 * system.epsilon * speed
         self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)

@@ -25,7 +25,7 @@ LEVEL = {"color": BLACK, "linewidth": 0.9, "linestyle": (0, (1, 1.8))}
 HALO = {"path_effects": [withStroke(linewidth=2.5, foreground="white")], "zorder": 4}
 """Text style, with a white outline, for a name that lines may cross."""
 
-# No date, so that the same figure always gives the same bytes.
+# Omit the date, so that the same figure always gives the same bytes.
 _METADATA = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
 
 

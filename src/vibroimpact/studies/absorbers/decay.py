@@ -137,8 +137,8 @@ def _time_within(system, flight, target):
         speeds = np.where(stuck, later[2:], balls[2:])
         return stored(system.stiffness2, system.alpha12, system.epsilon, later, [0.0, 0.0, *speeds]) - target
 
-    if _energies(system, flight[BEFORE:AFTER]) <= target:  # reached at the impact before the flight
+    if _energies(system, flight[BEFORE:AFTER]) <= target:  # the target is reached at the impact before the flight
         return 0.0
-    if excess(flight[LENGTH]) > 0:  # reached at the end of the flight, within rounding
+    if excess(flight[LENGTH]) > 0:  # the target is reached at the end of the flight, within rounding
         return float(flight[LENGTH])
     return brentq(excess, 0.0, float(flight[LENGTH]))

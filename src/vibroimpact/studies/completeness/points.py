@@ -30,7 +30,7 @@ from flint import acb, arb, arb_series, ctx  # noqa: E402 (after the dependency 
 
 SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
 _BITS = 128
-_REACH = 2  # a box is tested at this multiple of its width, so that zeros on its edges are decided
+_REACH = 2  # a box is tested at this multiple of its width, so that a zero on its edge is inside
 _NARROWEST = 2.0**-24
 _ISOLATED_WIDTH = 2.0**-20  # half-width at which a zero is distinguished from other zeros
 _MOST = 20_000  # largest number of boxes in a pair of charts; the rest is reported as undecided
@@ -172,7 +172,7 @@ def _subdivide(conditions):
     distinct = []
     for zero in sorted(found):
         gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
-        if any(gap < 0.5 for gap in gaps):  # a repeated zero, since a box has only one within its reach
+        if any(gap < 0.5 for gap in gaps):  # the same zero again, since a tested box contains only one
             continue
         (undecided if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
     return [_box(*zero) for zero in distinct], [_box(*zero) for zero in undecided]

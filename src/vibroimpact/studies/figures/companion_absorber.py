@@ -166,7 +166,7 @@ def compute(
     restitution = [_lowest_again(system, mine, **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
     best = min(restitution, key=lambda place: place["value"])
     optima = {BALLS: (own, starts), BEST_KAPPA: (best, starts)}
-    if len(alone):  # from rest only, so that this peak is not measured again with other starts
+    if len(alone):  # this peak is for the start from rest, so it is not measured again with other starts
         (one_ball,) = _lowest(alone, 1)
         optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}, 1
 

@@ -296,7 +296,7 @@ def _marks(axes, nodes):
     special = nodes[nodes["label"].ne("") & nodes["p"].between(*axes.get_xlim())]
     found = {}
     for name, (marker, kinds) in MARKERS.items():
-        rows = special[special["label"].str.split(",").str[0].isin(kinds)]  # some kinds also name a module
+        rows = special[special["label"].str.split(",").str[0].isin(kinds)]  # some labels also name a module
         rows = rows[rows["stable"].eq(True) | (set(kinds) <= {*ENDS})]
         found[name] = marker, rows.drop_duplicates(["series", "branch", "p"])
     return found

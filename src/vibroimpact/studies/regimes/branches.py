@@ -170,7 +170,7 @@ def branches(
                 at = f"{family.name} at {' = '.join(path.names)} = {z[-1]:.6g}"
                 warnings.warn(f"{at} not followed: {error}", stacklevel=3)
                 continue
-            if len(places) > 1:  # otherwise the seed is a branch point
+            if len(places) > 1:  # if there is one place only, the seed is a branch point
                 found.append(Branch(family, nodes, places[-1].closing, places))
             for crossing in (np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT):
                 if all(np.abs(crossing - known).max() > _APART for known in crossings):

@@ -112,11 +112,13 @@ def _attracting(system, state, cycles, reach):
 def _approaches(run, motion, repeats, multiplier):
     """Return True if a run has reached an attracting periodic motion, or approaches it when it is continued.
 
-    A chaotic run may repeat within `nearness` close to a periodic motion, but outside the basin of this motion. So the
-    run is continued for the time in which, as the largest multiplier predicts, its distance from the periodic motion
-    shrinks by the factor _SHRUNK. The distance has to shrink at half of the predicted exponential rate or faster.
+    A chaotic run can pass a periodic motion and repeat there, with differences up to `nearness`, without being in the
+    basin of this motion. So the run is continued for the time in which, as the largest multiplier predicts, its
+    distance from the periodic motion shrinks by the factor _SHRUNK. The distance has to shrink at half of the predicted
+    exponential rate or faster.
 
-    motion: a window of the periodic motion, which repeats after `repeats` cycles; it starts where the run ends.
+    motion: a window of the periodic motion, which repeats after `repeats` cycles. The window starts next to the
+    final state of the run.
     """
     size = len(run.samples)
     before = _distance(run, motion.samples[(np.arange(size) - size + 1) % (_PER_CYCLE * repeats)])

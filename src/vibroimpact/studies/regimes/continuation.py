@@ -145,7 +145,7 @@ class Curve:
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
         try:
             return self.step(place, brentq(lambda s: function(self.step(place, s)), 0.0, reach, xtol=1e-15, rtol=1e-14))
-        except (Lost, ValueError):  # near a branch point, or across a corner
+        except (Lost, ValueError):  # steps can fail near a branch point or across a corner
             after, sign = self.place(end, place.tangent), np.sign(function(place.z))
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
@@ -295,7 +295,7 @@ class Curve:
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
                 return None
-            # If a fraction leads to a branch point, where Newton's method fails, the next one is tried.
+            # If a fraction leads to a branch point, where Newton's method fails, the next fraction is tried.
             steps = (self._next(place, part * length) for part in (0.5, 0.4, 0.6))
             middle = next(filter(None, steps), None)
             if middle is None:

@@ -92,7 +92,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        now = first if name in CHAOS else regimes  # `regimes` has motions renamed from chaos by a test
+        now = first if name in CHAOS else regimes  # `regimes` includes motions that the test of chaos renamed
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
             _test_classification(system, regimes, members, observation, progress)
@@ -113,7 +113,7 @@ def _rounds(system, states, observation, progress):
             found[place] = classify_after(system, state, observation.window, observation.nearness)
         passing = [_passing(found[place]) for place in waiting]
         waiting, now = waiting[passing], now[passing]
-    # the last round, with the events needed for the classification
+    # the last round also keeps the events, which are needed for the classification
     for place, state in track([*zip(waiting, now, strict=True)], "starts: last round,", progress):
         found[place] = named(simulate(system, state, observation.cycles), observation)
         if found[place].name == UNSETTLED:

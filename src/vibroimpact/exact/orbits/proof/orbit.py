@@ -19,7 +19,7 @@ from vibroimpact.exact.orbits.proof.passage import NOT_PROVED, EnclosedPassage, 
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _BITS = 128
-_WIDEST, _NARROWEST = -4, -60  # binary exponents of the half-widths to try
+_WIDEST, _NARROWEST = -4, -60  # binary exponents of the largest and smallest half-width that are tried
 _TIGHT = 2.0**-90
 _SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
 """Tolerances for differences between listed (float64) and proved states, and between listed and proved multipliers.
