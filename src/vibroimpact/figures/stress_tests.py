@@ -32,7 +32,7 @@ SPEC = {
     },
 }  # fmt: skip
 
-VERDICTS = {  # in order of increasing severity
+VERDICTS = {  # verdicts in order of increasing severity
     "unavailable": ("–", "#DDDDDD"),
     "right": ("✓", "#D9EFE3"),
     "reported undecidable": ("?", "#74AEDF"),

@@ -51,7 +51,8 @@ def power_law(order: int) -> Law:
 def stiffness_of(law: Law, mass: float, duration: float) -> float:
     """Return the stiffness K for which an undamped contact at speed 1 lasts `duration`."""
     share = 1.0 / (law.stiffness + 1.0)
-    path = math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)  # integral of 1 / sqrt(1 - x^(n + 1))
+    # `path` is the integral of 1 / sqrt(1 - x^(n + 1)) over [0, 1].
+    path = math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)
     return mass / (2.0 * share) * (2.0 * path / duration) ** (law.stiffness + 1.0)
 
 
@@ -61,7 +62,7 @@ def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float, speed: fl
     The ball has the given speed in the middle of the box.
     """
     zeta = damping_ratio(kappa)
-    deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # largest u at speed 1, times omega
+    deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # omega times the largest u at speed 1
     return 0.5 * (law.stiffness + 1.0) * mass * (deepest * speed) ** 2
 
 

@@ -34,7 +34,7 @@ class HeyokaBatch:
     def run(self, systems, states, cycles: int) -> np.ndarray:
         """Return the final states (8, LANES) from initial states (8, LANES) at tau = 0."""
         numbers, periods = np.array([coefficients(system) for system in systems]).T, [one.period for one in systems]
-        self._taylor.pars[:] = numbers[: len(self._taylor.pars)]  # parameters that the equations use
+        self._taylor.pars[:] = numbers[: len(self._taylor.pars)]  # only the parameters that the equations use
         self._epsilon, kappa = numbers[NAMES.index("epsilon")], numbers[NAMES.index("kappa")]
         self._bounce = (1.0 + kappa) / (1.0 + self._epsilon)
         self._taylor.set_time(0.0)

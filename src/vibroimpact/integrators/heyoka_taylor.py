@@ -19,7 +19,7 @@ from vibroimpact.system.state import NAMES as STATE
 
 try:
     import heyoka
-except ImportError as error:  # no package for this platform
+except ImportError as error:  # heyoka has no package for this platform
     heyoka, _missing = None, str(error)
 
 
@@ -101,7 +101,7 @@ class _Integrator:
 
     def propagate(self, contacts, tau, state, end, limit):
         taylor, system = self._taylor, contacts.system
-        taylor.pars[:] = coefficients(system)[: len(taylor.pars)]  # parameters that the equations use
+        taylor.pars[:] = coefficients(system)[: len(taylor.pars)]  # only the parameters that the equations use
         taylor.time = tau
         self._state[:8] = state
         self._state[8:] = np.sin(system.Omega * tau), np.cos(system.Omega * tau)

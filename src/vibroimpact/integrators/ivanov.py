@@ -28,7 +28,7 @@ from vibroimpact.system.state import BALLS, BOXES
 
 SHORTEST, PATIENCE = 1e-6, 100
 """A run is stopped, as an endless chatter, after more than PATIENCE successive jumps less than SHORTEST [tau] apart."""
-HALVINGS = 50  # bisections of a step that locate a jump
+HALVINGS = 50  # number of bisections of a step that locate a jump
 
 
 class Ivanov(Method):

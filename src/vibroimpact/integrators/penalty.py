@@ -32,7 +32,7 @@ limit at V = 0."""
 SLOWEST_COUNTED = 0.01
 """For a spring over the whole box: lowest speed of a ball, in the middle of the box, for its impact to be counted."""
 SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
-HALVINGS = 40  # bisections that make a step end where a contact begins
+HALVINGS = 40  # largest number of bisections to find when in a step a contact begins
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
 

@@ -8,7 +8,7 @@ from vibroimpact.integrators.right_hand_side import jacobian, rates
 from vibroimpact.integrators.rigid_contact import Contacts, first_sample_time, guard
 from vibroimpact.system.state import BALLS, BOXES
 
-ABSOLUTE = 1e-2  # atol / rtol
+ABSOLUTE = 1e-2  # ratio atol / rtol
 LOST = "its interpolant misses the impact that its step has found"
 PATIENCE = 100  # largest number of successive events without progress in time
 

@@ -103,6 +103,6 @@ def short_repr(value) -> str:
     """Return the repr of a value on one short line."""
     try:
         text = " ".join(repr(value).split())
-    except ValueError:  # an integer with more digits than Python prints
+    except ValueError:  # `value` is an integer with more digits than Python prints
         text = f"{type(value).__name__} with too many digits to print"
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 4]} ..."

@@ -9,7 +9,7 @@ from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
 from vibroimpact.system import System
 
-# Longest step times the norm of the rate matrix. Longer steps need more Taylor terms and lose digits to
+# Largest product of a step and the norm of the rate matrix. Longer steps need more Taylor terms and lose digits to
 # cancellation (e^REACH); shorter steps are more numerous.
 REACH = 4
 

@@ -73,7 +73,7 @@ def errors_of(flow, flights, events, limit):
         else:
             _end(q, flights[n], 0.0, errors, product[0])
         root = _root(errors)
-        if not root <= largest:  # True also for nan, which an impact without velocity gives
+        if not root <= largest:  # also True if the root is nan, as after an impact without velocity
             return estimates, math.inf
     return estimates, UNIT * root
 
@@ -205,7 +205,7 @@ def _root(errors):
     """Return the root of the sum of the mean squares of errors over all components of the state."""
     total = 0.0
     for k in range(8):
-        row = errors.independent[k, k]  # separate rows, which the processor can add in parallel
+        row = errors.independent[k, k]  # the processor can add separate sums for the rows in parallel
         for j in range(errors.repeated.shape[1]):
             row += errors.repeated[k, j] ** 2
         total += row

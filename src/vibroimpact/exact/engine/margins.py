@@ -256,7 +256,7 @@ def _of_event(q, walls, boxes, balls, events, n, left):
         change, bend = _changes(q, walls, boxes, phase, i)
         depth = 0.5 * change * change / (wall * bend) if wall * bend > 0.0 else math.inf
         return min(left * abs(change), depth) / _force_weight(q, walls, i)
-    if completes_chatter(events, n):  # it takes 2 u / (a (1 - kappa)), where u is the rebound speed
+    if completes_chatter(events, n):  # a chatter with rebound speed u and acceleration a takes 2 u / (a (1 - kappa))
         return 0.5 * left * force * (1.0 - q.kappa)
     return math.inf
 

@@ -77,7 +77,7 @@ def advance_lanes(runs, c, work, enough):
         ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
         if count(alive & ~ok) >= enough:
             break
-        # store turns of the boxes that may be their largest displacements
+        # store the turns at which a box may reach its largest displacement
         wrong, s_later, k_later = 1.0 - limit, s + fused(k, sa, s * ca), k + fused(k, ca, -s * sa)
         turns1 = ok & may_turn_beyond(most1 - wrong, x1, v1, a1, b1, third)
         turns2 = ok & may_turn_beyond(most2 - wrong, x2, v2, a2, b2, third)

@@ -35,7 +35,7 @@ def steady_two_impacts(evidence, case):
     alternate = all((np.diff(impacts.loc[impacts["module"] == i, "wall"]) != 0).all() for i in (1, 2))
     parts = {
         "repeats every cycle": change < 1e-6,
-        # One impact may lie on the edge of the window.
+        # One impact may be at the edge of the observed window.
         "two impacts per cycle": all(abs(count - PER_CYCLE * cycles) <= 1 for count in counts) and alternate,
     }
     return Finding(parts, {"change after a cycle": change, "impacts": counts, "cycles": cycles})

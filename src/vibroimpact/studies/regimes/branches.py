@@ -23,7 +23,7 @@ from vibroimpact.studies.regimes.families import (
 from vibroimpact.system.representation import Representation, brief
 
 _EQUAL = 1e-6  # a value of p this close to an end of the interval counts as the end
-_APART = 1e-3  # branch points that are closer than this count as one
+_APART = 1e-3  # branch points that are closer than this count as one point
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
 
@@ -236,7 +236,7 @@ def _half(family, path, interval, curve, longest, report, start):
             return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
         tests = family.tests(system, member)
-        if before is not None and not kind:  # a test that changes sign across a branch point does so at that point
+        if before is not None and not kind:  # sign changes of a test across a branch point occur at this point
             nodes += _special(family, path, curve, before, tests_before, place, tests)
         nodes.append(_node(family, path, z, member=member))
         kind = ""

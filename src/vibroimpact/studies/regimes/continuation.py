@@ -23,8 +23,8 @@ from scipy.optimize import brentq
 _DIFFERENCE = 1e-6  # step in p, relative to 1 + |p|; dF/dp is then accurate to about 1e-10
 _STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
 _STEPS, _FEET = 12, 4
-# Relative size of the Newton step that ends the iteration; the second applies once steps no longer shrink, because of
-# rounding or a singular Jacobian.
+# Relative sizes of the Newton step that ends the iteration. The second size applies if steps no longer shrink, because
+# of rounding or a singular Jacobian.
 _SETTLED, _STALLED = 1e-13, 1e-7
 _REFINED = 1e-10
 # Newton's method keeps p fixed within a step if the component of the tangent along p is larger than this value, since F

@@ -36,7 +36,7 @@ SYMMETRY_BREAKING, PERIOD_DOUBLING = "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
-_EQUAL, _MERGED = 1e-6, 1e-5  # flight fractions, and states of a motion, count as equal if they differ by less
+_EQUAL, _MERGED = 1e-6, 1e-5  # largest differences of flight fractions, and of states of a motion, that count as 0
 _HELD = 1e-12
 
 

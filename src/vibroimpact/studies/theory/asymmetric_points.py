@@ -29,7 +29,7 @@ from vibroimpact.theory.manifold import stays_within_walls
 from vibroimpact.theory.slow_flow import descending, impedances, pencil
 
 PAIRS = [pair for pair in itertools.product((SMALL, LARGE, ASYMMETRIC), repeat=2) if ASYMMETRIC in pair]
-_STARTS = 20  # starts along each edge of the square
+_STARTS = 20  # number of starts along each edge of the square
 _REACH = 0.25
 _SAME = 1e-7
 _ROUNDING = 1e-10  # error of an eigenvalue, relative to the largest one

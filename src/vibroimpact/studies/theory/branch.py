@@ -28,7 +28,7 @@ from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC
 
 SMALL, LARGE, ASYMMETRIC = "small C", "large C", "asymmetric"
-_TERMS = 16  # (pi^2 / 4)^16 / 32! is below rounding
+_TERMS = 16  # number of terms; the next term, (pi^2 / 4)^16 / 32!, is below rounding
 _ROUNDING = 1e-12  # error of a trace
 
 

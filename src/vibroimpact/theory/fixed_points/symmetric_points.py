@@ -185,7 +185,7 @@ def labels(system, points) -> list[str]:
 
 def refuse_free_motion(system) -> None:
     """Raise ValueError for a system whose fixed points need not be isolated (see `search`)."""
-    if len(system.modules) == 1:  # its force excites the only relevant resonance
+    if len(system.modules) == 1:  # with one module, the force excites the only relevant resonance
         return
     balance = Balance.of(system)
     numerators, denominator = balance.solve((0.0, 0.0))
