@@ -8,7 +8,7 @@
 
 const VibroImpact = (() => {
   const DEGREE = 16, STEP = 0.5, ROUNDING = 4 * Number.EPSILON;
-  const NEGLIGIBLE = 1e-18, LOW = 1e-12; // a chatter is completed at a smaller change of the state and smaller hop
+  const NEGLIGIBLE = 1e-18, LOW = 1e-12; // a chatter ends if the change of the state and the hop are below these
   const MOST_EVENTS = 100000; // maximum number of events in one call of advance
 
   const value = (c, t) => c.reduceRight((sum, coefficient) => sum * t + coefficient, 0);
@@ -117,7 +117,7 @@ const VibroImpact = (() => {
       return ROUNDING * (2 + [...this.X, ...this.V, this.Y[i], this.U[i]].reduce((sum, x) => sum + Math.abs(x), 0));
     }
 
-    // Return the time until the next event of module i (impact, or release of a sticking ball), or Infinity after T.
+    // Return the time until the next event of module i (impact, or release of a sticking ball); Infinity if it is after T.
     next(i, series, T) {
       const a = series[i], wall = this.stuck[i];
       if (wall) return firstFall(derivative(derivative(a)).map((force) => wall * force), T);
