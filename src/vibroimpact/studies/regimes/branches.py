@@ -180,7 +180,7 @@ def branches(
 
 
 def equations(family, path: Callable) -> Callable:
-    """Return the function (x, *p) -> residual and Jacobian of the equations of `family` for the system path(*p)."""
+    """Return the function of x and parameters p that gives residual and Jacobian of the equations of `family`."""
 
     def at(x, *p):
         try:
