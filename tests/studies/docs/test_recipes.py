@@ -21,10 +21,8 @@ RECIPES = dict(
 
 BLOCK = r"\s+```\w*\n(.*?)```"
 STEPS = re.compile(
-    rf"Write\s+`(?P<write>[^`]+)`:{BLOCK}"
-    rf"|Append\s+to\s+`(?P<append>[^`]+)`:{BLOCK}"
+    rf"Append\s+to\s+`(?P<append>[^`]+)`:{BLOCK}"
     rf"|Add\s+to\s+`(?P<add>[^`]+)`,\s+below\s+`(?P<line>[^`]+)`:{BLOCK}"
-    rf"|In\s+`(?P<replace>[^`]+)`,\s+replace{BLOCK}\s+by{BLOCK}"
     rf"|(?P<run>Run):{BLOCK}",
     re.DOTALL,
 )
@@ -44,16 +42,11 @@ def follow(recipe: str, project) -> list[str]:
     for step in STEPS.finditer(RECIPES[recipe]):
         named = STEPS.groupindex.values()
         texts = [text for number, text in enumerate(step.groups(), 1) if text and number not in named]
-        if step["write"]:
-            assert not (project / step["write"]).exists()
-            (project / step["write"]).write_text(texts[0], encoding="utf-8")
-        elif step["append"]:
+        if step["append"]:
             with open(project / step["append"], "a", encoding="utf-8") as file:
                 file.write(texts[0])
         elif step["add"]:
             project.edit(step["add"], step["line"] + "\n", step["line"] + "\n" + texts[0])
-        elif step["replace"]:
-            project.edit(step["replace"], texts[0].strip(), texts[1].strip())
         else:
             printed.append(run(texts[0], project))
     return printed

@@ -46,11 +46,11 @@ SPEC = {
     "title": "From weak to strong coupling",
     "caption": "a: largest error of leading order in :math:`C`, compared with exact orbits, over the fixed points of "
         "the cases equal and unequal, with the coupling damper in proportion to the spring or held constant; marks "
-        "in the grey band: couplings at which a fixed point has no exact motion. b: difference of the "
-        "flight times of ball 1 over the period, on stable orbits with two asymmetric balls, in phase or in antiphase; "
-        "marks: ends of stability. Modules with equal tuning, forces 1.52 and 1.54. c: mean power of all impacts over "
-        "the square of both forces, for exact symmetric orbits, for the stable asymmetric orbit, and as mean and "
-        "standard deviation over starts; dotted: dampers of linear absorbers of the same mass.",
+        "in the grey band: couplings at which a fixed point has no exact motion. b: difference of the flight times of "
+        "ball 1 over the period, on stable orbits with two asymmetric balls, in phase or in antiphase; marks: ends of "
+        "stability. Modules with equal tuning, forces 1.52 and 1.54. c: at the coupling of the case equal, mean power "
+        "of all impacts over the square of both forces, for exact symmetric orbits, for the stable asymmetric orbit, "
+        "and as mean and standard deviation over starts; dotted: dampers of linear absorbers of the same mass.",
     "alt": "Three panels. First: errors near six per cent except for couplings from 1.4 to 2, with marks of missing "
         "motions there and near 40. Second: antiphase rises from 0.76 to 4.7 and falls next to 14; in phase is level, "
         "up to 5.9 and from 14 on. Third: the mean over starts falls from above the dotted level to the diamonds of "
@@ -368,7 +368,7 @@ def draw(tables: dict) -> Figure:
     table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 88.0)
     grid = figure.subplots(1, 3)
-    heads = "error of leading order", "both balls asymmetric", "power, coupling 1"
+    heads = "error of leading order", "both balls asymmetric", "power at the impacts"
     for axes, letter, words in zip(grid, "abc", heads, strict=True):
         heading(axes, letter, words)
     _draw_errors(grid[0], table)

@@ -18,7 +18,7 @@ SPEC = {
     "caption": "Two machines on springs, in SI units. a: displacement of the box that moves more, against the "
         "frequency: with balls at several clearances :math:`L` the largest after a transient from rest, and the "
         "amplitudes without balls and with the best linear absorbers of the mass of the balls. b: box 1 and its ball "
-        "against time, from rest; the transient, which a leaves out, is larger than the motion after it.",
+        "against time, from rest, with the transient that a leaves out.",
     "alt": "Two panels. a: largest displacement in millimetres against frequency in hertz: a tall resonance without "
         "balls, a low flat line of the best absorbers, and a line with markers for each clearance of the balls. b: the "
         "motion of box 1 grows from rest until its wall strikes the ball, which then flies from wall to wall; dots "
