@@ -79,10 +79,6 @@ def results(folder: Path) -> Path:
         "regimes/special_points.csv": [
             {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}
         ],
-        "accuracy/models.csv": [
-            {"figure": "mine", "model": HOSTILE, "compared_with": HOSTILE, "error": 1e-9, "tolerance": 1e-3}
-            | {"seconds": 0.1, "in_use": True}
-        ],
     }
     for name, text in texts.items():
         _made(folder / name).write_text(text, encoding="utf-8")
