@@ -16,16 +16,16 @@ SLOPE = np.pi**2 * (np.pi**2 - 12) / (np.pi**2 - 4) ** 2
 
 
 def C_at_breaking(epsilon, omega, rates, start, half, pi):
-    """C of a single module, by the steady response G of its box to unit impulses, one a period T.
+    """C of a single module, by the steady response Q of its box to unit impulses, one a period T.
 
-    G(s) is the sum of r-terms (e^(rs) / (1 - e^(rT))) / (r - r') over both rates; `start` and `half` give epsilon times
+    Q(s) is the sum of r-terms (e^(rs) / (1 - e^(rT))) / (r - r') over both rates; `start` and `half` give epsilon times
     the term in brackets at s = 0 and T/2. With impacts at -uT/2 and uT/2 of strength I, u = (1 - v)/2, and a forced
     motion A sin + B cos of the box, the sum of Newton's rules and the way from wall to wall are
 
-        2 Omega A sin(pi v/2) + epsilon I (G'(T - uT) - G'(uT)) = v I,
-        (1 - v^2) I T/4 = 2 + 2 A cos(pi v/2) + epsilon I (2 G(0) - G(uT) - G(T - uT)),
+        2 Omega A sin(pi v/2) + epsilon I (Q'(T - uT) - Q'(uT)) = v I,
+        (1 - v^2) I T/4 = 2 + 2 A cos(pi v/2) + epsilon I (2 Q(0) - Q(uT) - Q(T - uT)),
 
-    without kappa, B and the force. The first, divided by v, is pi Omega A = I (1 - epsilon T G''(T/2)) at v = 0.
+    without kappa, B and the force. The first, divided by v, is pi Omega A = I (1 - epsilon T Q''(T/2)) at v = 0.
     """
     period, (plus, minus) = 2 * pi / omega, rates
     at_start = (start(plus) - start(minus)) / (plus - minus)
