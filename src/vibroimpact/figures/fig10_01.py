@@ -43,19 +43,15 @@ def compute() -> dict:
 def draw() -> Figure:
     """Draw the two modules: boxes M with balls m in straight cavities, on springs and dampers, under forces F_i(t)."""
     figure, axes = drawing.sheet(WIDTH, HEIGHT)
-    _surroundings(axes)
+    drawing.ground(axes, [WALLS[0], WALLS[0]], [TOP + 1.5, FLOOR], outside=(-1, 0))
+    drawing.ground(axes, WALLS, [FLOOR, FLOOR], outside=(0, -1))
+    drawing.ground(axes, [WALLS[1], WALLS[1]], [FLOOR, TOP + 1.5], outside=(1, 0))
     ends = [(WALLS[0], LEFTS[0]), (LEFTS[0] + BOX_WIDTH, LEFTS[1]), (LEFTS[1] + BOX_WIDTH, WALLS[1])]
     for (start, end), index in zip(ends, ("1", "12", "2"), strict=True):
         _suspension(axes, start, end, index)
     for left, index in zip(LEFTS, "12", strict=True):
         _module(axes, left, index)
     return figure
-
-
-def _surroundings(axes):
-    drawing.ground(axes, [WALLS[0], WALLS[0]], [TOP + 1.5, FLOOR], outside=(-1, 0))
-    drawing.ground(axes, WALLS, [FLOOR, FLOOR], outside=(0, -1))
-    drawing.ground(axes, [WALLS[1], WALLS[1]], [FLOOR, TOP + 1.5], outside=(1, 0))
 
 
 def _suspension(axes, start, end, index):
@@ -78,8 +74,9 @@ def _module(axes, left, index):
     drawing.symbol(axes, *ball, "$m$")
     drawing.symbol(axes, centre, 0.5 * (BOTTOM + cavity), "$M$")
     for x, foot, level, name in ((centre, TOP, X_LEVEL, "x"), (ball[0], ball[1] + 2.8, Y_LEVEL, "y")):
-        drawing.polyline(axes, [x, x], [foot, level + 1.5], drawing.THIN, linestyle=drawing.CENTRE_LINE)
-        drawing.coordinate(axes, x, level, 7.0, f"${name}_{index}$")
+        drawing.centre_line(axes, x, foot, level + 1.5)
+        drawing.arrow(axes, (x, level), (x + 7.0, level), linewidth=0.7 * drawing.LINE)
+        drawing.symbol(axes, x + 7.8, level, f"${name}_{index}$", ha="left")
     right = left + BOX_WIDTH
     drawing.arrow(axes, (right, FORCE), (right + 9.0, FORCE), linewidth=2 * drawing.LINE, size=8.0)
     drawing.symbol(axes, right + 6.2, FORCE + 0.9, rf"$F_{index}(t)$", va="bottom")

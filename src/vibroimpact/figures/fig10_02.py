@@ -40,19 +40,17 @@ def draw() -> Figure:
         drawing.ball(
             axes, CENTRE + wall * L, AXIS, RADIUS, facecolor="none", linestyle=(0, (3, 2)), linewidth=drawing.LINE
         )
-        _centre_line(axes, CENTRE + wall * L, AXIS + RADIUS + 1.5, L_LEVEL - 1.5)
-        drawing.dimension(axes, CENTRE, CENTRE + wall * L, L_LEVEL, "$L$")
+        drawing.centre_line(axes, CENTRE + wall * L, L_LEVEL - 1.5, AXIS + RADIUS + 1.5)
+        ends = (CENTRE, L_LEVEL), (CENTRE + wall * L, L_LEVEL)
+        drawing.arrow(axes, *ends, style="<|-|>", linewidth=drawing.THIN)
+        drawing.symbol(axes, CENTRE + wall * 0.5 * L, L_LEVEL + 0.8, "$L$", va="bottom")
     drawing.ball(axes, CENTRE + OFFSET, AXIS, RADIUS)
-    _centre_line(axes, CENTRE, X_LEVEL + 1.5, L_LEVEL - 1.5)
-    _centre_line(axes, CENTRE + OFFSET, Y_LEVEL + 1.5, AXIS + RADIUS)
-    _centre_line(axes, ORIGIN, X_LEVEL + 1.5, Y_LEVEL - 1.5)
+    drawing.centre_line(axes, CENTRE, L_LEVEL - 1.5, X_LEVEL + 1.5)
+    drawing.centre_line(axes, CENTRE + OFFSET, AXIS + RADIUS, Y_LEVEL + 1.5)
+    drawing.centre_line(axes, ORIGIN, Y_LEVEL - 1.5, X_LEVEL + 1.5)
     for x, level, name in ((CENTRE, X_LEVEL, "$x_i$"), (CENTRE + OFFSET, Y_LEVEL, "$y_i$")):
         drawing.arrow(axes, (ORIGIN, level), (x, level), linewidth=0.7 * drawing.LINE)
         drawing.symbol(axes, 0.5 * (ORIGIN + CENTRE), level + 0.8, name, va="bottom")
     drawing.symbol(axes, CENTRE + OFFSET, AXIS, "$m$")
     drawing.symbol(axes, CENTRE - 0.5 * L, CAVITY_BOTTOM + 2 * RADIUS + 2.7, "$M$")
     return figure
-
-
-def _centre_line(axes, x, top, bottom):
-    drawing.polyline(axes, [x, x], [bottom, top], drawing.THIN, linestyle=drawing.CENTRE_LINE, solid_capstyle="butt")

@@ -85,11 +85,7 @@ def draw(table: pd.DataFrame) -> Figure:
     axes.plot(impacts["tau0"], impacts["Z"], "o", color=BLACK, label="impacts")
     axes.set(xlim=(0.0, line["tau0"].max()), ylim=(-1.3 * C, 1.3 * C), xlabel=r"$\tau_0$", ylabel="$Z_i$")
     axes.set_yticks([-C, 0.0, C], ["$-C_i$", "$0$", "$C_i$"])
-    axes.set_xticks(impacts["tau0"], [_instant(j) for j in range(len(impacts))])
+    later = [rf"$\theta_i+{'' if j == 1 else j}\pi$" for j in range(1, len(impacts))]
+    axes.set_xticks(impacts["tau0"], [r"$\theta_i$", *later])
     axes.tick_params(labelsize=10, right=False, top=False)
     return figure
-
-
-def _instant(j: int) -> str:
-    """Return the tick label of the impact that occurs j half periods after the first impact."""
-    return r"$\theta_i$" if j == 0 else rf"$\theta_i+{'' if j == 1 else j}\pi$"

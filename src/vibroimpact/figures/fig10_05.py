@@ -57,11 +57,11 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
     )
 
 
-def key_points(table: pd.DataFrame, values: int = 6) -> pd.DataFrame:
-    """Return, for evenly spaced kappa, the border of stability, C_min, and the distance in C between them."""
+def key_points(table: pd.DataFrame) -> pd.DataFrame:
+    """Return, for six evenly spaced kappa, the border of stability, C_min, and the distance in C between them."""
     fold = select(table, "regions", "C_min")["C"].to_numpy()
     border = select(table, "regions", "stable").iloc[: len(fold)]
-    rows = np.linspace(0, len(fold) - 1, values).astype(int)
+    rows = np.linspace(0, len(fold) - 1, 6).astype(int)
     points = pd.DataFrame({"kappa": border["kappa"].to_numpy(), "border": border["C"].to_numpy(), "C_min": fold})
     return points.assign(stable_left_arm=points["C_min"] - points["border"]).iloc[rows].reset_index(drop=True)
 

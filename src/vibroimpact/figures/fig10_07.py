@@ -79,23 +79,17 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
     if not periods > 0:
         raise ValueError(f"periods: {periods} is not above 0")
     shown = motion(system, points, fixed_point, model)
-    end = periods * system.period
-    return join(
-        curve(f"module {module}", f"{name}_{module}", tau=tau, value=getattr(response, name)[:, module - 1])
-        for module, first in zip(MODULES, shown.impacts, strict=True)
-        for tau in [_times(first, system.period, end)]
-        for response in [shown.response(tau)]
-        for name in COORDINATES
-    )
-
-
-def _times(first: float, period: float, end: float, points: int = 401) -> np.ndarray:
-    """Return evenly spaced times in [0, end], merged with the times of the impacts, one every half period.
-
-    first: time of one impact, or NaN if there are no impacts.
-    """
-    impacts = np.arange(first - period, end, 0.5 * period) if np.isfinite(first) else np.empty(0)
-    return np.union1d(np.linspace(0.0, end, points), impacts[impacts >= 0])
+    period, end, curves = system.period, periods * system.period, []
+    for module, first in zip(MODULES, shown.impacts, strict=True):
+        # There is an impact every half period; `first` is NaN if there are no impacts.
+        impacts = np.arange(first - period, end, 0.5 * period) if np.isfinite(first) else np.empty(0)
+        tau = np.union1d(np.linspace(0.0, end, 401), impacts[impacts >= 0])
+        response = shown.response(tau)
+        curves += [
+            curve(f"module {module}", f"{name}_{module}", tau=tau, value=getattr(response, name)[:, module - 1])
+            for name in COORDINATES
+        ]
+    return join(curves)
 
 
 @styled

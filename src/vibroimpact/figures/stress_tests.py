@@ -1,5 +1,6 @@
 """Compute and draw the results of the stress tests: columns are methods, rows are groups of tests."""
 
+import numpy as np
 import pandas as pd
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
@@ -41,7 +42,7 @@ VERDICTS = {  # verdicts in order of increasing severity
     "silently wrong": ("×", "#DB5A45"),
 }
 """Mark and colour of each verdict; the mark alone or the colour alone identifies the verdict. In a cell, the colour of
-a failure is paler the smaller the share of tests that failed (`shade`)."""
+a failure is paler the smaller the share of tests that failed."""
 PALEST = 0.3
 """Share of the full colour in a cell where almost no test fails."""
 ROW, HEAD, FOOT = 7.4, 18.0, 9.0
@@ -54,12 +55,6 @@ def compute(full: bool) -> pd.DataFrame:
     """Return the rows of `accuracy.stress_tests.judge` for all tests or, if `full` is False, for the reduced set."""
     chosen = [test for test in stress_tests() if full or test.quick]
     return pd.DataFrame([row for test in chosen for row in judge(test, METHODS)])
-
-
-def shade(verdict: str, failed: float) -> tuple[float, float, float]:
-    """Return the colour of a cell: the colour of its worst verdict, paler if a smaller share of its tests failed."""
-    part = 1.0 if verdict == "right" else PALEST + (1.0 - PALEST) * failed
-    return tuple(1.0 - part * (1.0 - value) for value in to_rgb(VERDICTS[verdict][1]))
 
 
 @styled
@@ -75,7 +70,8 @@ def draw(table: pd.DataFrame) -> Figure:
     for (group, method), rows in table.groupby(["group", "method"], sort=False):
         worst = max(rows["verdict"], key=list(VERDICTS).index)
         x, y, right = methods.index(method), groups.index(group), (rows["verdict"] == "right").sum()
-        colour = shade(worst, 1.0 - right / len(rows))
+        share = 1.0 if worst == "right" else PALEST + (1.0 - PALEST) * (1.0 - right / len(rows))
+        colour = 1.0 - share * (1.0 - np.array(to_rgb(VERDICTS[worst][1])))
         axes.add_patch(Rectangle((x, y), 1, 1, facecolor=colour, edgecolor="white", linewidth=1.0))
         axes.text(x + 0.08, y + 0.5, VERDICTS[worst][0], fontsize=7.5, va="center", family="DejaVu Sans")
         axes.text(x + 0.93, y + 0.52, f"{right}/{len(rows)}", fontsize=8.5, va="center", ha="right")

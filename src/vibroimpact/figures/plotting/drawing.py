@@ -10,7 +10,8 @@ OUTLINE, LINE, THIN = 1.1, 0.9, 0.5
 """Line widths in points: bodies, springs and dampers, auxiliary lines."""
 SYMBOL = 10
 """Size of symbols in points, chosen so that their subscripts have a size of 7 points."""
-CENTRE_LINE = (0, (7, 2, 1.5, 2))
+HATCH = 1.5
+"""Distance between the hatches of the ground, and their length along and across its surface, in mm."""
 
 
 def sheet(width: float, height: float) -> tuple[Figure, object]:
@@ -33,29 +34,35 @@ def symbol(axes, x, y, text, **style):
     return axes.text(x, y, text, **style)
 
 
-def ground(axes, x, y, outside, spacing=1.5, length=1.5):
+def centre_line(axes, x, bottom, top):
+    """Draw a vertical centre line."""
+    polyline(axes, [x, x], [bottom, top], THIN, linestyle=(0, (7, 2, 1.5, 2)))
+
+
+def ground(axes, x, y, outside):
     """Draw the surface of the ground through the points (x, y), hatched on the side of the unit vector `outside`."""
     polyline(axes, x, y, OUTLINE)
     start, end = np.array([x[0], y[0]]), np.array([x[-1], y[-1]])
     run = np.linalg.norm(end - start)
     along = (end - start) / run
     outside = np.array(outside)
-    for distance in np.arange(0.5 * spacing, run, spacing):
+    for distance in np.arange(0.5 * HATCH, run, HATCH):
         foot = start + distance * along
-        tip = foot + length * (outside - along)
+        tip = foot + HATCH * (outside - along)
         polyline(axes, [foot[0], tip[0]], [foot[1], tip[1]], THIN, solid_capstyle="butt")
 
 
-def spring(axes, x0, x1, y, teeth=5, height=1.5, lead=2.0):
-    """Draw a linear spring from (x0, y) to (x1, y)."""
-    zigzag = np.linspace(x0 + lead, x1 - lead, 2 * teeth + 1)
-    offset = np.concatenate([[0.0], height * np.resize([1.0, -1.0], 2 * teeth), [0.0]])
+def spring(axes, x0, x1, y):
+    """Draw a linear spring with five teeth from (x0, y) to (x1, y)."""
+    zigzag = np.linspace(x0 + 2.0, x1 - 2.0, 11)
+    offset = np.concatenate([[0.0], np.resize([1.5, -1.5], 10), [0.0]])
     middles = np.concatenate([zigzag[:1], 0.5 * (zigzag[1:] + zigzag[:-1]), zigzag[-1:]])
     polyline(axes, [x0, *middles, x1], [y, *(y + offset), y])
 
 
-def damper(axes, x0, x1, y, height=1.5, length=4.0):
+def damper(axes, x0, x1, y):
     """Draw a viscous damper from (x0, y) to (x1, y): a cup fixed to the left end, a piston to the right one."""
+    height, length = 1.5, 4.0
     left, right = 0.5 * (x0 + x1 - length), 0.5 * (x0 + x1 + length)
     piston = left + 0.45 * length
     polyline(axes, [x0, left], [y, y])
@@ -92,15 +99,3 @@ def arrow(axes, tail, head, style="-|>", linewidth=LINE, size=6.0):
             capstyle="butt",
         )
     )
-
-
-def coordinate(axes, x, y, length, text):
-    """Draw an arrow with a label at x, in the positive direction of a coordinate."""
-    arrow(axes, (x, y), (x + length, y), linewidth=0.7 * LINE)
-    symbol(axes, x + length + 0.8, y, text, ha="left")
-
-
-def dimension(axes, x0, x1, y, text):
-    """Draw a dimension line with a label between x0 and x1."""
-    arrow(axes, (x0, y), (x1, y), style="<|-|>", linewidth=THIN)
-    symbol(axes, 0.5 * (x0 + x1), y + 0.8, text, va="bottom")

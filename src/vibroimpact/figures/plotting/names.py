@@ -3,6 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
+from matplotlib.transforms import Bbox
 
 from vibroimpact.figures.plotting.style import GREY, HALO
 
@@ -86,9 +87,10 @@ class _Names:
             start = np.clip(end, place - half, place + half)
             led = np.hypot(*(end - start)) > LEADER * self.point
             leader = start + np.linspace(0.05, 1.0, 25)[:, None] * (end - start)
-            covers = _gaps(place, half, avoided).min() < GAP * self.point or any(
-                _meet(place, half + self.point, box) or (led and any(box.contains(*one) for one in leader))
-                for box in self.boxes
+            covers = (
+                _gaps(place, half, avoided).min() < GAP * self.point
+                or Bbox([place - half - self.point, place + half + self.point]).count_overlaps(self.boxes)
+                or (led and any(box.contains(*one) for box in self.boxes for one in leader))
             )
             if led:
                 unclear = _gaps(leader[:, None], self.point, others).min(initial=np.inf) < 0
@@ -120,7 +122,3 @@ def _gaps(place, half, points):
     """Return the distances of the discs `points` (n, 3) from a box with its centre at `place` and half-size `half`."""
     apart = np.maximum(np.abs(points[:, :2] - place) - half, 0.0)
     return np.hypot(apart[..., 0], apart[..., 1]) - points[:, 2]
-
-
-def _meet(place, half, box):
-    return (np.abs(place - np.mean(box.get_points(), axis=0)) < half + np.array(box.size) / 2).all()
