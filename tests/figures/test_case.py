@@ -57,14 +57,14 @@ def test_files_of_other_parameters_of_another_case_or_length_are_refused_in_one_
         system = System(**others)
         with pytest.raises(ValueError, match=r"\Ainputs: .*points.csv.*\Z"):
             case_points.fixed_points("equal", system, made)
-        with pytest.raises(ValueError, match=r"\Ainputs: .*summary.json was made with (kappa|f[12]0_hat) = .*\Z"):
+        with pytest.raises(ValueError, match=r"\Ainputs: .*summary.json was computed with (kappa|f[12]0_hat) = .*\Z"):
             case_motion.simulated("equal", others, RUN, made)
         with pytest.raises(ValueError, match=r"points.csv contains"):
             case_points.verdicts("equal", system, case_points.fixed_points("equal", system, {}), made)
     with pytest.raises(ValueError, match="of case equal"):
         case_points.fixed_points("unequal", System(**EQUAL), made)
     for case, settings, said in (("unequal", RUN, "case = equal"), ("equal", RUN | {"window_cycles": 4}, "cycles = 3")):
-        with pytest.raises(ValueError, match=f"was made with [a-z_]*{said}, the notebook has"):
+        with pytest.raises(ValueError, match=f"was computed with [a-z_]*{said}, but the notebook has"):
             case_motion.simulated(case, EQUAL, settings, made)
 
 

@@ -38,9 +38,15 @@ def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tupl
         If the files belong to another case, or were computed with other parameters or settings.
     """
     if inputs:
-        made = json.loads(Path(inputs["summary"]).read_text(encoding="utf-8"))
-        asked = {"case": case, **parameters, **settings}
-        _expect_same_settings({"case": made["case"], **made["system"], **made["settings"]}, asked, inputs["summary"])
+        summary = json.loads(Path(inputs["summary"]).read_text(encoding="utf-8"))
+        given = {"case": summary["case"], **summary["system"], **summary["settings"]}
+        own = {"case": case, **parameters, **settings}
+        for name in given | own:
+            if given.get(name) != own.get(name):
+                raise ValueError(
+                    f"inputs: {inputs['summary']} was computed with {name} = {given.get(name)}, "
+                    f"but the notebook has {name} = {own.get(name)}; {HINT}"
+                )
         return tables.read(inputs["samples"]), tables.read(inputs["events"])
     made = window(System(**parameters), settings)
     return made.samples, made.events
@@ -94,16 +100,5 @@ def repetition(displacements, per_cycle: int) -> str:
 
 
 def _measured(changes, lag):
-    return f"in the window it changes after {_periods(lag)} by up to {digits(changes[lag], 2)}"
-
-
-def _periods(number):
-    return "one period" if number == 1 else f"{number} periods"
-
-
-def _expect_same_settings(made, asked, path):
-    for name in made | asked:
-        if made.get(name) != asked.get(name):
-            raise ValueError(
-                f"inputs: {path} was made with {name} = {made.get(name)}, the notebook has {asked.get(name)}; {HINT}"
-            )
+    after = "one period" if lag == 1 else f"{lag} periods"
+    return f"in the window it changes after {after} by up to {digits(changes[lag], 2)}"

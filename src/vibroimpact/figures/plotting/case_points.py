@@ -17,7 +17,7 @@ AGREES = 1e-8
 """Two tables contain the same fixed points if all coordinates differ by less than this. The limit is small because the
 same code computes both."""
 COORDINATES = ["C1", "C2", "B1", "B2", "psi1", "psi2"]
-HINT = "with inputs = {} the notebook computes from its own parameters"
+HINT = "set inputs = {} to compute from the parameters of the notebook"
 
 
 def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
@@ -96,7 +96,7 @@ def _expect_same_points(given, expected, path):
     apart = np.abs(given[COORDINATES].to_numpy(float) - expected[COORDINATES].to_numpy(float)).max(initial=0.0)
     if not apart < AGREES:
         raise ValueError(
-            f"inputs: {path} contains the fixed points of other parameters: a coordinate differs by {apart:.2g}; {HINT}"
+            f"inputs: {path} contains fixed points of other parameters: a coordinate differs by {apart:.2g}; {HINT}"
         )
 
 
