@@ -47,7 +47,8 @@ def compute(samples: pd.DataFrame, events: pd.DataFrame, system, cycles: int) ->
     start, period = samples["tau"].iloc[0], system.period
     end = start + cycles * period
     if samples["tau"].iloc[-1] < end - 1e-6 * period:
-        raise ValueError(f"cycles: {cycles} is longer than the window of the simulation")
+        window = (samples["tau"].iloc[-1] - start) / period
+        raise ValueError(f"cycles: {cycles} exceeds the window of the simulation, {window:g} forcing cycles")
     inside = pd.concat([samples, events])[["tau", *COORDINATES]]
     inside = inside[inside["tau"].between(start, end + 1e-6 * period)].drop_duplicates("tau").sort_values("tau")
     impacts = events[(events["kind"] == "impact") & events["tau"].between(start, end)]
@@ -128,10 +129,10 @@ def _instant(axes, tables, t):
         axes.plot(place, -0.86, marker="*", color=BLACK, markersize=6, markeredgewidth=0)
 
 
-def _spring(left: float, right: float, turns: int = 7):
-    """Return the coordinates x and y of a zigzag line between two positions."""
+def _spring(left: float, right: float):
+    """Return the coordinates x and y of a zigzag line with seven turns between two positions."""
     lead = 0.15 * (right - left)
-    inner = np.linspace(left + lead, right - lead, 2 * turns + 1)
+    inner = np.linspace(left + lead, right - lead, 15)
     x = np.concatenate([[left], inner, [right]])
-    y = np.concatenate([[0.0], 0.13 * np.tile([0.0, 1.0, 0.0, -1.0], turns)[: 2 * turns + 1], [0.0]])
+    y = np.concatenate([[0.0], 0.13 * np.resize([0.0, 1.0, 0.0, -1.0], 15), [0.0]])
     return x, y

@@ -65,8 +65,9 @@ def compute(C_range: tuple[float, float]) -> dict:
         "penetration": np.array([largest_C(k) for k in kappa]),
         "printed": printed_limit(rho(kappa)),
     }
-    if not (lowest <= limits["printed"].min() and limits["symmetry breaking"].max() <= highest):
-        raise ValueError(f"C_range: {C_range} does not contain the limits of stability")
+    ends = limits["printed"].min(), limits["symmetry breaking"].max()
+    if not (lowest <= ends[0] and ends[1] <= highest):
+        raise ValueError(f"C_range: {C_range} does not contain the limits of stability, {ends[0]} .. {ends[1]}")
     top = np.minimum(limits["symmetry breaking"], limits["penetration"])
     lines = pd.concat(pd.DataFrame({"series": name, "kappa": kappa, "C": C}) for name, C in limits.items())
     outline = {"kappa": np.append(kappa, kappa[::-1]), "C": np.append(limits["fold"], top[::-1])}

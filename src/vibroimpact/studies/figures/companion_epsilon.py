@@ -89,13 +89,16 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     curves, orders = [], []
     points = {case: {point.label: point for point in fixed_points(system)} for case, system in systems.items()}
     if mixed and mixed["label"] not in (known := sorted(points[mixed["case"]])):
-        what = f"the case {mixed['case']!r} has no fixed point {mixed['label']!r}, it has {', '.join(known) or 'none'}"
-        raise ValueError(f"mixed.label: {what}; set mixed to null to leave no point out")
+        what = f"case {mixed['case']!r} has no fixed point {mixed['label']!r}, only {', '.join(known) or 'none'}"
+        raise ValueError(f"mixed.label: {what}; set mixed to null to keep all points")
     for case, system in systems.items():
         for label, point in sorted(points[case].items()):
             if {"case": case, "label": label} == mixed:
                 continue
-            found = list(_compared(system, point, epsilon))
+            found = []
+            for value in epsilon:
+                with suppress(NoOrbit):
+                    found.append(distance_to_orbit(system.with_(epsilon=value), point))
             reached = np.array([c.epsilon for c in found])
             for panel, errors in {
                 "distance": np.array([c.distance for c in found]),
@@ -112,13 +115,6 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     nothing = pd.DataFrame(columns=["panel", "series", "epsilon", "error"])
     columns = ["case", "label", "panel", "order", "uncertainty"]
     return {"csv": join(curves or [nothing]), "orders": pd.DataFrame(orders, columns=columns)}
-
-
-def _compared(system, point, epsilon):
-    """Yield the comparison of a fixed point with its exact orbit at each epsilon at which an orbit exists."""
-    for value in epsilon:
-        with suppress(NoOrbit):
-            yield distance_to_orbit(system.with_(epsilon=value), point)
 
 
 def _two_terms(system, point, found):
