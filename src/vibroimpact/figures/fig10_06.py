@@ -1,8 +1,5 @@
 """Figure 10.6: fixed points and singular points on the slow invariant manifold."""
 
-from collections.abc import Mapping
-from types import MappingProxyType
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
@@ -125,12 +122,12 @@ def _plane(system, point, module, end):
 
 
 @styled
-def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({})) -> Figure:
+def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
     """Draw the table of `compute`: a row of planes per fixed point, with P_i as black circles and S_i as grey squares.
 
     Parameters
     ----------
-    chapter : mapping, optional
+    chapter : dict, optional
         Verdicts of the chapter by label; the headings show the verdicts that differ from (10.26).
     """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
@@ -138,9 +135,9 @@ def draw(table: pd.DataFrame, chapter: Mapping[str, str] = MappingProxyType({}))
     grid = figure.subplots(len(labels), len(MODULES), sharex=True, sharey=True, squeeze=False)
     names = {}
     for row, label in zip(grid, labels, strict=True):
-        by_limit, printed = verdict(table, label), chapter.get(label)
-        agrees = printed in (None, by_limit) or not by_limit
-        words = f"{by_limit} by (10.26)" if agrees else f"chapter {printed}, (10.26) {by_limit}"
+        by_limit, printed = verdict(table, label), (chapter or {}).get(label)
+        agree = printed in (None, by_limit)
+        words = f"{by_limit} by (10.26)" if agree else f"chapter {printed}, (10.26) {by_limit}"
         heading(row[0], label, words if by_limit else "")
         for axes, module in zip(row, MODULES, strict=True):
             names |= draw_plane(axes, table, f"{label}{module}")

@@ -199,7 +199,7 @@ def draw(table: pd.DataFrame) -> Figure:
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=(AXIS_MIN, 1.5 * ERROR_MAX))
         axes.set_yticks(10.0 ** np.arange(-3, 3), ["0.001", "0.01", "0.1", "1", "10", "100"])
         axes.minorticks_off()
-        heading(axes, letter, _name(scene))
+        heading(axes, letter, f"Fig. 10.{int(scene[6:])}" if scene.startswith("fig10_") else scene)
     for axes in grid[len(scenes) :]:
         axes.set_axis_off()
     for axes in grid[max(0, len(scenes) - columns) : len(scenes)]:
@@ -211,8 +211,3 @@ def draw(table: pd.DataFrame) -> Figure:
     handles += [Line2D([], [], **LEVEL), Patch(color=LIGHT_GREY)]
     figure.legend(handles, KEY, loc="outside lower center", ncols=len(KEY))
     return figure
-
-
-def _name(figure):
-    """Return "Fig. 10.6" for the name "fig10_06", and so on; return the name of any other figure unchanged."""
-    return f"Fig. {figure[3:].replace('_', '.').replace('.0', '.')}" if figure.startswith("fig10_") else figure
