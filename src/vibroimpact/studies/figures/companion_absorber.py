@@ -165,26 +165,32 @@ def compute(
     own = _lowest_again(system, clearance, **again)
     restitution = [_lowest_again(system, mine, **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
     best = min(restitution, key=lambda place: place["value"])
-    optima = {BALLS: (own, starts), BEST_KAPPA: (best, starts)}
+    optima = {BALLS: own, BEST_KAPPA: best}
     if len(alone):  # this peak is for the start from rest, so it is not measured again with other starts
         (one_ball,) = _lowest(alone, 1)
-        optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}, 1
+        optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}
 
     rows = [{"quantity": PEAK, "who": name, "value": peak} for name, peak in peaks.items()]
-    rows += [
-        {
-            "quantity": PEAK,
-            "who": who,
-            **place,
-            "regime": _regime(system, place, observation, several, seed),
-        }
-        for who, (place, several) in optima.items()
-    ]
-    rows += _of_restitution(restitution)
-    rows += _strokes(system, linear, band)
-    rows += [{"quantity": STROKE, "who": who, "value": optima[who][0]["clearance"]} for who in (BALLS, BEST_KAPPA)]
+    for who, place in optima.items():
+        there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
+        begun = spread_starts(1 if who == ONE_BALL else starts, seed)
+        regimes = Counter(regime.name for regime in settled(there, begun, Observation(**observation)))
+        rows.append({"quantity": PEAK, "who": who, **place, "regime": regimes.most_common(1)[0][0]})
+    rows += [{"quantity": LOWEST, "who": BALLS, **place} for place in restitution]
+    named = zip((PLATEAU, FROM, TO), plateau(restitution), strict=True)
+    rows += [{"quantity": quantity, "who": BALLS, "value": value} for quantity, value in named]
+    strokes = {
+        name: linear[name].stroke(frequencies(system, band)) / system.epsilon
+        for name in ("absorbers of the textbook", "best absorbers")
+    }
+    strokes |= {who: optima[who]["clearance"] for who in (BALLS, BEST_KAPPA)}
+    rows += [{"quantity": STROKE, "who": who, "value": stroke} for who, stroke in strokes.items()]
     rows += _response_ratios(system, per_force(system, response), band)
-    rows += _decays(system, linear)
+    # In a linear system, the energy decays equally fast after each impulse; with balls, the quickest decay is reported.
+    times = [decay_time(system, impulse, fraction=ENERGY_FRACTION) for impulse in IMPULSES]
+    decays = {BALLS: quickest_decay(system, IMPULSES, times, fraction=ENERGY_FRACTION)[1]}
+    decays |= {name: one.decay_time(1, ENERGY_FRACTION) for name, one in linear.items()}
+    rows += [{"quantity": DECAY, "who": who, "value": time / system.period} for who, time in decays.items()]
     summary = pd.DataFrame(rows, columns=SUMMARY_COLUMNS)
     for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
         summary.insert(5, column, (summary["value"] / peaks[name]).where(summary["quantity"] == PEAK))
@@ -238,19 +244,6 @@ def _remeasured(system, place, band, states, cycles, settle):
     return {**place, **measured, "sigma_e_hat": float(detunings[found.at])}
 
 
-def _regime(system, place, observation, number, seed):
-    """Return the regime in which most of `number` starts end at a point of a sweep, at the frequency of its peak."""
-    there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
-    names = Counter(regime.name for regime in settled(there, spread_starts(number, seed), Observation(**observation)))
-    return names.most_common(1)[0][0]
-
-
-def _of_restitution(places):
-    rows = [{"quantity": LOWEST, "who": BALLS, **place} for place in places]
-    named = zip((PLATEAU, FROM, TO), plateau(places), strict=True)
-    return [*rows, *({"quantity": quantity, "who": BALLS, "value": value} for quantity, value in named)]
-
-
 def plateau(places):
     """Return the largest kappa on the plateau, and the least and the greatest of the lowest peaks on the plateau.
 
@@ -264,13 +257,6 @@ def plateau(places):
     return (on[-1]["kappa"], min(peaks), max(peaks)) if on else (float("nan"),) * 3
 
 
-def _strokes(system, linear, band):
-    """Yield the largest strokes |X_i - Y_i| / f of the linear absorbers in a band."""
-    for name in ("absorbers of the textbook", "best absorbers"):
-        stroke = linear[name].stroke(frequencies(system, band)) / system.epsilon
-        yield {"quantity": STROKE, "who": name, "value": stroke}
-
-
 def _response_ratios(system, response, band):
     """For each pair of forces and each linear system, yield statistics of a ratio over the frequencies.
 
@@ -282,18 +268,6 @@ def _response_ratios(system, response, band):
             measures = {"frequencies won": (times < 1).mean(), "least": times.min(), "greatest": times.max()}
             place = dict(zip(FORCES, pair, strict=True))
             yield from ({"quantity": q, "who": name, "value": v, **place} for q, v in measures.items())
-
-
-def _decays(system, linear):
-    """Yield rows with the time, in forcing periods, in which the energy decays after an impulse on box 1.
-
-    With balls, the impulse is the one with the quickest decay. In a linear system, the time is the same for each
-    impulse.
-    """
-    times = [decay_time(system, impulse, fraction=ENERGY_FRACTION) for impulse in IMPULSES]
-    found = {BALLS: quickest_decay(system, IMPULSES, times, fraction=ENERGY_FRACTION)[1]}
-    found |= {name: one.decay_time(1, ENERGY_FRACTION) for name, one in linear.items()}
-    yield from ({"quantity": DECAY, "who": who, "value": time / system.period} for who, time in found.items())
 
 
 @styled
