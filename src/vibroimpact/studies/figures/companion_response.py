@@ -27,6 +27,7 @@ from vibroimpact.studies.figures.sweep import SYMBOLS
 from vibroimpact.studies.regimes.classification import IDLE, NO_IMPACTS, PERIODIC, REGIMES
 from vibroimpact.studies.regimes.one_to_one import by_exact_orbits, by_theory
 from vibroimpact.studies.sweeps.grid import axis
+from vibroimpact.tables import curve
 
 SPEC = {
     "title": "Displacement of the boxes with balls",
@@ -142,31 +143,29 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
     """
     sweeps = {"frequency": frequency, "force": force.assign(sigma_e_hat=system.sigma_e_hat)}
     balls = pd.concat([per_force(system, table)[OF_BALLS].assign(panel=name) for name, table in sweeps.items()])
-    linear = [
-        _linear(system, "frequency", pair, np.linspace(*rows["sigma_e_hat"].agg(["min", "max"]), LINE_POINTS), band)
-        for pair, rows in frequency.groupby(FORCES, sort=False)
+    lines = [
+        ("frequency", pair, np.linspace(detunings.min(), detunings.max(), LINE_POINTS))
+        for pair, detunings in frequency.groupby(FORCES, sort=False)["sigma_e_hat"]
     ]
-    for pair in force[FORCES].iloc[[0, -1]].itertuples(index=False, name=None):
-        linear.append(_linear(system, "force", pair, np.array([system.sigma_e_hat]), band))
+    pairs = force[FORCES].iloc[[0, -1]].itertuples(index=False, name=None)
+    lines += [("force", pair, np.array([system.sigma_e_hat])) for pair in pairs]
+    linear = [
+        curve(panel, name, **dict(zip(PLACE, (*pair, detunings), strict=True)), ratio=ratios(system, one, detunings))
+        for panel, pair, detunings in lines
+        for name, one in linear_systems(system, pair, band).items()
+    ]
     one_to_one = pd.concat(
         _one_to_one(system, name, series, table) for name, table in sweeps.items() for series in ONE_TO_ONE
     )
+    known = pd.concat([balls.assign(series="balls"), one_to_one]).query("panel == 'frequency' and impact_share.notna()")
+    shares = known.groupby(["series", *FORCES], sort=False)["impact_share"]
+    shares = shares.agg(points="size", least="min", middle="median", greatest="max").reset_index()
     return {
         "csv": balls[["panel", *OF_BALLS]],
         "linear": pd.concat(linear).sort_values(["panel", "series"], kind="stable"),
         "one_to_one": one_to_one,
-        "shares": _shares(balls, one_to_one),
+        "shares": shares.rename(columns={"series": "source"}),
     }
-
-
-def _linear(system, panel, pair, detunings, band):
-    """Return the rows of all linear systems at a pair of forces."""
-    place = {"panel": panel, **dict(zip(FORCES, pair, strict=True)), "sigma_e_hat": detunings}
-    rows = [
-        pd.DataFrame({**place, "series": name, "ratio": ratios(system, one, detunings)})
-        for name, one in linear_systems(system, pair, band).items()
-    ]
-    return pd.concat(rows)[["panel", "series", *PLACE, "ratio"]]
 
 
 def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
@@ -213,14 +212,6 @@ def _one_to_one(system, panel, series, table):
             measures = {"ratio": found.largest.max() / force, "impact_share": found.impact_share}
             rows.append({"panel": panel, "series": series, **place, **measures, "stable": found.stable})
     return pd.DataFrame(rows, columns=["panel", "series", *PLACE, "ratio", "impact_share", "stable"])
-
-
-def _shares(balls, one_to_one):
-    """For each source and pair of forces, return the least, median and greatest impact share over the frequencies."""
-    known = pd.concat([balls.assign(series="balls"), one_to_one]).query("panel == 'frequency' and impact_share.notna()")
-    shares = known.groupby(["series", *FORCES], sort=False)["impact_share"]
-    found = shares.agg(points="size", least="min", middle="median", greatest="max").reset_index()
-    return found.rename(columns={"series": "source"})
 
 
 @styled
