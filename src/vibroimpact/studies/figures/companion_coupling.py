@@ -5,7 +5,6 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from vibroimpact.accuracy.second_term import first_order
-from vibroimpact.accuracy.verdict_table import partners
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.plotting.style import (
@@ -157,7 +156,13 @@ def compute(systems: dict) -> dict:
         "patterns at the forces of the cases": sum(len(patterns(system)) for system in tried),
     }
     if WEAK in systems:
-        summary |= _of_weak(_errors({WEAK: systems[WEAK]}, held=False))
+        weak = _errors({WEAK: systems[WEAK]}, held=False)
+        missing = weak[weak["error"].isna()]["coupling"]
+        summary |= {
+            "points, case weak": len(weak),
+            "without a motion, case weak": len(missing),
+            "without a motion, case weak, from coupling": missing.min(),
+        }
     if "unequal" in systems:
         summary |= _coexisting(systems["unequal"])
     rows = [(name, *(value if isinstance(value, tuple) else (value, 0.0))) for name, value in summary.items()]
@@ -174,12 +179,9 @@ def errors(system) -> list[dict]:
     the theory calls the point stable on both time scales. stable: True if the orbit is a motion whose multipliers are
     all inside the unit circle. orbits: number of symmetric motions of the system, the same in all rows.
     """
-    points = fixed_points(system)
-    found = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
-    places = partners([point.C for point in points], np.array([orbit.C for orbit in found]).reshape(-1, 2))
-    motions, rows = sum(orbit.admissible for orbit in found), []
-    for point, place in zip(points, places, strict=True):
-        orbit = None if place is None else found[place]
+    points, roots = fixed_points(system), symmetric_solutions(system)
+    motions, rows = sum(symmetric_orbit(system, root).admissible for root in roots), []
+    for point, orbit in zip(points, exact_orbits(system, [point.C for point in points], roots), strict=True):
         moves = orbit is not None and orbit.admissible
         C = orbit.C if moves else np.full(2, np.nan)
         apart = np.abs(point.C - C)
@@ -280,7 +282,11 @@ def _power_at(system, force):
             nearest = np.argmin([np.abs(other.C - orbit.C).max() for other in symmetric])
             quantities[f"asymmetric over symmetric, force {force:g}"] = alone / powers[nearest]
     rows.append((ALL, force, taken.mean(), taken.std(), share, False))
-    rows.append((LINEAR, force, _damper_power(system) / unit, 0.0, 0.0, True))
+    # The dampers of linear absorbers with the mass of the balls and textbook tuning
+    tuning = textbook_tuning(system)
+    damping = 2 * system.epsilon * np.multiply(tuning.frequency, tuning.damping)
+    strokes = tuned(system, tuning).strokes(system.Omega)
+    rows.append((LINEAR, force, damping @ strokes**2 * system.Omega**2 / 2 / unit, 0.0, 0.0, True))
     return rows, quantities
 
 
@@ -310,14 +316,6 @@ def _coexisting(system):
     return {}
 
 
-def _damper_power(system):
-    """Return the mean power in the dampers of linear absorbers with the mass of the balls and textbook tuning."""
-    tuning = textbook_tuning(system)
-    damping = 2 * system.epsilon * np.multiply(tuning.frequency, tuning.damping)
-    strokes = tuned(system, tuning).strokes(system.Omega)
-    return float(damping @ strokes**2 * system.Omega**2 / 2)
-
-
 def _of_errors(tables):
     summary = {}
     for name, table in zip((PROPORTION, HELD), tables, strict=True):
@@ -337,15 +335,6 @@ def _of_errors(tables):
             f"called unstable and stable, {name}": int((~table["predicted"] & table["stable"]).sum()),
         }
     return summary
-
-
-def _of_weak(table):
-    missing = table[table["error"].isna()]["coupling"]
-    return {
-        "points, case weak": len(table),
-        "without a motion, case weak": len(missing),
-        "without a motion, case weak, from coupling": missing.min(),
-    }
 
 
 def _of_power(table):
