@@ -182,20 +182,28 @@ def compute(
     "none" for a path without special points. "onsets": rows of `regimes.onset.onsets`.
     """
     nodes, attracting, cases, onsets = [], [], [], []
+    begun = spread_starts(attractors["starts"], attractors["seed"])
     names = {panel: " ".join(settings["along"]) for panel, settings in zip(ascii_lowercase, paths, strict=False)}
     for panel, settings in zip(names, paths, strict=True):
         path, interval = Path(system, tuple(settings["along"])), settings["range"]
         for family in FAMILIES.values():
             found = branches(family, path, interval, np.linspace(*interval, seeds), longest_step)
             nodes += [{"panel": panel, **row} for number, branch in enumerate(found) for row in branch.rows(number)]
-        ends = _attractors(panel, path, interval, observation, **attractors)
-        attracting.append(ends)
-        cases += [(panel, case, p) for case, p in _on(path, interval, systems)]
-        onsets += onset.onsets(path, np.unique(ends["p"]), ends["p"], ends["label"])
+        values = np.linspace(*interval, attractors["values"])
+        ends = [
+            (panel, regime.name, p, *regime.mean_amplitudes)
+            for p in values
+            for regime in settle(path(p), begun, Observation(**observation))
+        ]
+        attracting += ends
+        onsets += onset.onsets(path, values, [p for _, _, p, *_ in ends], [regime for _, regime, *_ in ends])
+        places = {case: getattr(one, path.names[0]) for case, one in systems.items()}
+        low, high = interval
+        cases += [(panel, case, p) for case, p in places.items() if low <= p <= high and path(p) == systems[case]]
     nodes = pd.DataFrame(nodes, columns=["panel", *NODES]).rename(columns={"family": "series", "special": "label"})
     return {
         "csv": nodes,
-        "attractors": pd.concat(attracting, ignore_index=True),
+        "attractors": pd.DataFrame(attracting, columns=["panel", "label", "p", "C1", "C2"]),
         "cases": pd.DataFrame(cases, columns=["panel", "case", "p"]),
         "special_points": _special_points(nodes, names),
         "onsets": pd.DataFrame(onsets, columns=onset.COLUMNS),
@@ -210,22 +218,6 @@ def _special_points(nodes, names):
     found = pd.concat([found, without] if len(found) else [without]).sort_values("panel", kind="stable")
     found = found.assign(path=found["panel"].map(names)).rename(columns={"series": "family", "label": "kind"})
     return found.reindex(columns=["path", "family", "kind", "p", "C1", "C2", "admissible"])
-
-
-def _on(path, interval, systems):
-    """Yield each case whose system lies on `path` within `interval`, with the value of the path's parameter there."""
-    places = {case: getattr(system, path.names[0]) for case, system in systems.items()}
-    for case, p in places.items():
-        if interval[0] <= p <= interval[1] and path(p) == systems[case]:
-            yield case, p
-
-
-def _attractors(panel, path, interval, observation, values, starts, seed):
-    rows = []
-    for p in np.linspace(*interval, values):
-        regimes = settle(path(p), spread_starts(starts, seed), Observation(**observation))
-        rows += [(panel, regime.name, p, *regime.mean_amplitudes) for regime in regimes]
-    return pd.DataFrame(rows, columns=["panel", "label", "p", "C1", "C2"])
 
 
 @styled

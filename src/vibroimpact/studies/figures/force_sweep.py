@@ -87,10 +87,9 @@ def compute(system, range, values: int, C_max: float) -> dict[str, pd.DataFrame]
         last = now
         exact = exact_orbits(system, now, symmetric_solutions(system)) if points else ()
         for track, point, orbit in zip(names, points, exact, strict=True):
-            says = of_fixed_point(system, point)
-            row = {"value": value, "track": track, "C1": point.C[0], "B1": point.B[0], "C2": point.C[1]}
-            row |= {"B2": point.B[1], "label": point.label, **says}
-            rows.append(row | {EXACT: floquet(orbit) if orbit else NO_ORBIT})
+            C, B, verdicts = point.C, point.B, of_fixed_point(system, point)
+            row = {"value": value, "track": track, "C1": C[0], "B1": B[0], "C2": C[1], "B2": B[1], "label": point.label}
+            rows.append(row | verdicts | {EXACT: floquet(orbit) if orbit else NO_ORBIT})
             multipliers += _multipliers(value, track, orbit) if orbit and orbit.admissible else []
     for value, orbit in followed(systems):
         multipliers += _multipliers(value, ASYMMETRIC_TRACK, orbit)
@@ -148,7 +147,12 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     figure = new_figure(DOUBLE_COLUMN, 84.0)
     points, orbits = tables["csv"], tables["orbits"]
     pair = orbits[orbits["track"] == ASYMMETRIC_TRACK].drop_duplicates(["value", "C1", "C2"])
-    letters, names = _letters(points), {}
+    # The letter of a track is its label at the force nearest to the middle one of those with the most fixed points.
+    counts = points["value"].value_counts().sort_index()
+    most = counts.index[counts == counts.max()]
+    apart = (points["value"] - most[len(most) // 2]).abs() if len(most) else 0.0
+    nearest = points.assign(apart=apart).sort_values("apart", kind="stable")
+    letters, names = nearest.groupby("track")["label"].first(), {}
     for axes, module, letter in zip(figure.subplots(1, 2), (1, 2), "ab", strict=True):
         stable = pair[EXACT] == STABLE
         for (name, colour), shown in zip(PAIRS.items(), (stable, ~stable), strict=True):
@@ -164,18 +168,6 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     figure.legend(handles.values(), handles, loc="outside lower center", ncols=3, fontsize=9)
     name_curves(figure, names, color=BLACK)
     return figure
-
-
-def _letters(points):
-    """Return a letter per track, the label of one of its points.
-
-    The label is that at the force nearest to a reference force, which is the middle one of the forces with the most
-    fixed points.
-    """
-    counts = points["value"].value_counts().sort_index()
-    most = counts.index[counts == counts.max()]
-    here = points.assign(apart=(points["value"] - most[len(most) // 2]).abs() if len(most) else 0.0)
-    return here.sort_values("apart", kind="stable").groupby("track")["label"].first()
 
 
 def _draw_track(axes, rows, module, letter):

@@ -117,9 +117,11 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
         swing = MM * L * runs["largest"].max(axis=1)
         curves.append(pd.DataFrame({"series": f"L = {MM * L:g} mm", "frequency": hertz, "swing": swing}))
         worst = int(swing.argmax())
-        rows.append(_at_worst(machines[worst], runs["energy"][worst], cycles - settle) | {"swing": swing[worst]})
-    summary = pd.DataFrame(rows)
-    summary.insert(0, "L", clearances)
+        machine, energy = machines[worst], runs["energy"][worst]
+        joule, frequency, work = machine.k1 * L**2, machine.omega1 / (2 * np.pi), energy["work"].sum()
+        power = joule * work * frequency / (cycles - settle)
+        rows.append((L, frequency, power, energy["impacts"].sum() / work, swing[worst]))
+    summary = pd.DataFrame(rows, columns=["L", "frequency", "power", "share", "swing"])
     summary["force"] = plant["F10"] * summary["L"] / summary["L"][summary["swing"].idxmin()]
     place = {name: shown[name] for name in ("L", "frequency")}
     motion = _motion(_machines(plant, *place.values()), shown["cycles"])
@@ -140,13 +142,6 @@ def _linear(machine, band):
     for name in LINES:
         swing = MM * machine.L * linear[name].amplitudes(fine / unit).max(axis=1)
         yield pd.DataFrame({"series": name, "frequency": fine, "swing": swing})
-
-
-def _at_worst(machine, energy, cycles):
-    """Return the forcing frequency [Hz], the mean power of the forces [W], and the share that impacts dissipate."""
-    joule, hertz = machine.k1 * machine.L**2, machine.omega1 / (2 * np.pi)
-    work, impacts = energy["work"].sum(), energy["impacts"].sum()
-    return {"frequency": hertz, "power": joule * work * hertz / cycles, "share": impacts / work}
 
 
 def _motion(machine, cycles):

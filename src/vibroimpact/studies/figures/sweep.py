@@ -80,7 +80,10 @@ def draw(table: pd.DataFrame) -> Figure:
     grid = figure.subplots(rows, columns, squeeze=False)
     for place, (names, part) in zip(grid.flat, panels, strict=False):
         (_curves if len(axes) == 1 else _map)(place, names, part, axes)
-        _label(place, axes)
+        for axis, side in zip(axes, "xy", strict=False):
+            place.set(**{f"{side}label": ", ".join(SYMBOLS[name] for name in axis["along"])})
+            if axis["scale"] == LOGARITHMIC:
+                place.set(**{f"{side}scale": "log"})
     for place in grid.flat[len(panels) :]:
         place.set_axis_off()
     return figure
@@ -118,10 +121,3 @@ def edges(values, axis):
     at = to_scale(np.asarray(values, dtype=float))
     middles = 0.5 * (at[1:] + at[:-1])
     return from_scale(np.concatenate([[2 * at[0] - middles[0]], middles, [2 * at[-1] - middles[-1]]]))
-
-
-def _label(place, axes):
-    for axis, side in zip(axes, "xy", strict=False):
-        place.set(**{f"{side}label": ", ".join(SYMBOLS[name] for name in axis["along"])})
-        if axis.get("scale") == LOGARITHMIC:
-            place.set(**{f"{side}scale": "log"})
