@@ -29,7 +29,7 @@ SPEC = {
         "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` (grey "
         "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed. An "
         "arrow after :math:`S_2` points to a singular point outside the frame. Headings: verdicts of (10.26), which "
-        "agree with the chapter. They concern the impacts alone; where they are stable, the exact motion may be "
+        "agree with the chapter. They concern the impacts only: the exact motion of a point called stable may be "
         "unstable.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
         "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, grey squares S1, S2 the "

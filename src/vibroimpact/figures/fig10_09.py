@@ -11,10 +11,10 @@ SPEC = {
     "title": "Fixed points for unequal forces",
     "notebook": "fixed_points",
     "caption": r"Fig. 10.9. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, drawn "
-        "as in Fig. 10.6. The squares are our assumption: the chapter mentions them for Fig. 10.6 only. The chapter's "
-        "verdicts: a unstable, b unstable, c stable. The headings give those of (10.26), and both where they differ. "
-        "Both projections of b lie on the bold branch, which (10.26) as printed calls stable. So the printed limit, "
-        ":math:`C_i = 0.904`, cannot be that of the chapter's own figure, which must lie above 0.957.",
+        "as in Fig. 10.6. The squares are our assumption: the chapter mentions them for Fig. 10.6 only. The chapter "
+        "calls a and b unstable, c stable. The headings give the verdicts of (10.26), and both verdicts where they "
+        "differ. Both projections of b lie on the branch that (10.26) as printed calls stable. So the chapter's own "
+        "figure cannot use the printed limit, :math:`C_i = 0.904`; its limit must lie above 0.957.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, as in figure 10.6; most circles have moved down "
         "towards the fold of the manifold.",
     "own": "fig10_06",

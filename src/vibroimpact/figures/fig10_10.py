@@ -12,10 +12,10 @@ from vibroimpact.tables import join
 SPEC = {
     "title": "The only fixed point for weak forces, and its response",
     "notebook": "theoretical_response",
-    "caption": r"Fig. 10.10. The only fixed point for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` "
-        r"on both planes, and its theoretical response: boxes :math:`X_i`, :math:`U_i = X_i + \varepsilon Y_i` grey, "
-        r"balls :math:`Y_i`, :math:`W_i = X_i - Y_i` black. The point lies on the dashed branches, whose impacts "
-        "(10.26) calls unstable; the exact motion is unstable, too.",
+    "caption": r"Fig. 10.10. The only fixed point for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = "
+        "{f20_hat}` on both planes, and its theoretical response: boxes :math:`X_i` and :math:`U_i = X_i + "
+        r"\varepsilon Y_i` grey, balls :math:`Y_i` and :math:`W_i = X_i - Y_i` black. The point lies on the dashed "
+        "branches, which (10.26) calls unstable; the exact motion is unstable, too.",
     "alt": "Above, two planes with the manifold and circles P1, P2 on its dashed left arms; below, the theoretical "
         "response of both modules over two forcing periods, grey U and X, black W and Y.",
     "own": "fig10_07",

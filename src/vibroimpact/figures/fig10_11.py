@@ -10,7 +10,7 @@ SPEC = {
     "notebook": "simulation",
     "caption": r"Fig. 10.11. Strongly modulated response, simulated for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat "
         "f_{20} = {f20_hat}`: a, displacement of the second box; b, relative displacement of its ball. Grey: "
-        "no resonance, the ball takes longer than a forcing period from wall to wall.",
+        "intervals without resonance, in which the ball takes longer than a forcing period from wall to wall.",
     "alt": "Two panels over many forcing periods: a, the displacement X2, whose amplitude rises and falls; b, the "
         "relative displacement W2, which alternates between intervals from wall to wall and irregular ones.",
     "own": "fig10_08",

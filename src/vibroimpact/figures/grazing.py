@@ -14,9 +14,9 @@ from vibroimpact.system import System
 
 SPEC = {
     "title": "Error of each method against the depth of a grazing impact",
-    "caption": "Where methods fail. A ball grazes its wall: without the wall it would move beyond it by the depth "
-        "shown, in units of half the gap. If a method misses the impact (hollow marks), its error decreases with the "
-        "square root of the depth.",
+    "caption": "Error of each method against the depth of a grazing impact, in units of half the gap: without the "
+        "wall, the ball would move beyond it by this depth. A method that misses the impact (hollow marks) has an "
+        "error proportional to the square root of the depth.",
     "alt": "Error of the final state against the depth of an impact from 0.01 to 1e-14, on logarithmic axes, with a "
         "named line per method. One after the other, some methods leave the lower part for a common line with hollow "
         "marks, the line of a missed impact.",

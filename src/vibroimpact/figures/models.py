@@ -31,9 +31,9 @@ from vibroimpact.theory.fixed_points.table import fixed_point_table
 
 SPEC = {
     "title": "Error against run time of the models of each figure",
-    "caption": "Largest error of each model of a figure, in percent of the axis, against its run time. The reference "
-        "is the exact orbits or, for simulations, a run in arbitrary precision; for chaotic motions, statistics of "
-        "bursts are compared. Filled: the model in use, the cheapest below the tolerance (dotted). Grey lane: the "
+    "caption": "Largest error of each model of a figure, in percent of the axis, against its run time. The theory is "
+        "compared with exact orbits, a simulation with a run in arbitrary precision; for chaotic motions, statistics "
+        "of bursts are compared. Filled: the model in use, the cheapest below the tolerance (dotted). Grey lane: the "
         "reference itself, and errors below 0.001 %.",
     "alt": "A panel per figure from 10.6 to 10.11 with error against run time on logarithmic axes and a named mark for "
         "each model. The error of the slow flow is 4 to 6 %, that of the second term some tenths of a per cent. In "

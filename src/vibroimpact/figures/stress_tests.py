@@ -12,8 +12,9 @@ from vibroimpact.integrators import METHODS
 
 SPEC = {
     "title": "Results of every method in the stress tests",
-    "caption": "Where methods fail. Each cell gives the number of stress tests of the group that the method solves "
-        "correctly, and their total. Mark and colour show the worst verdict; the colour is deeper if more tests fail.",
+    "caption": "Where methods fail: each cell gives the number of stress tests of the group that the method solves "
+        "correctly, and their total. Mark and colour show the worst verdict; the more tests fail, the deeper the "
+        "colour.",
     "alt": "Table of marks with methods across and groups of stress tests down. A check mark means that all results "
         "are right. Other marks show the worst verdict: a question mark reported undecidable, an exclamation mark "
         "refused, an infinity sign did not finish, a cross silently wrong.",

@@ -9,9 +9,10 @@ from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, LIGHT
 
 SPEC = {
     "title": "Motion of case {case}",
-    "caption": r"Motion of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`. For one "
-        "cycle: six instants, where :math:`T` is the forcing period and a star marks a wall that is hit before the "
-        "next instant. For several cycles: the displacements of both boxes (grey) and their envelopes (black).",
+    "caption": r"Motion of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`. A picture "
+        "of one cycle shows six instants; :math:`T` is the forcing period, and a star marks a wall that is hit before "
+        "the next instant. A picture of several cycles shows the displacements of both boxes (grey) and their "
+        "envelopes (black).",
     "alt": "For one cycle of case {case}: six small pictures of two boxes on springs with a ball in each, at "
         "successive instants. For several cycles: the displacement of each box within its envelope.",
     "method": "frames of the simulated window",

@@ -10,8 +10,8 @@ from vibroimpact.theory.masri import lower_limit, printed_limit, upper_limit
 
 SPEC = {
     "title": "Stability regions as derived",
-    "caption": "Companion of Fig. 10.5. Region where the motion exists and is stable, as derived (shaded). Dashed: "
-        "limit at which the ball leaves the box. Dotted: the printed limit (10.26).",
+    "caption": "Companion of Fig. 10.5. Shaded: the motion exists and is stable, as derived. Dashed: limit at which "
+        "the ball leaves the box. Dotted: the printed limit (10.26).",
     "alt": "Plane of kappa and C. The shaded region of stable motion lies between the curve C_min and a horizontal "
         "line. At small kappa, the dashed limit at which the ball leaves the box cuts it off. The printed limit is "
         "dotted, below the region.",

@@ -12,10 +12,10 @@ from vibroimpact.theory.response import impact_times, leading_order
 
 SPEC = {
     "title": "Predicted and simulated flights",
-    "caption": "Companion of Figs. 10.7 and 10.8: relative displacement :math:`W_2` against the phase of the forcing, "
-        "predicted at the fixed point nearest to the simulated motion, and simulated, with the length of each flight "
-        "in forcing periods :math:`T`. Grey: mirror image of the simulated motion, half a period later with all signs "
-        "changed, which also solves the equations.",
+    "caption": "Companion of Figs. 10.7 and 10.8: relative displacement :math:`W_2` against the phase of the forcing. "
+        "Top: predicted at the fixed point nearest to the simulated motion. Bottom: simulated; grey: its mirror "
+        "image, half a period later with all signs changed, which also solves the equations. Each flight is labelled "
+        "with its length in forcing periods :math:`T`.",
     "alt": "W2 over two forcing periods. In the theory, all flights from wall to wall take half a period. In the "
         "simulation, long and short flights alternate; another curve shows the mirror image of this motion.",
     "equations": [r"W_{i0} = B_i\sin(\tau_0 + \phi_i) + Z_i \tag{10.10}"],

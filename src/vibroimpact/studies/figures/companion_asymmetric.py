@@ -23,14 +23,13 @@ from vibroimpact.theory.masri import SYMMETRY_BREAKING_C, lower_limit
 
 SPEC = {
     "title": "The asymmetric branch of the manifold",
-    "caption": "Motions whose balls take unequal times for their two flights. a: the manifold. At :math:`C_i = "
-        r"\pi^2/(\pi^2-4)`, symmetry breaks, and the stable part continues as an asymmetric branch. Circles: fixed "
-        r"points of the slow flow; filled marks: exact asymmetric orbits at the :math:`\varepsilon` of the cases, each "
-        "joined to the fixed point that is its limit, if there is one. Other panels, one per case: asymmetry of the "
-        "flights of each exact pair of mirror images (:math:`v`: difference of the flight times over the period) as "
-        r":math:`\varepsilon` decreases, down to that fixed point. Labels and lines: verdict at the "
-        r":math:`\varepsilon` of the case. A circle with :math:`v^2 < 0` is no motion: that pair ends before "
-        r":math:`\varepsilon = 0`. The stable pair of the equal case, A3 in `orbits.csv`, is that of Fig. 10.8.",
+    "caption": "Motions whose balls take unequal times for their two flights. a: where symmetry breaks, at :math:`C_i "
+        r"= \pi^2/(\pi^2-4)`, the stable part of the manifold continues as an asymmetric branch. Filled marks: exact "
+        r"orbits at the :math:`\varepsilon` of the cases, each joined to the fixed point of the slow flow (circle) "
+        r"that it approaches as :math:`\varepsilon` decreases, if any. Other panels, one per case: :math:`v^2` of "
+        r"these orbits against :math:`\varepsilon`; :math:`v` is the difference of the flight times over the period. "
+        r"A circle with :math:`v^2 < 0` is no motion: that orbit becomes symmetric before :math:`\varepsilon = 0`. "
+        "The stable orbit of the equal case is the motion of Fig. 10.8.",
     "alt": "First panel: a V-shaped curve of B against C, bold where stable. A green curve rises steeply from its "
         "right arm, with circles on it and diamonds and triangles beside it. Other panels: lines of v squared "
         "against epsilon from these marks, labelled stable or unstable, to circles at epsilon 0; the lowest line "

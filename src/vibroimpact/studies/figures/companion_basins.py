@@ -13,9 +13,9 @@ from vibroimpact.system.state import NAMES
 
 SPEC = {
     "title": "Basins of coexisting responses",
-    "caption": "Basins of attraction: the response that each start reaches, in the plane of starts that share the "
-        r"positions of the boxes and all velocities with the stable asymmetric orbit (circle) at :math:`\tau = 0`. "
-        "Diamond: mirror image of this orbit, with other positions of the boxes at that time.",
+    "caption": "Basins of attraction: the response that each start reaches, against the initial positions of both "
+        r"balls. Boxes and velocities start as on the stable asymmetric orbit (circle) at :math:`\tau = 0`. Diamond: "
+        "mirror image of this orbit, whose boxes have other positions at that time.",
     "alt": "Map of a plane of starts. Each cell has the colour of the response that the start reaches; the heading "
         "names the case. A circle marks the stable orbit in its own colour, a diamond its mirror image. Below, a key.",
     "method": "direct integration of (10.1) from many starts, until the motion repeats",

@@ -15,9 +15,10 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
     "title": "Error of the theory against epsilon",
-    "caption": "Largest error of leading-order theory over the fixed points of the three cases, compared with exact "
-        r"orbits, as :math:`\varepsilon` decreases: error of amplitudes and phases, also with the first-order term "
-        "(grey); of the rates of the slow flow; and of the fast multipliers. Triangles: slopes 1 and 2.",
+    "caption": "Largest error of the leading-order theory over the fixed points of the three cases against "
+        r":math:`\varepsilon`, compared with exact orbits: error of amplitudes and phases, of the rates of the slow "
+        "flow, and of the fast multipliers. Grey: amplitudes and phases with the first-order term added. Triangles: "
+        "slopes 1 and 2.",
     "alt": "Errors of the theory against epsilon on logarithmic axes: three straight lines of slope 1, for fast "
         "multipliers, slow rates, and amplitudes and phases; a fourth, grey, has slope 2.",
     "method": "fixed points and exact symmetric responses at every epsilon",

@@ -31,10 +31,10 @@ from vibroimpact.tables import curve
 
 SPEC = {
     "title": "Displacement of the boxes with balls",
-    "caption": "Displacement per static deflection, :math:`|X_i|/f`, of the box that moves more, where :math:`f` is "
-        r"the larger of the forces :math:`\varepsilon\hat f_{i0}`. a to c: against the frequency, with forces on both "
-        "boxes and on one; d: against the force. Dots: with balls, largest value of three starts, filled if most of "
-        "the motions repeat; grey: between 5 % and 95 % of the cycles; lines: linear systems in closed form.",
+    "caption": "Displacement over static deflection, :math:`|X_i|/f`, of the box that moves more, where :math:`f` is "
+        r"the larger of the forces :math:`\varepsilon\hat f_{i0}`. a to c: against the detuning, with forces on both "
+        "boxes and on one; d: against the force. Dots: largest value with balls from three starts, filled if most of "
+        "the motions repeat. Grey: range of 90 % of the cycles. Lines: linear systems in closed form.",
     "alt": "Four panels. a to c: response against the detuning, with a high resonance peak without balls. With balls, "
         "dots and a grey band lie below it near resonance and above it elsewhere. A flat line of the best absorbers "
         "lies below nearly all dots. d: with increasing force, the dots fall from the line without balls to a minimum "

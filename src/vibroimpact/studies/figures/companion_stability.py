@@ -9,8 +9,8 @@ from vibroimpact.system.verdict import STABLE, UNSTABLE
 SPEC = {
     "title": "Four criteria side by side",
     "caption": "Verdicts of four criteria on the fixed points of all cases: (10.26) as printed, Masri's analysis as "
-        "derived, the slow flow, and the multipliers of the exact orbit that continues the point. Filled: stable; "
-        "hollow: unstable.",
+        "derived, the slow flow, and the multipliers of the exact orbit next to the point. Filled: stable; hollow: "
+        "unstable.",
     "alt": "A matrix of dots with a row per fixed point and a column per criterion, filled if the verdict is stable. "
         "The last column, for the exact orbits, is hollow throughout.",
     "method": "computed verdicts",

@@ -22,9 +22,9 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
     "title": "Fixed points against the second force",
-    "caption": r"Fixed points against :math:`\hat f_{20}` for :math:`\hat f_{10} = {f10_hat}`, with the letters of the "
-        "chapter's order at the force where most of them exist. Stable points are stable on both time scales. Broad "
-        "dots: exact asymmetric orbits, which belong to no fixed point, darker if stable.",
+    "caption": r"Fixed points against :math:`\hat f_{20}` for :math:`\hat f_{10} = {f10_hat}`, with the chapter's "
+        "letters at the force where most of them exist. Stable points are stable on both time scales. Broad dots: "
+        "exact asymmetric orbits, which belong to no fixed point, darker if stable.",
     "alt": "Two panels with C1 and C2 of every fixed point against f20, one line per point. Markers are filled if both "
         "time scales are stable, hollow otherwise, and ringed if the exact orbit is stable. Broad dots show the "
         "asymmetric orbits.",

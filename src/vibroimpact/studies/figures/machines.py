@@ -15,19 +15,15 @@ from vibroimpact.system import PhysicalSystem
 SPEC = {
     "title": "Machines in SI units",
     "notebook": "physical_units",
-    "caption": "Two machines on springs, in SI units. a: displacement of the box that moves more, against the "
-        "frequency: with balls at several clearances :math:`L` the largest after a transient from rest, and the "
-        "amplitudes without balls and with the best linear absorbers of the mass of the balls. b: box 1 and its ball "
-        "against time, from rest, with the transient that a leaves out.",
+    "caption": "Two machines on springs, in SI units. a: largest displacement of both boxes against the frequency, "
+        "with balls at several clearances :math:`L` (after a transient from rest), without balls, and with the best "
+        "linear absorbers of the same mass. b: box 1 and its ball against time, from rest, including the transient.",
     "alt": "Two panels. a: largest displacement in millimetres against frequency in hertz: a tall resonance without "
         "balls, a low flat line of the best absorbers, and a line with markers for each clearance of the balls. b: the "
         "motion of box 1 grows from rest until its wall strikes the ball, which then flies from wall to wall; dots "
         "mark the impacts.",
     "own": {
         "title": "Machines in SI units",
-        "caption": "Two machines on springs, in SI units. a: largest displacement against the frequency, for linear "
-            "systems and, after a transient from rest, with balls at several clearances :math:`L`. b: box 1 and its "
-            "ball against time, from rest.",
         "alt": "Two panels: the largest displacement in millimetres against the frequency in hertz, with a line for "
             "each linear system and each clearance; and the displacements of box 1 and of its ball against time, with "
             "dots at impacts.",

@@ -21,8 +21,8 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 SPEC = {
     "title": "A nudge of a millionth",
     "caption": "Exact motion that the chapter calls stable, with ball 2 moved by a millionth of the half-clearance. "
-        "(a) Distance from the predicted motion, once per forcing period; line: growth by its largest multiplier. "
-        "(b) Length of each flight of ball 2 in forcing periods; the prediction is one half.",
+        "(a) Distance from the predicted motion, once per forcing period; line: growth predicted by its largest "
+        "multiplier. (b) Length of each flight of ball 2 in forcing periods; the prediction is one half.",
     "alt": "Left: the distance from the predicted motion follows a straight line on a logarithmic axis, then stays "
         "large. Right: the flights, at first equal, permanently split into long and short ones.",
     "method": "exact orbit of the fixed point, and a simulation that starts next to it",
