@@ -47,7 +47,9 @@ def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
     first = math.ceil(-theta / math.pi)
     last = math.floor((tau0_max - theta) / math.pi)
     if not tau0_max > 0 or last < first:
-        raise ValueError(f"tau0_max: the window 0 .. {tau0_max} contains no impact at theta + j pi, theta = {theta}")
+        raise ValueError(
+            f"tau0_max: {tau0_max} is before the first impact; impacts are at theta + j pi, theta = {theta}"
+        )
     impacts = theta + math.pi * np.arange(first, last + 1)
     tau0 = np.union1d(np.linspace(0.0, tau0_max, 201), impacts)
     return join(

@@ -46,7 +46,8 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
     kappa = np.linspace(0.0, 1.0, 201)
     limit = printed_limit(rho(kappa))
     if not (lowest < limit.min() and limit.max() < highest):
-        raise ValueError(f"C_range: {C_range} does not contain the border of (10.26), {limit.min()} .. {limit.max()}")
+        ends = f"from {limit.min()} to {limit.max()}"
+        raise ValueError(f"C_range: {C_range} does not contain the border of (10.26), which is {ends}")
     around = np.append(kappa, [1.0, 0.0])
     return join(
         [

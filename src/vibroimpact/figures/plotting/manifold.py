@@ -11,7 +11,7 @@ from vibroimpact.theory.masri import printed_limit
 BRANCHES = {"SIM unstable": UNSTABLE, "SIM stable": STABLE}
 
 
-def branches(panel: str, kappa: float, C_max: float, points: int = 401) -> list[pd.DataFrame]:
+def branches(panel: str, kappa: float, C_max: float) -> list[pd.DataFrame]:
     """Return both branches of B(C), (10.16), for 0 <= C <= C_max, divided at the limit of (10.26); columns C, B.
 
     Both branches contain the point where they meet, and the points include the fold C_min of (10.25).
@@ -24,8 +24,8 @@ def branches(panel: str, kappa: float, C_max: float, points: int = 401) -> list[
     r = rho(kappa)
     limit, fold = printed_limit(r), C_min(r)
     if not C_max > fold:
-        raise ValueError(f"C_max: {C_max} is not above C_min = {fold}, so the right arm would be missing")
-    C = np.union1d(np.linspace(0.0, C_max, points), [limit, fold])
+        raise ValueError(f"C_max: {C_max} is not above C_min = {fold}, where the right arm of the manifold begins")
+    C = np.union1d(np.linspace(0.0, C_max, 401), [limit, fold])
     border = np.searchsorted(C, limit)
     return [
         curve(panel, series, C=part, B=B_of_C(part, r))

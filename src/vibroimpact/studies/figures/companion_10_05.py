@@ -67,7 +67,7 @@ def compute(C_range: tuple[float, float]) -> dict:
     }
     ends = limits["printed"].min(), limits["symmetry breaking"].max()
     if not (lowest <= ends[0] and ends[1] <= highest):
-        raise ValueError(f"C_range: {C_range} does not contain the limits of stability, {ends[0]} .. {ends[1]}")
+        raise ValueError(f"C_range: {C_range} does not contain the limits of stability, {ends[0]} to {ends[1]}")
     top = np.minimum(limits["symmetry breaking"], limits["penetration"])
     lines = pd.concat(pd.DataFrame({"series": name, "kappa": kappa, "C": C}) for name, C in limits.items())
     outline = {"kappa": np.append(kappa, kappa[::-1]), "C": np.append(limits["fold"], top[::-1])}
