@@ -157,13 +157,12 @@ def verdict(table: pd.DataFrame, label: str) -> str:
 
     The verdict is "stable" if the point lies on the stable branch in the plane of each active module, else "unstable".
     """
-    panels = [f"{label}{module}" for module in MODULES]
-    places = [select(table, panel, f"P_{module}")["C"] for panel, module in zip(panels, MODULES, strict=True)]
-    borders = [select(table, panel, "SIM stable")["C"].min() for panel in panels]
-    if not any(map(len, places)):
-        return ""
-    stable = all(border < C for place, border in zip(places, borders, strict=True) for C in place)
-    return "stable" if stable else "unstable"
+    beyond = [
+        select(table, f"{label}{module}", "SIM stable")["C"].min() < C
+        for module in MODULES
+        for C in select(table, f"{label}{module}", f"P_{module}")["C"]
+    ]
+    return "" if not beyond else "stable" if all(beyond) else "unstable"
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:

@@ -88,17 +88,13 @@ def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, floa
 
 def repetition(displacements, per_cycle: int) -> str:
     """Return a phrase on how many periods a motion takes to repeat, with the largest change of a displacement."""
-    whole = (len(displacements) - 1) // per_cycle
-    changes = {lag: distance_after(displacements, per_cycle, lag) for lag in range(1, whole + 1)}
-    lags = [lag for lag in changes if lag <= max(1, whole // 2)]
-    if (settled := next((lag for lag in lags if changes[lag] <= SETTLED), None)) is not None:
-        after = "every period" if settled == 1 else f"after {settled} periods"
-        return f"**repeats {after}**: {_measured(changes, settled)}"
-    if (near := next((lag for lag in lags if changes[lag] <= NEAR), None)) is not None:
-        return f"**nearly repeats**, but has not settled: {_measured(changes, near)}"
-    return f"**does not repeat**: {_measured(changes, 1)}"
-
-
-def _measured(changes, lag):
+    longest = max(1, (len(displacements) - 1) // (2 * per_cycle))
+    changes = {lag: distance_after(displacements, per_cycle, lag) for lag in range(1, longest + 1)}
+    settled, near = (next((n for n in changes if changes[n] <= limit), None) for limit in (SETTLED, NEAR))
+    lag = settled or near or 1
     after = "one period" if lag == 1 else f"{lag} periods"
-    return f"in the window it changes after {after} by up to {digits(changes[lag], 2)}"
+    if settled:
+        words = f"**repeats {'every period' if lag == 1 else f'after {after}'}**"
+    else:
+        words = "**nearly repeats**, but has not settled" if near else "**does not repeat**"
+    return f"{words}: in the window it changes after {after} by up to {digits(changes[lag], 2)}"

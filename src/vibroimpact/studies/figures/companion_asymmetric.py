@@ -254,11 +254,9 @@ def _in_plane(case, series, label, limit, *places):
 def _row(system, case, name, point, label, way, fit_below):
     kappa, slow_time = system.kappa, system.epsilon * system.period
     slow = np.abs(np.exp(point.slow_eigenvalues * slow_time))
-    verdicts = [point.real, point.admissible(kappa), point.fast_verdict(kappa), point.slow_verdict()]
-    judged = [*verdicts, max(*slow, *np.abs(point.fast(kappa)))]
-    row = [case, name, *point.squared, *point.C, *point.B, *point.psi, *judged]
-    stable = point.slow_verdict() == "stable"
-    row = [*row, lost_at(system, point) if stable else np.nan]
+    row = [case, name, *point.squared, *point.C, *point.B, *point.psi, point.real, point.admissible(kappa)]
+    row += [point.fast_verdict(kappa), point.slow_verdict(), max(*slow, *np.abs(point.fast(kappa)))]
+    row.append(lost_at(system, point) if point.slow_verdict() == "stable" else np.nan)
     if way is None:
         return [*row, "", *[np.nan] * (len(COMPARED) - 2)]
     distance = np.array([np.linalg.norm(asymmetric_limit.offset(station, point)) for station in way])

@@ -117,7 +117,7 @@ def _map(place, names, part, axes):
 
 def edges(values, axis):
     """Return cell borders around ascending values, half-way between neighbours on the scale of the axis."""
-    to_scale, from_scale = (np.log, np.exp) if axis.get("scale") == LOGARITHMIC else (np.asarray, np.asarray)
+    to_scale, from_scale = (np.log, np.exp) if axis["scale"] == LOGARITHMIC else (np.asarray, np.asarray)
     at = to_scale(np.asarray(values, dtype=float))
     middles = 0.5 * (at[1:] + at[:-1])
     return from_scale(np.concatenate([[2 * at[0] - middles[0]], middles, [2 * at[-1] - middles[-1]]]))
