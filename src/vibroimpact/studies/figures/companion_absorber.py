@@ -222,26 +222,21 @@ def _lowest(table, number):
     return places
 
 
-def _lowest_again(system, table, **again):
-    """Measure the REMEASURED_PEAKS lowest peaks of a sweep again, and return the point with the lowest result."""
-    return min(
-        (_remeasured(system, place, **again) for place in _lowest(table, REMEASURED_PEAKS)),
-        key=lambda place: place["value"],
-    )
-
-
-def _remeasured(system, place, band, states, cycles, settle):
-    """Return a point of a sweep with its peak measured again.
+def _lowest_again(system, table, band, states, cycles, settle):
+    """Measure the REMEASURED_PEAKS lowest peaks of a sweep again, and return the point with the lowest result.
 
     Its new entries are value, spread and largest, all divided by the force, and the sigma_e_hat of the peak.
     """
-    there = system.with_(**{name: place[name] for name in ("kappa", *FORCES)})
     detunings = np.sort(np.ravel(axis(**band).values))
     detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
-    found = peak([there.with_(sigma_e_hat=float(value)) for value in detunings], states, cycles, settle)
-    measured = {"value": found.value, "spread": found.error, "largest": found.largest}
-    measured = {name: value * place["clearance"] for name, value in measured.items()}
-    return {**place, **measured, "sigma_e_hat": float(detunings[found.at])}
+    places = []
+    for place in _lowest(table, REMEASURED_PEAKS):
+        there = system.with_(**{name: place[name] for name in ("kappa", *FORCES)})
+        found = peak([there.with_(sigma_e_hat=float(value)) for value in detunings], states, cycles, settle)
+        measured = {"value": found.value, "spread": found.error, "largest": found.largest}
+        measured = {name: value * place["clearance"] for name, value in measured.items()}
+        places.append({**place, **measured, "sigma_e_hat": float(detunings[found.at])})
+    return min(places, key=lambda place: place["value"])
 
 
 def plateau(places):
