@@ -1,7 +1,6 @@
-"""Compute and draw the error of each model against its cost, in one panel per figure of the chapter."""
+"""Compute and draw the error and the run time of each model of each figure of the chapter."""
 
 from importlib import import_module
-from string import ascii_lowercase
 
 import numpy as np
 import pandas as pd
@@ -22,7 +21,6 @@ from vibroimpact.figures.plotting.style import (
     LIGHT_GREY,
     heading,
     new_figure,
-    side_by_side,
     styled,
 )
 from vibroimpact.system import System
@@ -31,13 +29,13 @@ from vibroimpact.theory.fixed_points.table import fixed_point_table
 
 SPEC = {
     "title": "Error against run time of the models of each figure",
-    "caption": "Largest error of each model of a figure, in percent of the axis, against its run time. The theory is "
-        "compared with exact orbits, a simulation with a run in arbitrary precision; for chaotic motions, statistics "
-        "of bursts are compared. Filled: the model in use, the cheapest below the tolerance (dotted). Grey lane: the "
-        "reference itself, and errors below 0.001 %.",
-    "alt": "A panel per figure from 10.6 to 10.11 with error against run time on logarithmic axes and a named mark for "
-        "each model. The error of the slow flow is 4 to 6 %, that of the second term some tenths of a per cent. In "
-        "double precision, the steady motion of figure 10.8 is in the grey lane, the chaotic one of 10.11 above the "
+    "caption": "Cheapest sufficient model of each figure: largest error in percent of the axis (a), and run time (b). "
+        "Filled: the model in use, the cheapest below the tolerance (dotted). Errors are differences from the exact "
+        "orbits or, for simulations, from a run in arbitrary precision; for chaotic motions, statistics of bursts are "
+        "compared. Grey lane: the reference itself, and errors below 0.001 %.",
+    "alt": "Two panels with one row per model, grouped by figure from 10.6 to 10.11: errors and run times on "
+        "logarithmic axes. The error of the slow flow is 4 to 6 %, that of the second term some tenths of a per cent. "
+        "In double precision, the steady motion of figure 10.8 is in the grey lane, the chaotic one of 10.11 above the "
         "tolerance.",
     "method": "each figure is computed with each of its models; the plotted quantities are compared",
     "file": "results/accuracy/models.csv",
@@ -67,6 +65,8 @@ ERROR_MIN, ERROR_MAX = 1e-3, 100.0
 """Smallest and largest error [percent] that is drawn to scale."""
 AXIS_MIN, LANE_ERROR = 1e-5, 1e-4
 """Lower end of the axis, and position of errors below ERROR_MIN, such as the error 0 of the reference."""
+GAP = 0.6
+"""Space between the rows of two figures, in rows."""
 MARK = {"color": BLACK, "marker": "o", "markersize": 5}
 KEY = "model in use", "other model", "tolerance", "less than 0.001 %"
 
@@ -179,34 +179,32 @@ def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: one panel per figure, filled markers for the models in use, the tolerance dotted."""
-    scenes = list(dict.fromkeys(table["figure"]))
-    columns, rows = side_by_side(len(scenes))
-    figure = new_figure(DOUBLE_COLUMN, 44.0 * rows + 14.0)
-    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
-    ends = table["seconds"].min() / 3, table["seconds"].max() * 3
-    for axes, scene, letter in zip(grid, scenes, ascii_lowercase * len(scenes), strict=False):
-        here = table[table["figure"] == scene]
-        axes.axhspan(AXIS_MIN, ERROR_MIN, color=LIGHT_GREY, linewidth=0, zorder=0)
-        axes.axhline(here["tolerance"].iloc[0], **LEVEL)
-        for row in here.itertuples():
-            place = row.seconds, LANE_ERROR if row.error < ERROR_MIN else min(row.error, ERROR_MAX)
-            axes.plot(*place, **MARK | {"markerfacecolor": BLACK if row.in_use else "white"})
-            left = row.seconds > np.sqrt(ends[0] * ends[1])
-            aside = {"xytext": (5, 4), "ha": "right", "va": "bottom"} if left else {"xytext": (5, -1), "va": "center"}
-            words = f"{row.model.replace('_', ' ')}, {float(f'{row.seconds:.2g}'):g} s"
-            axes.annotate(words, place, textcoords="offset points", fontsize=8, **aside)
-        axes.set(xscale="log", yscale="log", xlim=ends, ylim=(AXIS_MIN, 1.5 * ERROR_MAX))
-        axes.set_yticks(10.0 ** np.arange(-3, 3), ["0.001", "0.01", "0.1", "1", "10", "100"])
+    """Draw the table of `compute`: errors and run times, one row per model, filled markers for the models in use."""
+    starts = table["figure"].ne(table["figure"].shift())
+    places = (np.arange(len(table)) + GAP * (starts.cumsum() - 1)).to_numpy()
+    figure = new_figure(DOUBLE_COLUMN, 5.5 * places[-1] + 32.0)
+    errors, times = figure.subplots(1, 2, sharey=True)
+    errors.axvspan(AXIS_MIN, ERROR_MIN, color=LIGHT_GREY, linewidth=0, zorder=0)
+    for row, place in zip(table.itertuples(), places, strict=True):
+        mark = MARK | {"markerfacecolor": BLACK if row.in_use else "white"}
+        errors.vlines(row.tolerance, place - 0.5, place + 0.5, **LEVEL)
+        errors.plot(LANE_ERROR if row.error < ERROR_MIN else min(row.error, ERROR_MAX), place, **mark)
+        times.plot(row.seconds, place, **mark)
+        times.annotate(
+            f"{float(f'{row.seconds:.2g}'):g}", (row.seconds, place), (6, 0), textcoords="offset points", va="center"
+        )
+    models = table["model"].str.replace("_", " ")
+    names = table["figure"].str.replace("^fig10_0?", "Fig. 10.", regex=True)
+    errors.set_yticks(places, models.where(~starts, names + ":   " + models))
+    errors.set(
+        xscale="log", xlim=(AXIS_MIN, 2 * ERROR_MAX), ylim=(places[-1] + 0.7, -0.7), xlabel="error [% of the axis]"
+    )
+    errors.set_xticks(10.0 ** np.arange(-3, 3), ["0.001", "0.01", "0.1", "1", "10", "100"])
+    times.set(xscale="log", xlim=(table["seconds"].min() / 3, table["seconds"].max() * 6), xlabel="run time [s]")
+    for axes, letter, words in ((errors, "a", "error"), (times, "b", "run time")):
         axes.minorticks_off()
-        heading(axes, letter, f"Fig. 10.{int(scene[6:])}" if scene.startswith("fig10_") else scene)
-    for axes in grid[len(scenes) :]:
-        axes.set_axis_off()
-    for axes in grid[max(0, len(scenes) - columns) : len(scenes)]:
-        axes.set_xlabel("run time [s]")
-        axes.tick_params(labelbottom=True)
-    for axes in grid[::columns]:
-        axes.set_ylabel("error [% of the axis]")
+        axes.tick_params(axis="y", length=0)
+        heading(axes, letter, words)
     handles = [Line2D([], [], linestyle="none", **MARK | {"markerfacecolor": face}) for face in (BLACK, "white")]
     handles += [Line2D([], [], **LEVEL), Patch(color=LIGHT_GREY)]
     figure.legend(handles, KEY, loc="outside lower center", ncols=len(KEY))
