@@ -1,4 +1,4 @@
-"""Companion: errors of the method, asymmetric patterns and impact power, from weak to strong coupling."""
+"""Companion: errors of the method from weak to strong coupling, and power at the impacts; asymmetric patterns."""
 
 import numpy as np
 import pandas as pd
@@ -13,7 +13,6 @@ from vibroimpact.figures.plotting.style import (
     GREY,
     LEVEL,
     LIGHT_GREY,
-    STABLE,
     heading,
     new_figure,
     styled,
@@ -24,20 +23,15 @@ from vibroimpact.studies.claims.verdict_grid import exact_orbits
 from vibroimpact.studies.regimes.basins import plane
 from vibroimpact.studies.regimes.classification import starts
 from vibroimpact.studies.regimes.coupling import (
-    ANTIPHASE,
-    IN_PHASE,
-    VANISHES,
     asymmetric_orbits,
     coupled,
-    flight_asymmetry,
     impact_power,
     patterns,
     shares,
     stable_ranges,
 )
-from vibroimpact.studies.regimes.families import FOLD, GRAZING, NEIMARK_SACKER, PERIOD_DOUBLING
 from vibroimpact.system import verdict
-from vibroimpact.tables import curve, join, select
+from vibroimpact.tables import join, select
 from vibroimpact.theory import criteria
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
@@ -45,20 +39,16 @@ SPEC = {
     "title": "From weak to strong coupling",
     "caption": "a: largest error of :math:`C` at leading order over the fixed points of the cases equal and unequal, "
         "with the coupling damper in proportion to the spring or held; marks in the grey band: a fixed point has no "
-        "exact motion. From coupling 5 on, the error is below 8 %. b: flight asymmetry of ball 1 (difference of its "
-        "flight times over the period) on stable orbits with two asymmetric balls; marks: ends of stability. Modules "
-        "with equal tuning, forces 1.52 and 1.54. c: mean power of the impacts over the squared force, for exact "
-        "orbits and over all starts (mean and standard deviation), at the coupling of the case equal; dotted: dampers "
-        "of linear absorbers with the mass of the balls.",
-    "alt": "Three panels. First: errors near six per cent except for couplings from 1.4 to 2, with marks of missing "
-        "motions there and near 40. Second: antiphase rises from 0.76 to 4.7 and falls next to 14; in phase is level, "
-        "up to 5.9 and from 14 on. Third: the mean over starts falls from above the dotted level to the diamonds of "
+        "exact motion. b: mean power of the impacts over the squared force, for exact orbits and over all starts (mean "
+        "and standard deviation), at the coupling of the case equal; dotted: dampers of linear absorbers with the mass "
+        "of the balls.",
+    "alt": "Two panels. First: errors near six per cent except for couplings from 1.4 to 2, with marks of missing "
+        "motions there and near 40. Second: the mean over starts falls from above the dotted level to the diamonds of "
         "the asymmetric orbit.",
     "method": "fixed points, exact responses continued along the coupling, simulations from many starts",
     "columns": {
-        "panel": {"meaning": "quantity of the panel", "values": ["error", "asymmetry", "power"]},
-        "series": {"meaning": "for error: damper in proportion or held; for asymmetry: pattern, and the coupling at "
-            "which it was found; for power: type of motion"},
+        "panel": {"meaning": "quantity of the panel", "values": ["error", "power"]},
+        "series": {"meaning": "for error: damper in proportion or held; for power: type of motion"},
         "case": {"meaning": "for error: case of the config", "unit": "text"},
         "coupling": {"meaning": r"$\hat\alpha_{12}$", "unit": "dimensionless", "compared": "algebra"},
         "error": {"meaning": "largest error of $C_1$ or $C_2$ over the larger exact one; blank without a motion",
@@ -71,9 +61,6 @@ SPEC = {
         "orbits": {"meaning": "number of symmetric motions of the case at this coupling", "unit": "dimensionless",
             "compared": "algebra"},
         "stable": {"meaning": "True if all multipliers are inside the unit circle", "unit": "true or false"},
-        "v": {"meaning": "difference of the flight times of ball 1 over the period", "unit": "dimensionless",
-            "compared": "roots"},
-        "ends": {"meaning": "bifurcation or event that ends the range of stability of the pattern", "unit": "text"},
         "force": {"meaning": r"$\hat f_{10} = \hat f_{20}$", "unit": "dimensionless", "compared": "algebra"},
         "power": {"meaning": r"mean power over $\hat f_{10}^2$; for starts, the mean over them",
             "unit": "dimensionless",
@@ -121,18 +108,12 @@ NEXT_ORDER = (1.0, 10.0, 25.0, 100.0)
 ERRORS = ["panel", "series", "case", "coupling", "error", "own_error", "predicted", "orbits", "stable"]
 WELL = 5.0
 """Errors and missing motions at couplings of at least this value are also reported separately."""
-ENDS = {FOLD: "o", PERIOD_DOUBLING: "s", NEIMARK_SACKER: "D", GRAZING: "X", VANISHES: "v"}
-"""Marker in the figure for each reason why the stable range of a pattern ends."""
-_END = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.4}
 BAND = (14.0, 16.5)
 """Lower and upper edge [%] of the band above the errors; marks in the band are at couplings with missing orbits."""
-_KEY = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.18), "fontsize": 8}
-_KEY |= {"handlelength": 1.3, "handletextpad": 0.4, "columnspacing": 0.6}
-"""Arguments that place the legend of a panel below the label of its x axis, in small type."""
 
 
 def compute(systems: dict) -> dict:
-    """Return the errors over the coupling, the asymmetric patterns, and the power at the impacts.
+    """Return the errors over the coupling, the power at the impacts, and a summary with the asymmetric patterns.
 
     Parameters
     ----------
@@ -141,15 +122,13 @@ def compute(systems: dict) -> dict:
 
     Returns "csv" and "summary". The panels of "csv" have different columns. "error", with two series, in which the
     coupling damper changes in proportion to the coupling spring or is held: case, coupling, error, own_error,
-    predicted, orbits, stable. "asymmetry", with a series per pattern and coupling at which it was found: coupling, v,
-    stable, ends. "power": force, power, spread, asymmetric_share, stable.
+    predicted, orbits, stable. "power": force, power, spread, asymmetric_share, stable.
     """
     equal = systems["equal"]
     strong = {case: system for case, system in systems.items() if case in STRONG}
     found = [_errors(strong, held) for held in (False, True)]
-    asymmetric, ranges = _patterns(equal.with_(**ALIKE))
     power, lasting = _power(equal)
-    summary = _of_errors(found) | _two_terms(equal) | ranges | _of_power(power) | lasting
+    summary = _of_errors(found) | _two_terms(equal) | _of_patterns(equal.with_(**ALIKE)) | _of_power(power) | lasting
     tried = [coupled(system, value) for system in strong.values() for value in TRIED]
     summary |= {
         "searches at the forces of the cases": len(tried),
@@ -167,7 +146,7 @@ def compute(systems: dict) -> dict:
         summary |= _coexisting(systems["unequal"])
     rows = [(name, *(value if isinstance(value, tuple) else (value, 0.0))) for name, value in summary.items()]
     summary = pd.DataFrame(rows, columns=["quantity", "value", "uncertainty"])
-    return {"csv": join([*found, *asymmetric, power]), "summary": summary}
+    return {"csv": join([*found, power]), "summary": summary}
 
 
 def errors(system) -> list[dict]:
@@ -222,25 +201,18 @@ def _two_terms(system):
     return summary
 
 
-def _patterns(system):
-    """Return the curves of all stable ranges of patterns, and quantities for the summary.
-
-    The quantities are the ends of each stable range, and the share of the starts that end on each pattern.
-    """
-    curves, summary = [], {}
-    for name, start, found, (below, above) in stable_ranges(system, LIMITS):
-        series, ends = f"{name}, from {start:g}", [below or None, *[None] * (len(found) - 2), above or None]
-        coupling, orbits = zip(*found, strict=True)
-        v = [abs(flight_asymmetry(orbit)[0]) for orbit in orbits]
-        curves.append(curve("asymmetry", series, coupling=coupling, v=v, stable=True, ends=ends))
-        summary |= {f"{series}: stable from": coupling[0], f"{series}: stable up to": coupling[-1]}
+def _of_patterns(system):
+    """Return the ends of each stable range of a pattern, and the share of the starts that end on each pattern."""
+    summary = {}
+    for name, start, found, _ in stable_ranges(system, LIMITS):
+        summary |= {f"{name}, from {start:g}: stable {end}": found[i][0] for end, i in (("from", 0), ("up to", -1))}
     for value in WATCHED:
         here = coupled(system, value)
         asymmetric = asymmetric_orbits(here)
         if asymmetric:
             ended = shares(asymmetric, plane(asymmetric[0].state, POINTS), ENOUGH)
             summary |= {f"share of starts, {name}, coupling {value:g}": share for name, share in ended.items()}
-    return curves, summary
+    return summary
 
 
 def _power(equal):
@@ -353,22 +325,20 @@ def _of_power(table):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table "csv" of `compute`: errors, asymmetric patterns, power."""
+    """Draw the table "csv" of `compute`: errors and power."""
     table = tables["csv"]
-    figure = new_figure(DOUBLE_COLUMN, 88.0)
-    grid = figure.subplots(1, 3)
-    heads = "error of leading order", "both balls asymmetric", "power at the impacts"
-    for axes, letter, words in zip(grid, "abc", heads, strict=True):
+    figure = new_figure(DOUBLE_COLUMN, 82.0)
+    grid = figure.subplots(1, 2)
+    for axes, letter, words in zip(grid, "ab", ("error of leading order", "power at the impacts"), strict=True):
         heading(axes, letter, words)
     _draw_errors(grid[0], table)
-    _draw_asymmetry(grid[1], table[table["panel"] == "asymmetry"])
-    _draw_power(grid[2], table)
+    _draw_power(grid[1], table)
     return figure
 
 
 def _draw_errors(axes, table):
     axes.axhspan(*BAND, color=LIGHT_GREY, linewidth=0)
-    axes.text(8.0, np.mean(BAND), "a point missing", ha="center", va="center", fontsize=8)
+    axes.text(8.0, np.mean(BAND), "no exact motion", ha="center", va="center", fontsize=8)
     looks = {PROPORTION: ("o", BLACK, 3.2, "-"), HELD: ("s", "white", 3.8, (0, (3, 1.5)))}
     for (name, (marker, face, size, style)), row in zip(looks.items(), np.linspace(*BAND, 4)[2:0:-1], strict=True):
         look = {"marker": marker, "markerfacecolor": face, "markersize": size, "color": BLACK, "markeredgewidth": 0.7}
@@ -381,31 +351,7 @@ def _draw_errors(axes, table):
     axes.set_yticks(np.arange(0, BAND[0], 2))
     axes.set_xscale("symlog", linthresh=1.0, linscale=0.4)
     axes.set_xlim(-0.15, 150)
-    axes.legend(**_KEY)
-
-
-def _draw_asymmetry(axes, table):
-    # Add the columns v and ends, which are missing if no pattern is asymmetric.
-    table = table.reindex(columns=["series", "coupling", "v", "ends"])
-    for series, rows in table.groupby("series", sort=False):
-        axes.plot(rows["coupling"], rows["v"], **STABLE | {"color": BLACK if series.startswith(IN_PHASE) else GREY})
-    for end, marker in ENDS.items():
-        rows = table[table["ends"] == end]
-        if len(rows):
-            axes.plot(rows["coupling"], rows["v"], marker=marker, label=end, zorder=3, **_END)
-    beside = {"textcoords": "offset points", "fontsize": 8.5}
-    for name, near, look in (
-        (IN_PHASE, 30.0, {"xytext": (0, 5), "ha": "center", "color": BLACK}),
-        (ANTIPHASE, 3.0, {"xytext": (6, -8), "ha": "left", "color": GREY}),
-    ):
-        rows = table[table["series"].str.startswith(name)]
-        if len(rows):
-            place = rows.iloc[(rows["coupling"] - near).abs().argmin()]
-            axes.annotate(name, place[["coupling", "v"]], **beside, **look)
-    axes.set(xscale="log", xlabel=r"coupling $\hat\alpha_{12}$", xlim=LIMITS)
-    axes.set(ylabel="flight asymmetry, $|v_1|$", ylim=(0, None))
-    if table["ends"].notna().any():
-        axes.legend(**_KEY | {"ncols": 2})
+    axes.legend(fontsize=8)
 
 
 def _draw_power(axes, table):
@@ -415,17 +361,23 @@ def _draw_power(axes, table):
     }
     for name, look in marks.items():
         rows = select(table, "power", name)
-        axes.plot(rows["force"], 100 * rows["power"], linestyle="none", color=BLACK, label=name, **look)
+        axes.plot(rows["force"], 100 * rows["power"], linestyle="none", color=BLACK, label=f"{name} orbit", **look)
     rows = select(table, "power", ALL)
     axes.errorbar(
-        rows["force"], 100 * rows["power"], 100 * rows["spread"], color=GREY, capsize=2, linewidth=1.2, label=ALL
+        rows["force"],
+        100 * rows["power"],
+        100 * rows["spread"],
+        color=GREY,
+        capsize=2,
+        linewidth=1.2,
+        label="simulated, mean over starts",
     )
     rows = select(table, "power", LINEAR)
-    axes.plot(rows["force"], 100 * rows["power"], **LEVEL, label=LINEAR)
+    axes.plot(rows["force"], 100 * rows["power"], **LEVEL, label="linear absorbers")
     axes.set(
         xlabel=r"force $\hat f_{10} = \hat f_{20}$",
-        ylabel=r"power / $\hat f_{10}^2$, in $10^{-2}$",
+        ylabel=r"power over $\hat f_{10}^2$ $[10^{-2}]$",
         ylim=(0, None),
         xlim=(FORCES[0] - 0.05, FORCES[-1] + 0.05),
     )
-    axes.legend(**_KEY | {"ncols": 2})
+    axes.legend(fontsize=8)
