@@ -40,7 +40,7 @@ SPEC = {
         "above, the one of the best linear absorbers at half the height of the lower valley.",
     "method": "points of three sweeps; linear systems in closed form; absorbers tuned by optimisation",
     "sweeps": {"clearance": {"along": [["f10_hat", "f20_hat"]],
-        "observe": ["peaks", "amplitudes", "envelopes", "energy", "regimes"]},
+        "observe": ["peaks", "amplitudes", "energy", "regimes"]},
         "design": {"along": [["kappa"], ["f10_hat", "f20_hat"]], "observe": ["peaks"]}},
     "columns": {
         "sweep": {"meaning": "sweep of the config", "unit": "text", "values": ["clearance", "design"]},
@@ -141,7 +141,7 @@ def compute(
     system
         System of the sweeps, for the parameters that do not vary.
     response
-        Table of a sweep over sigma_e_hat, then both forces, with regimes, amplitudes and envelopes.
+        Table of a sweep over sigma_e_hat, then both forces, with regimes and amplitudes.
     clearance, design
         Tables of two sweeps with the peaks along `band`: `clearance` over both forces, `design` over kappa and then
         both forces.

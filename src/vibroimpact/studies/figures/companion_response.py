@@ -16,7 +16,6 @@ from vibroimpact.figures.plotting.style import (
     BLACK,
     DOUBLE_COLUMN,
     GREY,
-    LIGHT_GREY,
     heading,
     new_figure,
     side_by_side,
@@ -33,24 +32,21 @@ SPEC = {
     "title": "Displacement of the boxes with balls",
     "caption": "Displacement over static deflection, :math:`|X_i|/f`, of the box that moves more, where :math:`f` is "
         r"the larger of the forces :math:`\varepsilon\hat f_{i0}`. a to c: against the detuning, with forces on both "
-        "boxes and on one; d: against the force. Dots: largest value with balls from three starts, filled if most of "
-        "the motions repeat. Grey: range of 90 % of the cycles. Lines: linear systems in closed form.",
+        "boxes and on one; d: against the force. Circles: largest value with balls from three starts, filled if most "
+        "of the motions repeat. Other lines: linear systems in closed form.",
     "alt": "Four panels. a to c: response against the detuning, with a high resonance peak without balls. With balls, "
-        "dots and a grey band lie below it near resonance and above it elsewhere. A flat line of the best absorbers "
-        "lies below nearly all dots. d: with increasing force, the dots fall from the line without balls to a minimum "
+        "circles lie below it near resonance and above it elsewhere. A flat line of the best absorbers lies below "
+        "nearly all circles. d: with increasing force, the circles fall from the line without balls to a minimum "
         "near force 1 and rise slowly.",
     "method": "points of two sweeps; fixed points, exact symmetric orbits and linear systems in closed form",
     "sweeps": {"frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
-        "observe": ["amplitudes", "envelopes", "energy", "regimes"]}},
+        "observe": ["amplitudes", "energy", "regimes"]}},
     "columns": {
         "panel": {"meaning": "sweep over the frequency, or over the force", "values": ["frequency", "force"]},
         "label": {"meaning": "`regime` that most starts reach", "unit": "text", "compared": "few outcomes"},
         "f10_hat, f20_hat": {"compared": "algebra"},
         "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless", "compared": "algebra"},
         "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ over all starts, for the box that moves more",
-            "unit": "dimensionless", "compared": "extremes"},
-        "low, high": {"meaning": "amplitude per cycle over $f$ that is exceeded in 95 % (low) and in 5 % (high) of the "
-            "cycles",
             "unit": "dimensionless", "compared": "extremes"},
         "impact_share": {"compared": "extremes"},
     },
@@ -106,17 +102,15 @@ SPEC = {
 
 FORCES = ["f10_hat", "f20_hat"]
 PLACE = [*FORCES, "sigma_e_hat"]
-OF_BALLS = ["label", *PLACE, "ratio", "low", "high", "impact_share"]
+OF_BALLS = ["label", *PLACE, "ratio", "impact_share"]
 ONE_TO_ONE = {"theory": by_theory, "symmetric orbits": by_exact_orbits}
 LINES = {
     "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
-    "best absorbers": {"color": BLACK, "linestyle": "-", "linewidth": 0.9},
+    "best absorbers": {"color": BLACK, "linestyle": (0, (4, 1.5)), "linewidth": 0.9},
 }
 """Line styles of the linear systems in the figure."""
-_DOTS = {"linestyle": "none", "marker": "o", "color": BLACK, "markersize": 2.8, "markeredgewidth": 0.7}
-DOTS = {"balls, largest, repeating": _DOTS, "balls, largest, modulated": {**_DOTS, "markerfacecolor": "white"}}
-BAND = "balls, 90 % of the cycles"
-LEAST, MOST = 0.8, 1.3
+CIRCLES = {"color": BLACK, "marker": "o", "markersize": 3.2, "markeredgewidth": 0.7, "linewidth": 0.7}
+LEAST, MOST = 1.8, 1.3
 """Lower end of the vertical axis, and ratio of its upper end to the highest response without balls."""
 LINE_POINTS = 451
 
@@ -131,12 +125,12 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
     frequency : DataFrame
         Table of a sweep over sigma_e_hat, then both forces.
     force : DataFrame
-        Table of a sweep over two equal forces. Both tables have regimes, amplitudes, envelopes and energy.
+        Table of a sweep over two equal forces. Both tables have regimes, amplitudes and energy.
     band : dict
         Arguments of `sweeps.grid.axis`, along sigma_e_hat, for the band in which the best absorbers are tuned.
 
     Returns "csv", responses with balls: columns panel ("frequency" or "force"), label (the regime of most starts),
-    f10_hat, f20_hat, sigma_e_hat, ratio (X / f), low and high (envelope of the ratio), impact_share. "linear", linear
+    f10_hat, f20_hat, sigma_e_hat, ratio (X / f), impact_share. "linear", linear
     systems: panel, series, f10_hat, f20_hat, sigma_e_hat, ratio. "one_to_one", symmetric 1:1 responses: the columns of
     "linear", and impact_share, stable. "shares", statistics of impact_share over the frequencies: source, f10_hat,
     f20_hat, points, least, middle, greatest.
@@ -169,18 +163,13 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
 
 
 def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
-    """Return the table of a sweep with four more columns: ratio, low, high, and label (the regime of most starts).
+    """Return the table of a sweep with two more columns: ratio and label (the regime of most starts).
 
-    ratio is the largest |X_i|; low and high are quantiles of the amplitude per cycle, of the box that moves more. All
-    three are divided by the larger force f.
+    ratio is the largest |X_i| of the box that moves more, divided by the larger force f.
     """
     force = system.epsilon * table[FORCES].max(axis=1)
-    boxes = table[["high_X1", "high_X2"]].to_numpy().argmax(axis=1)
-    low, high = (table[[f"{name}_X1", f"{name}_X2"]].to_numpy()[range(len(table)), boxes] for name in ("low", "high"))
     largest = table[["largest_X1", "largest_X2"]].max(axis=1)
-    return table.assign(
-        ratio=largest / force, low=low / force, high=high / force, label=table[list(REGIMES)].idxmax(axis=1)
-    )
+    return table.assign(ratio=largest / force, label=table[list(REGIMES)].idxmax(axis=1))
 
 
 def linear_systems(system, pair, band: dict) -> dict:
@@ -220,36 +209,36 @@ def draw(tables: dict) -> Figure:
     balls, linear = (dict(iter(tables[key].groupby("panel"))) for key in ("csv", "linear"))
     pairs = list(balls["frequency"].groupby(FORCES, sort=False))
     columns, rows = side_by_side(len(pairs) + 1, most=2)
-    figure = new_figure(DOUBLE_COLUMN, 72.0 * rows + 10.0)
+    figure = new_figure(DOUBLE_COLUMN, 62.0 * rows + 10.0)
     panels = [*figure.subplots(rows, columns, squeeze=False, sharey=True).flat]
     for axes, letter, (pair, mine) in zip(panels, ascii_lowercase, pairs, strict=False):
         lines = linear["frequency"]
         _draw_panel(axes, mine, lines[(lines[FORCES].to_numpy() == pair).all(axis=1)], "sigma_e_hat")
         heading(axes, letter, f"forces {pair[0]:g} and {pair[1]:g}")
-        axes.set_xlabel(SYMBOLS["sigma_e_hat"])
+        axes.set_xlabel(f"detuning {SYMBOLS['sigma_e_hat']}")
     last = panels[len(pairs)]
     _draw_panel(last, balls["force"], linear["force"], "f10_hat")
     heading(last, ascii_lowercase[len(pairs)], f"detuning {balls['force']['sigma_e_hat'].iloc[0]:g}")
     logarithmic(last, "x")
-    last.set_xlabel(r"$\hat f_{10} = \hat f_{20}$")
+    last.set_xlabel(r"force $\hat f_{10} = \hat f_{20}$")
     for axes in panels[len(pairs) + 1 :]:
         axes.set_axis_off()
     without = tables["linear"].query("series == 'without balls'")["ratio"].max()
     logarithmic(last, "y", LEAST, MOST * without)
     for axes in panels[: len(pairs) + 1 : columns]:
         axes.set_ylabel("displacement, $|X_i|\\,/\\,f$")
-    figure.legend(*last.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=9)
+    figure.legend(*last.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=9)
     return figure
 
 
 def _draw_panel(axes, balls, linear, x):
-    axes.fill_between(balls[x], balls["low"], balls["high"], color=LIGHT_GREY, linewidth=0, label=BAND)
     for name, look in LINES.items():
         line = linear[linear["series"] == name]
         axes.plot(line[x], line["ratio"], label=name, **look)
-    repeating = balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])
-    for (name, look), shown in zip(DOTS.items(), (repeating, ~repeating), strict=True):
-        axes.plot(balls[x][shown], balls["ratio"][shown], label=name, **look)
+    axes.plot(balls[x], balls["ratio"], label="balls, repeating", **CIRCLES)
+    modulated = balls[~balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])]
+    hollow = CIRCLES | {"linestyle": "none", "markerfacecolor": "white"}
+    axes.plot(modulated[x], modulated["ratio"], label="balls, modulated", **hollow)
 
 
 def logarithmic(axes, side: str, *ends: float) -> None:
