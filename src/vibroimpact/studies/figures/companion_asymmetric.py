@@ -6,10 +6,21 @@ from string import ascii_lowercase
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from scipy.optimize import brentq
 
 from vibroimpact.figures.plotting.names import name_curves
-from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, UNSTABLE, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    LIGHT_GREY,
+    STABLE,
+    UNSTABLE,
+    heading,
+    new_figure,
+    styled,
+)
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
 from vibroimpact.studies.regimes import asymmetric_limit
 from vibroimpact.studies.regimes.classification import ASYMMETRIC
@@ -28,7 +39,7 @@ SPEC = {
         r"orbits at the :math:`\varepsilon` of the cases, each joined to the fixed point of the slow flow (circle) "
         r"that it approaches as :math:`\varepsilon` decreases, if any. Other panels, one per case: :math:`v^2` of "
         r"these orbits against :math:`\varepsilon`; :math:`v` is the difference of the flight times over the period. "
-        r"A circle with :math:`v^2 < 0` is no motion: that orbit becomes symmetric before :math:`\varepsilon = 0`. "
+        r"A circle in the grey area is no motion: that orbit becomes symmetric before :math:`\varepsilon = 0`. "
         "The stable orbit of the equal case is the motion of Fig. 10.8.",
     "alt": "First panel: a V-shaped curve of B against C, bold where stable. A green curve rises steeply from its "
         "right arm, with circles on it and diamonds and triangles beside it. Other panels: lines of v squared "
@@ -141,6 +152,8 @@ _MARK = {"color": BLACK, "linestyle": "none", "zorder": 3}
 POINT_MARK = _MARK | {"marker": "o", "markerfacecolor": "white", "markersize": 4.6}
 ORBIT_MARKS = [_MARK | {"marker": marker, "markersize": size} for marker, size in (("D", 3.6), ("^", 5.0), ("s", 4.0))]
 """Marks of the exact orbits of the first, second and further cases."""
+NO_MOTION = -0.06
+"""Lower end of the axis of v^2; the area below 0 is grey."""
 C_MARGIN = 0.1
 """Margin, in C, around the asymmetric branch and the markers in the panel of the manifold."""
 UNEQUAL_FROM = 1e-3
@@ -281,11 +294,14 @@ def draw(tables: dict) -> Figure:
     heading(left, "a", "both branches of the manifold")
     names = {left: _draw_manifold(left, tables["csv"], tables["modules"], marks)}
     for axes, letter, (case, mark) in zip(others, ascii_lowercase[1:], marks.items(), strict=False):
-        heading(axes, letter, f"exact pairs, {_title(case)}")
+        heading(axes, letter, f"exact orbits, {_title(case)}")
         _draw_case(axes, pairs[pairs["case"] == case], mark)
     if marks:
-        others[0].set_ylabel("squared flight asymmetry, $v^2$")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        others[0].set_ylabel("$v^2$ ($v$: difference of flights / period)")
+        others[0].set_ylim(NO_MOTION, 1.15 * pairs["squared"].max())
+    lines = [Line2D([], [], label=label, **style) for label, style in (("stable", STABLE), ("unstable", UNSTABLE))]
+    handles = [*left.get_legend_handles_labels()[0], *lines]
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.2)
     name_curves(figure, names)
     return figure
 
@@ -326,7 +342,8 @@ def _draw_case(axes, pairs, mark):
         axes.annotate(verdict, start, (-5, 4), textcoords="offset points", ha="right")
     ends = pairs.drop_duplicates("label")["limit"]
     axes.plot(np.zeros(len(ends)), ends, clip_on=False, **POINT_MARK)
-    axes.axhline(0, color=BLACK, linewidth=0.6)
+    axes.axhspan(NO_MOTION, 0, color=LIGHT_GREY, linewidth=0, zorder=0)
+    axes.text(0.95, -0.01, "no motion", ha="right", va="top", transform=axes.get_yaxis_transform())
     axes.set(xlabel=r"$\varepsilon$", xlim=(0, None))
-    axes.margins(y=0.08)
     axes.locator_params(axis="x", nbins=3)
+    axes.xaxis.set_major_formatter("{x:g}")
