@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from scipy import ndimage
 
-from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, HALO, SINGLE_COLUMN, heading, new_figure, styled
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS, key, paint
 from vibroimpact.studies.regimes.classification import REGIMES, UNSETTLED
 from vibroimpact.studies.sweeps.observations import FROM_REST, fixed_point_counts
@@ -187,9 +187,8 @@ def draw(tables: dict) -> Figure:
     pieces = borders[borders["series"] == STABLE_POINTS][["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
     axes.add_collection(LineCollection(pieces, **_BORDER))
     axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
-    paper = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
     for case, *place in cases.itertuples(index=False):
-        axes.annotate(case, place, (-5, -8), textcoords="offset points", ha="right", bbox=paper)
+        axes.annotate(case, place, (-5, -8), textcoords="offset points", ha="right", fontsize=9, **HALO)
     f10, f20 = regimes.columns.to_numpy(), regimes.index.to_numpy()
     lined = cells.pivot(index="f20_hat", columns="f10_hat", values=COEXISTING).to_numpy() > 1
     for x, y in pieces.reshape(-1, 2):

@@ -27,7 +27,7 @@ COLOURS = {
     MIRRORED: "#0b5f54",
     OTHER: "#dcecf5",
     STRONGLY_MODULATED: "#e8b84a",
-    CHAOTIC: "#994455",
+    CHAOTIC: "#701c34",
     HOPPING: "#cc7788",
     **dict.fromkeys((QUASI_PERIODIC, IDLE, NO_IMPACTS, UNSETTLED), "#848484"),
 }
