@@ -43,7 +43,7 @@ SPEC = {
     "title": "Branches of 1:1 responses and attractors",
     "caption": "Amplitude :math:`C_2` of 1:1 responses against the forcing, by the theory (top) and exact (bottom): "
         "stable bold solid, unstable dashed. Left: one force varies, and the other is that of the case. Markers: "
-        "folds, ends, and points where stability is lost; all other special points are in `special_points.csv`. "
+        "folds, ends, and points where stability changes; all other special points are in `special_points.csv`. "
         "Vertical lines: the cases. Dots: attractors, from simulations from several starts.",
     "alt": "Curves of the saw-tooth amplitude C2 against the forcing amplitude: theory and exact branches, stable bold "
         "solid and unstable dashed, symmetric ones blue and asymmetric ones green, both labelled, with marked special "
@@ -125,16 +125,16 @@ ENDS = FOLD, GRAZING, SPEED_ZERO
 MARKERS = {
     "fold": ("o", (FOLD,)),
     "end, by grazing or at speed zero": ("X", (GRAZING, SPEED_ZERO)),
-    "stability is lost": ("D", (SYMMETRY_BREAKING, PERIOD_DOUBLING, NEIMARK_SACKER, HOPF, MANIFOLD_FOLD)),
+    "stability changes": ("D", (SYMMETRY_BREAKING, PERIOD_DOUBLING, NEIMARK_SACKER, HOPF, MANIFOLD_FOLD)),
 }
 """Legend name -> marker and kinds of special points; kinds that are not in ENDS are marked only at a stable piece."""
-_SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 4.2}
+_SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 3.4}
 _SPECIAL |= {"zorder": 4, "clip_on": False}
 REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"
 DOTS = {
     REPEATING: {"linestyle": "none", "marker": "o", "markeredgewidth": 0, "markersize": 4.4, "color": "0.8"},
     VARYING: {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "markersize": 3.0, "color": GREY},
-    PASSING: {"linestyle": "none", "marker": "x", "markeredgewidth": 0.7, "markersize": 3.4, "color": BLACK},
+    PASSING: {"linestyle": "none", "marker": "+", "markeredgewidth": 0.7, "markersize": 4.4, "color": BLACK},
 }
 """Style of the dots by the kind of regime in which a simulation ends."""
 KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
@@ -244,9 +244,10 @@ def draw(tables: dict) -> Figure:
             )
             _attractor_dots(inset, simulated)
             _branches(inset, exact)
-        grid[1, column].set_xlabel(f"${' = '.join(SYMBOLS[name].strip('$') for name in along.split())}$")
-        for row, words in enumerate(("theory: fixed points", "exact 1:1 responses, and what attracts")):
-            heading(grid[row, column], ascii_lowercase[row * len(panels) + column], words)
+        varied = f"${' = '.join(SYMBOLS[name].strip('$') for name in along.split())}$"
+        grid[1, column].set_xlabel(f"force {varied}")
+        for row, words in enumerate(("theory", "exact orbits and simulations")):
+            heading(grid[row, column], ascii_lowercase[row * len(panels) + column], f"{words}, over {varied}")
     for axes in grid[:, 0]:
         axes.set_ylabel("$C_2$")
     drawn = {line.get_label(): line for axes in grid.flat for line in axes.lines if len(line.get_xdata())}
