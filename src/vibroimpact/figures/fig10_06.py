@@ -188,9 +188,10 @@ def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
         lines = [(point, pane.plot(*point[1:], linestyle="none", zorder=3, **MARKERS[point[0]])) for point in shown]
         own = [one for one in lines if pane is not axes or len(panes) == 1 or one[0] not in close]
         names[pane] = [(f"${kind}_{module}$", line) for (kind, _, _), line in own]
-    if len(select(table, panel, f"S_{module} beyond")):
-        # An arrow shows that a singular point lies beyond the frame.
-        axes.annotate(
-            rf"$S_{module}\!\nearrow$", (end["C"], end["B"]), (-2, -38), textcoords="offset points", ha="right", **NAME
-        )
+    beyond = select(table, panel, f"S_{module} beyond")["C"]
+    if len(beyond):
+        outside = rf"$S_{module}$ at $C_{module} = {beyond.iloc[0]:.1f}$"
+    else:
+        outside = f"no $S_{module}$" if [kind for kind, *_ in points] == ["P"] else ""
+    axes.annotate(outside, (1, 0), (-4, 5), "axes fraction", textcoords="offset points", ha="right", **NAME)
     return names
