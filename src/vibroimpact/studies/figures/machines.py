@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.lanes.ensemble import ensemble
-from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, heading, new_figure, styled
 from vibroimpact.studies.absorbers.tuning import compared
 from vibroimpact.system import PhysicalSystem
 
@@ -74,7 +74,8 @@ LINES = {
     "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
     "best absorbers": {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9},
 }
-MARKERS = "o^sDvP"
+DASHES = (1, 1.2), (5, 1.5, 1, 1.5), (5, 1.5, 1, 1.5, 1, 1.5), (8, 2)
+"""Line styles of the clearances; the clearance with the lowest peak has a bold solid line."""
 BOX, BALL = {"color": GREY, "linewidth": 1.6}, {"color": BLACK, "linewidth": 0.7}
 WALLS = {"color": BLACK, "linestyle": "none", "marker": "o", "markersize": 2.4}
 FINE, PER_CYCLE = 301, 30
@@ -161,9 +162,10 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     for name, look in LINES.items():
         response.plot(swings[name]["frequency"], swings[name]["swing"], **look)
     with_balls = {name: line for name, line in swings.items() if name not in LINES}
-    for line, marker in zip(with_balls.values(), cycle(MARKERS)):
-        look = {"marker": marker, "markersize": 3.6, "markerfacecolor": "white", "linewidth": 0.6, "color": BLACK}
-        response.plot(line["frequency"], line["swing"], markevery=max(1, len(line) // 16), **look)
+    best = min(with_balls, key=lambda name: with_balls[name]["swing"].max())
+    for (name, line), dashes in zip(with_balls.items(), cycle(DASHES)):
+        look = STABLE if name == best else {"linestyle": (0, dashes), "linewidth": 0.9, "color": BLACK}
+        response.plot(line["frequency"], line["swing"], **look)
     response.set(xlabel="frequency, Hz", ylabel="largest displacement, mm")
     response.set_ylim(0.0, 1.08 * tables["csv"]["swing"].max())
     _name_linear(response, *(swings[name] for name in LINES))
@@ -174,7 +176,6 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     motion.plot(walls["time"], walls["ball"], label="ball at a wall", **WALLS)
     motion.set(xlabel="time, s", ylabel="displacement, mm")
     L, hertz = shown[["L", "frequency"]].iloc[0]
-    best = min(with_balls, key=lambda name: with_balls[name]["swing"].max())
     heading(response, "a", f"lowest peak with balls: {_clearance(best)}")
     heading(motion, "b", f"motion at $L = {MM * L:g}$ mm, {hertz:g} Hz")
     motion.legend(loc="lower left", fontsize=9)
