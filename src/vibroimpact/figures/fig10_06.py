@@ -27,13 +27,13 @@ SPEC = {
     "notebook": "fixed_points",
     "caption": r"Fig. 10.6. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` on the "
         "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` (grey "
-        "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed. An "
-        "arrow after :math:`S_2` points to a singular point outside the frame. Headings: verdicts of (10.26), which "
+        "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed. A "
+        "singular point outside the frame is named with its :math:`C_i`. Headings: verdicts of (10.26), which "
         "agree with the chapter. They concern the impacts only: the exact motion of a point called stable may be "
         "unstable.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
         "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, grey squares S1, S2 the "
-        "singular points; in row b an arrow points to an S2 beyond the frame.",
+        "singular points; row b names an S2 beyond the frame, and row a has no S2.",
     "own": {
         "title": "Fixed points of case {case}",
         "caption": r"Fixed points of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, "
