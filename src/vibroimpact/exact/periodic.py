@@ -180,7 +180,7 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
     start, begin = orbit.run.start.copy(), orbit.run.tau0
     for fewer in (n for n in range(1, periods // 2 + 1) if periods % n == 0):
         if np.abs(simulate(system, start, fewer, begin).final - start).max() <= SAME:
-            raise ValueError(f"periods: the motion repeats after {fewer}, not only after {periods}")
+            raise ValueError(f"periods: got {periods}, but the motion already repeats after {fewer}")
     return orbit
 
 
@@ -210,8 +210,8 @@ def refined(system, state, periods) -> PeriodicOrbit:
         return PeriodicOrbit(system, periods, _at_zero(run), run)
     grazes = "; a ball grazes a wall" if _grazes(start) or _grazes(run) else ""
     raise ValueError(
-        f"state: no motion of period {periods} found; where Newton's method stops, start and end of the run still "
-        f"differ by {_gap(run):.2g}{grazes}"
+        f"state: Newton's method found no motion with periods={periods} near this state; where it stopped, the states "
+        f"at the start and the end still differ by {_gap(run):.2g}{grazes}"
     )
 
 

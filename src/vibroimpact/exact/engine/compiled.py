@@ -30,9 +30,9 @@ from pathlib import Path
 from numba import config, njit
 from numba.core import event
 
-SIMULATION = "the simulation, some 15 s"
-ON_DEMAND = "certificates, energies and Jacobians of runs, some 10 s"
-ENSEMBLE = "the simulation of ensembles, some 25 s"
+SIMULATION = "the simulation (about 15 s)"
+ON_DEMAND = "certificates, energies and Jacobians of runs (about 10 s)"
+ENSEMBLE = "the simulation of ensembles (about 25 s)"
 COMPILATION_NOTICES = {"engine.flow_tables": SIMULATION, "engine.event_loop": SIMULATION, "lanes": ENSEMBLE}
 """Message for each separately compiled group of code; the key is the package or module that starts the compilation."""
 
@@ -53,7 +53,7 @@ class _Notice(event.Listener):
         what = next((what for start, what in COMPILATION_NOTICES.items() if name.startswith(start)), ON_DEMAND)
         if not self.within and exact and what not in self.said:
             self.said.add(what)
-            say(f"compiling {what}, once{self.hint}")
+            say(f"compiling {what}, needed only once{self.hint}")
         self.within += 1
 
     def on_end(self, compilation):

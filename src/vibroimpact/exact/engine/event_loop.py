@@ -139,7 +139,7 @@ FAILURES = {
     PENETRATED: "a ball went through a wall",
     STALLED: "time stands still",
     CROWDED: "there are too many events",
-    EXHAUSTED: "there are too many exclusions",
+    EXHAUSTED: "there are too many proofs that no event happens",
 }
 ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # initial number of rows for events; few runs need more
 MOST_AT_ONCE = 8  # most events at one instant: for each module an impact, a stick, a release and the end of a chatter

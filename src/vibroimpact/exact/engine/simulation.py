@@ -84,8 +84,8 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
     if not (abs(start) < LARGEST_TIME and abs(end) < LARGEST_TIME):
         name, tau = ("cycles", end) if abs(start) < LARGEST_TIME else ("tau0", start)
         raise ValueError(
-            f"{name}: the run reaches tau = {tau}; times must stay below 2**43, where floats are 1e-3 apart. "
-            "The motion stays the same if whole forcing periods are subtracted from tau0"
+            f"{name}: the run reaches tau = {tau}; |tau| must stay below 2**43, since floats beyond are more than 1e-3 "
+            "apart. The motion stays the same if whole forcing periods are subtracted from tau0"
         )
     return begin, cycles
 
@@ -108,10 +108,12 @@ def checked_times(name, times, start, end) -> np.ndarray:
     """
     times = reals(name, times)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
-        raise ValueError(f"{name}: needs a one-dimensional ascending array of finite times")
+        raise ValueError(f"{name}: needs ascending finite times in one dimension, got {short_repr(times.tolist())}")
     slack = 4.0 * math.ulp(max(abs(start), abs(end)))
     if len(times) and not (start - slack <= times[0] and times[-1] <= end + slack):
-        raise ValueError(f"{name}: [{times[0]}, {times[-1]}] is not within the run [{start}, {end}]")
+        raise ValueError(
+            f"{name}: the times from {times[0]} to {times[-1]} are not within the run, from {start} to {end}"
+        )
     return times
 
 
@@ -429,7 +431,7 @@ def simulate_many(
         try:
             checked_state(state)
         except ValueError as error:
-            raise ValueError(f"states[{row}]: {error}") from None
+            raise ValueError(str(error).replace("state", f"states[{row}]", 1)) from None
     begin, cycles = checked_window(system, cycles, tau0)
     tables_of(system)  # build the tables once, before the threads share them
     pieces = [(system, state, cycles, begin, NO_TIMES, 0.0) for state in states]
@@ -444,7 +446,7 @@ def _run(system, state, cycles, begin, times, clock):
     status, run = attempt(system, state, cycles, begin, times, clock)
     if status != event_loop.FINISHED:
         number, time = len(run.rows), run.rows[-1, 0] if len(run.rows) else 0.0
-        raise ArithmeticError(f"{event_loop.FAILURES[status]} after {number} events, tau = {run.tau0 + time}")
+        raise ArithmeticError(f"{event_loop.FAILURES[status]} after {number} events, at tau = {run.tau0 + time}")
     return run
 
 

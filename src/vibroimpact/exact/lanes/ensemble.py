@@ -153,7 +153,7 @@ def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
     outcomes = ensemble(system, states, cycles, settle=cycles)
     failed = np.flatnonzero(outcomes["status"] != FINISHED)
     if len(failed):
-        raise ArithmeticError(f"start {failed[0]}: {STATUSES[int(outcomes['status'][failed[0]])]}")
+        raise ArithmeticError(f"the run from initial state {failed[0]}: {STATUSES[int(outcomes['status'][failed[0]])]}")
     return outcomes["final"]
 
 
@@ -168,7 +168,8 @@ def _combined(systems, states):
         shape = np.broadcast_shapes(systems.shape, states.shape[:-1])
     except ValueError:
         raise ValueError(
-            f"states: their shape {states.shape[:-1]} does not broadcast with that of systems, {systems.shape}"
+            f"states: the shape {states.shape} allows no pairs with systems of shape {systems.shape}; needs shape "
+            "(..., 8), where (...) broadcasts with the shape of systems"
         ) from None
     numbers = np.array(numbers, dtype=int).reshape(systems.shape)
     return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))

@@ -22,7 +22,9 @@ def samples_per_cycle(tau, period: float) -> int:
     number = round(period / step) if step > 0 else 0
     slack = 1e-6 * step
     if np.any(np.abs(np.diff(tau) - step) > slack) or abs(number * step - period) > number * slack:
-        raise ValueError(f"tau: needs evenly spaced times dividing the period {period}, got a mean spacing of {step}")
+        raise ValueError(
+            f"tau: needs evenly spaced times, a whole number per period of {period}, got a mean spacing of {step}"
+        )
     if len(tau) <= number:
         raise ValueError(f"tau: {len(tau)} samples span less than one period, which has {number} samples")
     return number
@@ -45,7 +47,8 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
     """
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
-        raise ValueError(f"cycles: {cycles} periods exceed the window of {len(displacements) / per_cycle:g} periods")
+        window = len(displacements) / per_cycle
+        raise ValueError(f"cycles: needs at least 1 and less than the {window:g} periods of the window, got {cycles}")
     return float(np.max(np.abs(displacements[lag:] - displacements[:-lag])))
 
 
@@ -80,7 +83,7 @@ def mirror_distance(displacements, per_cycle: int) -> float:
         If per_cycle is odd, so that half a period is not a whole number of samples.
     """
     if per_cycle % 2:
-        raise ValueError(f"per_cycle: {per_cycle} is odd, so that half a period ends between two samples")
+        raise ValueError(f"per_cycle: {per_cycle} is odd; needs an even number, so that half a period ends at a sample")
     displacements, half = np.asarray(displacements), per_cycle // 2
     return float(np.max(np.abs(displacements[half:] + displacements[:-half])))
 

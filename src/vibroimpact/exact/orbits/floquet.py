@@ -59,7 +59,10 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
     approach = (normal * before_field).sum(axis=-1)
     if (approach == 0).any():
         grazing = np.asarray(module)[approach == 0].flat[0]
-        raise ValueError(f"before: the ball of module {grazing} touches the wall without relative velocity (grazing)")
+        raise ValueError(
+            f"before: the ball of module {grazing} touches the wall at zero relative velocity (grazing), where the "
+            "motion has no derivative"
+        )
     restitution = restitution_matrix(system, module)
     after, carried = np.moveaxis(restitution @ np.stack([before, before_field], axis=-1), -1, 0)
     change = vector_field(system, after, tau) - carried
