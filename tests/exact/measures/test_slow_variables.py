@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.exact.measures.slow_variables import amplitude_and_lag, mean_phase, measure, phase_in_cycle
+from vibroimpact.exact.measures.slow_variables import amplitude_and_lag, measure
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 B, PSI, C = np.array([0.3, 0.7]), np.array([2.5, -1.2]), np.array([1.2, 1.6])
@@ -66,7 +66,12 @@ def test_higher_harmonics_and_offsets_do_not_disturb_the_first():
 
 
 def test_phases_are_averaged_on_the_circle():
-    assert phase_in_cycle([-0.25 * 6.0, 2.5 * 6.0], 6.0).tolist() == [0.75, 0.5]
-    mean = mean_phase([0.98, 0.02, 0.99, 0.01])
-    assert min(mean, 1 - mean) == pytest.approx(0, abs=1e-12)
-    assert mean_phase([0.4, 0.5]) == pytest.approx(0.45, rel=1e-12)
+    cycles = [[-0.02, 1.02, 0.99, -5.99], [-0.25, -0.25, 1.75, 0.75], [0.4, 2.5, 0.4, 3.5], [0.5, 2.5, -1.5, 7.5]]
+    tau, displacements = np.arange(40) / 40 * SYSTEM.period, np.zeros((40, 4))
+    impacts = {
+        "tau": np.ravel(cycles) * SYSTEM.period, "Y1": np.zeros(16), "Y2": np.zeros(16),
+        "module": np.repeat([1, 2], 8), "wall": np.tile(np.repeat([1, -1], 4), 2),
+    }  # fmt: skip
+    (first, second), other = measure(SYSTEM, tau, displacements, impacts).impact_phases
+    assert min(first, 1 - first) == pytest.approx(0, abs=1e-12)
+    np.testing.assert_allclose([second, *other], [0.75, 0.45, 0.5], rtol=1e-12)

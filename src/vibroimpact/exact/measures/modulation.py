@@ -7,6 +7,7 @@ from vibroimpact.system.state import IMPACT, STICK
 
 PER_CYCLE = 24
 """Number of samples per forcing period from which amplitudes are computed."""
+_LOW, _HIGH = 0.35, 0.65
 
 
 def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
@@ -39,10 +40,10 @@ def extreme_depth(amplitudes) -> float:
     return float((largest - smallest) / (largest + smallest)) if largest > 0 else 0.0
 
 
-def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
+def swells(amplitudes) -> np.ndarray:
     """Return the cycles in which the amplitude swells, as indices (s,) into the amplitudes (n,).
 
-    A swell is counted when the amplitude rises above `high` for the first time after it was below `low`. The thresholds
+    A swell is counted when the amplitude rises above _HIGH for the first time after it was below _LOW. Both thresholds
     are fractions of the range between the smallest and the largest amplitude. Two thresholds exclude ripples.
 
     The differences between successive indices are the modulation periods. A steady response has no swells.
@@ -54,17 +55,17 @@ def swells(amplitudes, low: float = 0.35, high: float = 0.65) -> np.ndarray:
     level = (amplitudes - lowest) / span
     starts, armed = [], False
     for cycle, height in enumerate(level):
-        if armed and height > high:
+        if armed and height > _HIGH:
             starts.append(cycle)
-        armed = height < low or (armed and height <= high)
+        armed = height < _LOW or (armed and height <= _HIGH)
     return np.array(starts, dtype=int)
 
 
-def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
+def bursts(tau, wall, period: float) -> np.ndarray:
     """Return the start and end time of each resonant burst of one ball, shape (b, 2), from its impacts.
 
     A flight is resonant if it leads to the opposite wall and lasts between a quarter and three quarters of the forcing
-    period. A burst is an unbroken sequence of at least `least` resonant flights.
+    period. A burst is an unbroken sequence of at least two resonant flights.
 
     Parameters
     ----------
@@ -76,7 +77,7 @@ def bursts(tau, wall, period: float, least: int = 2) -> np.ndarray:
     resonant = (np.diff(wall) != 0) & (0.25 * period <= duration) & (duration <= 0.75 * period)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], resonant, [False]]).astype(int)))
     first, last = edges[0::2], edges[1::2]
-    long = last - first >= least
+    long = last - first >= 2
     return np.stack([tau[first[long]], tau[last[long]]], axis=1)
 
 

@@ -65,9 +65,7 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
     displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
     later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
-    back = 1 + np.flatnonzero(
-        np.abs(later - displacements[0]).max(axis=1) <= tolerance
-    )  # cycles after which the displacements at the start recur
+    back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)  # the start recurs
     return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 

@@ -29,16 +29,6 @@ def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray
     return np.abs(phasor), -np.angle(phasor)
 
 
-def phase_in_cycle(tau, period: float):
-    """Return the times tau as fractions of the forcing period, in [0, 1), with the shape of tau."""
-    return np.remainder(np.asarray(tau) / period, 1.0)
-
-
-def mean_phase(phases) -> float:
-    """Return the circular mean of phases given as fractions of a period, in [0, 1)."""
-    return float(np.angle(np.mean(np.exp(2j * np.pi * np.asarray(phases)))) / (2 * np.pi) % 1.0)
-
-
 @dataclass(frozen=True, eq=False)
 class SlowVariables:
     """Slow variables of a sampled motion.
@@ -84,14 +74,14 @@ def measure(system, tau, displacements, impacts) -> SlowVariables:
     B, psi = amplitude_and_lag(tau, X + system.epsilon * Y, system.Omega)
     C, phases = np.empty(2), np.empty((2, 2))
     module, wall = np.asarray(impacts["module"]), np.asarray(impacts["wall"])
-    phase = phase_in_cycle(impacts["tau"], system.period)
+    phasors = np.exp(2j * np.pi * np.remainder(np.asarray(impacts["tau"]) / system.period, 1.0))
     for i in (1, 2):
         ball, ends = np.asarray(impacts[f"Y{i}"]), np.empty(2)
         for column, side in enumerate(WALLS):
             here = (module == i) & (wall == side)
             if not here.any():
                 raise ValueError(f"impacts: module {i} has no impact at the wall {side:+d}")
-            phases[i - 1, column] = mean_phase(phase[here])
+            phases[i - 1, column] = np.angle(phasors[here].mean()) / (2 * np.pi) % 1.0
             ends[column] = ball[here].mean()
         C[i - 1] = sawtooth_amplitude(system.epsilon, ends[1] - ends[0])
     return SlowVariables(B=B, psi=psi, C=C, impact_phases=phases)
