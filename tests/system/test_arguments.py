@@ -55,7 +55,7 @@ BAD = {
     "fixed_points": dict(system=NO_SYSTEMS),
     "orbits": dict(system=NO_SYSTEMS),
     "periodic_orbit": dict(system=[None], state=[BEYOND[0]], periods=[0]),
-    "search": dict(starts=[0, -1, 2.5, "many"]),
+    "search": dict(system=[None]),
     "reference_run": dict(
         state=[BEYOND[0], [0.0] * 7, [np.nan, *REST[1:]], [0, 0, 0, "1.0000000000000000001", 0, 0, 0, 0]], digits=[10],
         cycles=[-1], sample_times=[[3, 2], [7]], system_parameters=[{"kappa": "0.5"}],

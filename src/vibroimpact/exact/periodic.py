@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, Run, checked_state, simulate, within_walls
 from vibroimpact.exact.lanes.ensemble import ensemble
-from vibroimpact.exact.orbits.floquet import by_multipliers, multipliers
+from vibroimpact.exact.orbits.floquet import active_part, by_multipliers, multipliers
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, whole
 from vibroimpact.system.representation import Representation, brief
@@ -66,8 +66,7 @@ class PeriodicOrbit(Representation):
     @cached_property
     def multipliers(self) -> np.ndarray:
         """Complex Floquet multipliers over the period in descending modulus, (8,), or (4,) if one module is active."""
-        part = active_mask(self.system)
-        return multipliers(self.run.jacobian[part][:, part])
+        return multipliers(active_part(self.system, self.run.jacobian))
 
     @property
     def stability(self) -> str:
@@ -77,7 +76,10 @@ class PeriodicOrbit(Representation):
         if a ball hits no wall, so that two multipliers are 1, and none is outside.
         """
         part = determined(self.run)
-        verdict = by_multipliers(self.run.jacobian[part][:, part], self.residual, self._slowest)
+        states, rows = self._impacts["state"], np.arange(len(self._impacts))
+        boxes = 2 * self._impacts["module"] + 2
+        slowest = np.abs(states[rows, boxes] - states[rows, boxes + 1]).min(initial=1.0)  # relative speed after impacts
+        verdict = by_multipliers(self.run.jacobian[part][:, part], self.residual, slowest)
         return UNDECIDED if verdict == STABLE and len(self.multipliers) > part.sum() else verdict
 
     @property
@@ -121,13 +123,6 @@ class PeriodicOrbit(Representation):
     @property
     def _impacts(self):
         return self.run.events[self.run.events["kind"] == IMPACT]
-
-    @property
-    def _slowest(self):
-        """Smallest relative speed after an impact, at most 1."""
-        states, rows = self._impacts["state"], np.arange(len(self._impacts))
-        boxes = 2 * self._impacts["module"] + 2
-        return np.abs(states[rows, boxes] - states[rows, boxes + 1]).min(initial=1.0)
 
     def _shown(self):
         return {
@@ -195,7 +190,9 @@ def refined(system, state, periods) -> PeriodicOrbit:
         If a run could not be finished.
     """
     run = simulate(system, inactive_at_rest(system, state), periods)
-    begin = _between_events(run)
+    edges = np.array([run.tau0, *run.events["tau"], float(run.end)])
+    longest = np.diff(edges).argmax()
+    begin = float(edges[longest : longest + 2].mean())  # the middle of the longest interval without events
     run = start = _with_free_balls_at_rest(system, _state_at(run, begin), periods, begin)
     for _ in range(_STEPS):
         part, step = determined(run), np.zeros(8)
@@ -207,7 +204,9 @@ def refined(system, state, periods) -> PeriodicOrbit:
             break
         run = nearer
     if any(size <= least and _gap(run) <= closed for least, closed in _CONVERGED):
-        return PeriodicOrbit(system, periods, _at_zero(run), run)
+        tau = run.cycles * system.period  # the end of the last period; tau = 0 is before the run
+        at_zero = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
+        return PeriodicOrbit(system, periods, at_zero[-1].copy() if len(at_zero) else _state_at(run, tau), run)
     grazes = "; a ball grazes a wall" if _grazes(start) or _grazes(run) else ""
     raise ValueError(
         f"state: Newton's method found no motion with periods={periods} near this state; where it stopped, the states "
@@ -248,20 +247,6 @@ def _with_free_balls_at_rest(system, x, periods, begin):
 def _gap(run):
     """Return the largest difference between the states at the start and at the end of a run."""
     return float(np.abs(run.final - run.start).max())
-
-
-def _between_events(run):
-    """Return the time in the middle of the longest interval without events in a run."""
-    edges = np.array([run.tau0, *run.events["tau"], float(run.end)])
-    longest = np.diff(edges).argmax()
-    return float(edges[longest : longest + 2].mean())
-
-
-def _at_zero(run):
-    """Return the state of a periodic motion at tau = 0, after any events there, from the end of the last period."""
-    tau = run.cycles * run.system.period
-    there = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
-    return there[-1].copy() if len(there) else _state_at(run, tau)
 
 
 def _state_at(run, tau):

@@ -22,20 +22,27 @@ def fourier(system, sign, s, harmonics=4000):
     return total if sign == -1 else total + np.linalg.inv(stiffness) / system.period
 
 
+def motion(response, s):
+    """Return the motion (4, 2) a time s after an impulse; column j is the response to impulses on box j."""
+    return response(s, np.arange(2)).T
+
+
 @pytest.mark.parametrize("sign", [-1, 1])
 @pytest.mark.parametrize("fraction", [0.11, 0.37, 0.83])
 def test_displacement_is_the_fourier_series(chapter, sign, fraction):
     system = chapter(epsilon=0.3)
     s = fraction * system.period
-    np.testing.assert_allclose(ImpulseResponse(system, sign)(s)[:2], fourier(system, sign, s), rtol=0, atol=3e-7)
+    found = motion(ImpulseResponse(system, sign), s)[:2]
+    np.testing.assert_allclose(found, fourier(system, sign, s), rtol=0, atol=3e-7)
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_velocity_jumps_by_the_impulse_and_nothing_else_jumps(chapter, sign):
     response = ImpulseResponse(chapter(), sign)
     n = response.interval
-    jump = response(0.0) - sign * response(np.nextafter(n, 0))
-    np.testing.assert_allclose(jump, np.eye(4)[:, 2:], rtol=0, atol=3e-14 * abs(response(0.0)).max())
+    after = motion(response, 0.0)
+    jump = after - sign * motion(response, np.nextafter(n, 0))
+    np.testing.assert_allclose(jump, np.eye(4)[:, 2:], rtol=0, atol=3e-14 * abs(after).max())
 
 
 UNDAMPED = dict.fromkeys(("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", "sigma20_hat"), 0.0)
@@ -50,10 +57,10 @@ def test_undamped_resonance_with_the_impacts_is_refused(chapter, sign, harmonic,
     if boxes == "both":
         tuned = system.with_(sigma_e_hat=(1 / harmonic - 1) / system.epsilon)
     if fails:
-        with pytest.raises(ValueError, match=r"\Asystem: .* in resonance with a\w* .*harmonic"):
+        with pytest.raises(ValueError, match=r"\Asystem: .* undamped resonance at an? .*multiple of the forcing"):
             ImpulseResponse(tuned, sign)
     else:
-        assert np.isfinite(ImpulseResponse(tuned, sign)(1.0)).all()
+        assert np.isfinite(motion(ImpulseResponse(tuned, sign), 1.0)).all()
 
 
 def test_responses_at_a_resonance_that_the_forces_do_not_load_are_refused(chapter):
@@ -61,7 +68,7 @@ def test_responses_at_a_resonance_that_the_forces_do_not_load_are_refused(chapte
     free = dict.fromkeys(("alpha12_hat", "gamma1_hat", "gamma2_hat", "sigma20_hat", "sigma_e_hat"), 0.0)
     system = chapter(**free, f10_hat=1.0, f20_hat=-1.0)
     for call in (vi.orbits, forced_amplitude):
-        with pytest.raises(ValueError, match=r"\Asystem: .* in resonance with"):
+        with pytest.raises(ValueError, match=r"\Asystem: .* undamped resonance at "):
             call(system)
     with pytest.raises(ValueError, match=r"\Asigma_e_hat: .* resonance"):
         vi.fixed_points(system)

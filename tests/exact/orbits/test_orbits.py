@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.exact.orbits import impulse_response
+from vibroimpact.exact.orbits import asymmetric, impulse_response
 from vibroimpact.exact.orbits.newton import newton
 from vibroimpact.exact.orbits.search import orbits, search
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, distinct, symmetric_solutions, wrapped
@@ -78,8 +78,10 @@ def test_brute_force_finds_no_other_symmetric_orbit(scene):
     assert len(distinct(np.concatenate([found, forced]), scene.period, 2)[0]) == len(found)
 
 
-def test_eight_times_the_starts_find_no_other_asymmetric_orbit(case):
-    usual, thorough = search(case), search(case, starts=8192)
+def test_eight_times_the_starts_find_no_other_asymmetric_orbit(case, monkeypatch):
+    usual = search(case)
+    monkeypatch.setattr(asymmetric, "STARTS", 8 * asymmetric.STARTS)
+    thorough = search(case)
     assert len(usual.orbits) == len(thorough.orbits)
     assert all(same(a, b) for a, b in zip(usual.orbits, thorough.orbits, strict=True))
     assert thorough.fewest_hits >= usual.fewest_hits

@@ -114,8 +114,8 @@ class AsymmetricConditions:
         return moved + _LENGTHENING * lengthening[..., None]
 
 
-def asymmetric_solutions(system, starts: int = STARTS):
-    """Return the roots (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6), and the number of starts that led to each root.
+def asymmetric_solutions(system):
+    """Return the roots (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6), and how many of the STARTS led to each root.
 
     p_i and q_i are the times in [0, T) of the impacts at wall +1 and wall -1, I_i the change of ball velocity at wall
     +1. Mirror images are separate roots; a start that led to one of them counts for both.
@@ -129,19 +129,20 @@ def asymmetric_solutions(system, starts: int = STARTS):
         return np.empty((0, 6)), np.empty(0, dtype=int)
     period = system.period
     conditions = AsymmetricConditions(system)
-    found = newton(conditions, _starts(system, conditions, starts))
+    found = newton(conditions, _starts(system, conditions))
     found[:, :4] = wrapped(found[:, :4], period)
     u = wrapped(found[:, 1:4:2] - found[:, 0:4:2], period)[:, np.array(system.modules) - 1] / period
     genuine = (u > _SHORTEST).all(axis=1) & (u < 1 - _SHORTEST).all(axis=1) & (abs(u - 0.5) > _UNEQUAL).any(axis=1)
     found = found[genuine]
-    images = _mirrored(found, period)
+    # The mirror images, state(tau) -> -state(tau + T/2), exchange the walls.
+    images = np.concatenate([wrapped(found[:, [1, 0, 3, 2]] + period / 2, period), found[:, 4:]], axis=1)
     images[:, conditions.idle] = 0.0
     return distinct(np.concatenate([found, images]), period, 4)
 
 
-def _starts(system, conditions, count):
-    lag, first, second = (np.arange(1, count + 1) / _PLASTIC**k % 1.0 for k in (1, 2, 3))
-    zero = np.zeros(count)
+def _starts(system, conditions):
+    lag, first, second = (np.arange(1, STARTS + 1) / _PLASTIC**k % 1.0 for k in (1, 2, 3))
+    zero = np.zeros(STARTS)
     times = np.stack([zero, first, lag, lag + second], axis=1) * system.period
     matrices = conditions.linear_system(times)
     constant = np.array([0.0, 0.0, 0.0, 0.0, 2.0, 2.0])
@@ -151,9 +152,3 @@ def _starts(system, conditions, count):
     found = np.concatenate([times + shift[:, None], solutions[:, :2]], axis=1)
     found[:, conditions.idle] = 0.0
     return found
-
-
-def _mirrored(roots, period):
-    """Return the mirror images of the roots, state(tau) -> -state(tau + T/2), which exchanges the walls."""
-    times = wrapped(roots[:, [1, 0, 3, 2]] + period / 2, period)
-    return np.concatenate([times, roots[:, 4:]], axis=1)

@@ -7,7 +7,7 @@ from scipy.linalg import eig, expm
 
 from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.restitution import after_impact
-from vibroimpact.system.state import BALLS, BOXES, MODULES
+from vibroimpact.system.state import BALLS, BOXES, active_mask
 from vibroimpact.system.verdict import all_stable, verdict
 
 _MODULES = np.array([1, 1, 2, 2])
@@ -141,7 +141,7 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
 
 def active_part(system, jacobian: np.ndarray) -> np.ndarray:
     """Return the monodromy matrix of the active modules: (8, 8), or its part (4, 4) for a single machine."""
-    part = np.isin(MODULES, system.modules)
+    part = active_mask(system)
     return jacobian[part][:, part]
 
 

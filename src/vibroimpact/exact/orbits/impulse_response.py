@@ -28,11 +28,11 @@ def forced_amplitude(system) -> np.ndarray:
         raise ValueError(_resonance(system, "")) from None
 
 
-def _resonance(system, harmonic):
-    """Return the error message for undamped boxes in resonance with a harmonic of the forcing frequency."""
+def _resonance(system, multiple):
+    """Return the error message for an undamped resonance of the boxes at a multiple of the forcing frequency."""
     return (
-        f"system: the undamped boxes are in resonance with {harmonic}Omega = {system.Omega}, so that impacts in every "
-        "cycle excite no bounded motion; add damping"
+        f"system: the boxes have an undamped resonance at {multiple}the forcing frequency Omega = {system.Omega}, "
+        "where no unique steady response exists; add damping (gamma1_hat, gamma2_hat)"
     )
 
 
@@ -53,8 +53,9 @@ class ImpulseResponse:
         self._rate = rate_matrix(system)[:4, :4]
         advance = expm(self._rate * self.interval)
         closure = np.eye(4) - sign * advance
-        if _singular(closure, 1.0 + np.linalg.norm(advance, 2)):
-            raise ValueError(_resonance(system, f"{'a' if sign == 1 else 'an odd'} harmonic of "))
+        # The condition number is no criterion for a singular matrix: at a resonance of both boxes all entries vanish.
+        if np.linalg.norm(closure, -2) <= 1e-12 * (1.0 + np.linalg.norm(advance, 2)):
+            raise ValueError(_resonance(system, f"{'a' if sign == 1 else 'an odd'} multiple of "))
         start = np.linalg.solve(closure, _UNIT_IMPULSES)
         nodes = math.ceil(self.interval * np.linalg.norm(self._rate, 2) * _NODES_PER_RADIAN)
         self._spacing = self.interval / nodes
@@ -67,19 +68,10 @@ class ImpulseResponse:
         self._series = np.stack([(term @ at_nodes).swapaxes(1, 2) for term in taylor], axis=2)
         self._readings = np.stack([np.eye(4)[:2], np.eye(4)[2:], self._rate[2:]], axis=2)
 
-    def __call__(self, s: np.ndarray) -> np.ndarray:
-        """Return the motion at times s since an impulse, shape (*s.shape, 4, 2).
-
-        s is a real array of any shape. Column j of the result is the response to impulses on box j.
-
-        At the time of an impulse, the result is the state just after the impulse.
-        """
-        return self.of_trains(np.asarray(s)[..., None], np.arange(2)).swapaxes(-1, -2)
-
-    def of_trains(self, s: np.ndarray, boxes: np.ndarray) -> np.ndarray:
+    def __call__(self, s: np.ndarray, boxes: np.ndarray) -> np.ndarray:
         """Return the motion (..., 4) at times s after an impulse on box `boxes` (0 or 1).
 
-        The arguments broadcast.
+        The arguments broadcast. At the time of an impulse, the result is the state just after the impulse.
         """
         impulses, within = np.divmod(s, self.interval)
         node = np.rint(within / self._spacing).astype(int)
@@ -99,19 +91,10 @@ class ImpulseResponse:
         Train k has an impulse on box boxes[k] at times[..., k]. Entry [..., m, k] is the response of box boxes[m] to
         train k, just before the impulse of train m.
         """
-        motion = self.of_trains(times[..., :, None] - times[..., None, :], boxes)
+        motion = self(times[..., :, None] - times[..., None, :], boxes)
         own = np.arange(len(boxes))
         motion[..., own, own, :] -= _UNIT_IMPULSES.T[boxes]
         return np.moveaxis(motion @ self._readings[boxes], -1, 0)
-
-
-def _singular(matrices, scale):
-    """Return True for each matrix (..., n, n) that is singular within rounding.
-
-    scale: magnitude of the terms that cancel in a singular matrix. The condition number is no criterion: at a
-    resonance of both boxes all entries vanish.
-    """
-    return np.linalg.svd(matrices, compute_uv=False)[..., -1] <= 1e-12 * scale
 
 
 def powers(matrix: np.ndarray, count: int) -> np.ndarray:

@@ -12,16 +12,15 @@ from vibroimpact.exact.orbits.impulse_response import forced_amplitude, impulse_
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, wrapped
 from vibroimpact.system import System
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
-from vibroimpact.system.arguments import instance, whole
+from vibroimpact.system.arguments import instance
 from vibroimpact.system.matrices import rate_matrix, stiffness_matrix
 from vibroimpact.system.representation import Found, Representation, brief
-from vibroimpact.system.state import BALLS, BOXES, MODULES, NAMES
+from vibroimpact.system.state import BALLS, BOXES, NAMES, inactive_at_rest
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _STEP = 0.005  # spacing of samples of W in radians of the fastest oscillation; Hermite interpolation is exact to 2e-12
 _SAMPLES = 4096  # samples of each flight computed at a time, so that memory does not grow with the period
 _TOUCH = 1e-9
-_MOST_STARTS = 2**20
 _SIDES = "1_plus", "1_minus", "2_plus", "2_minus"
 COLUMNS = (
     *("symmetric", "admissible", "C1", "C2"),
@@ -203,21 +202,20 @@ def orbits(system: System) -> list[Orbit]:
     return Found(search(system).orbits, COLUMNS)
 
 
-def search(system: System, starts: int = STARTS) -> OrbitSearch:
+def search(system: System) -> OrbitSearch:
     """Return `orbits` with the effort spent on asymmetric orbits, which indicates how likely an orbit was missed.
 
     Raises
     ------
     ValueError
-        As for `orbits`, or if starts is not an integer from 1 to 2**20.
+        As for `orbits`.
     """
     instance("system", system, System)
-    starts = whole("starts", starts, 1, _MOST_STARTS)
     symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
-    roots, hits = asymmetric_solutions(system, starts)
+    roots, hits = asymmetric_solutions(system)
     asymmetric = [asymmetric_orbit(system, root) for root in roots]
     fewest = int(hits.min()) if len(hits) else 0
-    return OrbitSearch(sorted(symmetric + asymmetric, key=_order), starts, fewest)
+    return OrbitSearch(sorted(symmetric + asymmetric, key=_order), STARTS, fewest)
 
 
 def prove(orbit: Orbit):
@@ -319,8 +317,7 @@ def _orbit(system, times, changes, fractions, sign):
     impacts at each wall are one train of equal impulses.
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
-    state = _state(system, times, changes, speeds, sign)
-    state[~np.isin(MODULES, system.modules)] = 0.0
+    state = inactive_at_rest(system, _state(system, times, changes, speeds, sign))
     alone = np.where(np.isin([1, 2], system.modules), 1.0, np.nan)[:, None]
     times, speeds = alone * times, alone * speeds
     in_order, modules, walls = impact_sequence(times, system.period)
@@ -353,7 +350,7 @@ def _boxes(system, times, changes, sign, tau):
     trains = 1 if sign == -1 else 2
     kicks = (system.epsilon * changes[:, None] * [-1.0, 1.0])[:, :trains]
     forced = amplitude * np.exp(1j * system.Omega * tau[:, None])
-    kicked = response.of_trains(tau[:, None, None] - times[:, :trains], np.arange(2)[:, None])
+    kicked = response(tau[:, None, None] - times[:, :trains], np.arange(2)[:, None])
     return np.hstack([forced.imag, system.Omega * forced.real]) + np.einsum("niks,ik->ns", kicked, kicks)
 
 
@@ -388,8 +385,12 @@ def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
         boxes = samples[:, -1]
         W = samples[..., :2] - places - velocities * (spacing * steps[:, None])
         V = (samples[..., 2:4] - velocities) * spacing
-        largest = [abs(_turning_values(W[..., k], V[..., k])).max(initial=0.0) for k in (0, 1)]
-        found = np.maximum(found, largest)
+        # the values of W where V changes sign, by Hermite interpolation between samples
+        turns = V[:, :-1] * V[:, 1:] < 0
+        w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
+        s = v0 / (v0 - v1)  # zero of V to O(spacing^2); the error in W is of higher order, since V = 0 there
+        values = w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)
+        np.maximum.at(found, turns.nonzero()[2], abs(values))
     return found
 
 
@@ -400,14 +401,3 @@ def _samples(step, start, count):
         samples = np.concatenate([samples, samples[:, : count - made] @ ahead], axis=1)
         ahead = ahead @ ahead
     return samples
-
-
-def _turning_values(W, V):
-    """Return the values of W at its turning points, by Hermite interpolation between samples.
-
-    W (n, count): samples. V (n, count): velocity of W times the spacing of the samples.
-    """
-    turns = V[:, :-1] * V[:, 1:] < 0
-    w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
-    s = v0 / (v0 - v1)  # zero of the velocity to O(spacing^2); the error in W is of higher order, since W' = 0 there
-    return w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)

@@ -43,15 +43,10 @@ class SteadyBoxes:
             receptance = acb_mat(identity(4)) * acb(0, self.omega) - acb_mat(self.rate)
             self.amplitude = receptance.solve(acb_mat([[acb(f)] for f in rate[:4, 4].tolist()]))
         except ZeroDivisionError:
-            raise ValueError("system: the undamped boxes are in resonance with the impacts; add damping") from None
-
-    def free(self, duration) -> arb_mat:
-        """Return the matrix exp(rate duration), (4, 4), for a duration or an interval of durations."""
-        return (self.rate * duration).exp()
-
-    def forced(self, tau) -> acb_mat:
-        """Return the complex response (4, 1) to the forcing alone; its imaginary part is the real state."""
-        return self.amplitude * (acb(0, 1) * self.omega * tau).exp()
+            raise ValueError(
+                "system: the boxes have an undamped resonance at the forcing frequency or a multiple of it, where no "
+                "unique steady response exists; add damping (gamma1_hat, gamma2_hat)"
+            ) from None
 
 
 def identity(size: int) -> arb_mat:
@@ -118,13 +113,13 @@ class EnclosedConditions:
 
     def before(self, m, unknowns, lags):
         """Return an array (4, 7): the state of the boxes just before impact m, then its derivatives by the unknowns."""
-        forced = self.boxes.forced(unknowns[m])
+        rate = acb(0, self.boxes.omega)
+        forced = (self.boxes.amplitude * (rate * unknowns[m]).exp()).entries()
         state = np.full((4, 1 + _UNKNOWNS), arb(0))
-        state[:, 0] = [entry.imag for entry in forced.entries()]
-        state[:, 1 + m] = [(entry * acb(0, self.boxes.omega)).imag for entry in forced.entries()]
+        state[:, 0], state[:, 1 + m] = [entry.imag for entry in forced], [(entry * rate).imag for entry in forced]
         for k in self.impacts:
             box, kick = k // 2, _KICKS[k] * self.epsilon
-            motion = self.boxes.start if m == k else self.boxes.free(lags[m, k]) * self.boxes.start
+            motion = self.boxes.start if m == k else (self.boxes.rate * lags[m, k]).exp() * self.boxes.start
             motion = arb_mat([[kick * (motion[row, box] - int(m == k and row == 2 + box))] for row in range(4)])
             response = np.full((4, 1 + _UNKNOWNS), arb(0))
             response[:, 0] = motion.entries()

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import acb, acb_mat, arb, arb_mat, ctx
 
-from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions
+from vibroimpact.exact.orbits.proof.conditions import EnclosedConditions, identity
 from vibroimpact.exact.orbits.proof.passage import NOT_PROVED, EnclosedPassage, between_walls
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
@@ -92,7 +92,9 @@ def prove(orbit) -> OrbitProof:
         passage = EnclosedPassage(orbit.system, conditions, root)
         numbers = np.concatenate([of.ravel()[conditions.impacts] for of in (orbit.impact_phases, orbit.ball_speeds)])
         multipliers = _multipliers(passage.monodromy())
-        if not _has_state(orbit, passage) or not _has_multipliers(orbit, multipliers):
+        listed, near = orbit.state.tolist(), [_SPOILT_STATE] * 8
+        at_start = any(all(map(_near, listed, proved.entries()[:8], near)) for proved in passage.states())
+        if not at_start or not _has_multipliers(orbit, multipliers):
             return _NOTHING
         return OrbitProof(
             radius=radius,
@@ -119,12 +121,6 @@ def _of_kind(symmetric, conditions, root, listed, radius):
         return any(not (2 * conditions.fraction(i, lags)).contains(1) for i in conditions.modules)
     gaps = [abs(root[m] - listed[m ^ 1]) - conditions.period / 2 for m in conditions.impacts]
     return all(abs(gap) < radius for gap in gaps)
-
-
-def _has_state(orbit, passage):
-    """Return True if the listed state of the orbit at tau = 0 is close to a proved state."""
-    listed = orbit.state.tolist()
-    return any(all(map(_near, listed, proved.entries()[:8], [_SPOILT_STATE] * 8)) for proved in passage.states())
 
 
 def _has_multipliers(orbit, proved):
@@ -173,8 +169,7 @@ def _image(equations, box):
         inverse = at[1].mid().inv().mid()
     except ZeroDivisionError:
         return None
-    size = len(box)
-    contraction = arb_mat(np.eye(size).tolist()) - inverse * found[1]
+    contraction = identity(len(box)) - inverse * found[1]
     offsets = arb_mat([[value - value.mid()] for value in box])
     moved = contraction * offsets - inverse * at[0]
     return [value.mid() + moved[k, 0] for k, value in enumerate(box)]

@@ -6,8 +6,6 @@ saltation matrix of floquet.py is R + (A R - R A) z n^T / (n . A z) for the stat
 numbered from 0 to 3 as in conditions.py.
 """
 
-import functools
-
 from flint import arb, arb_mat
 
 from vibroimpact.exact.orbits.proof.conditions import WALLS, identity
@@ -64,8 +62,11 @@ class EnclosedPassage:
         For a single machine, the matrix (4, 4) of the active module is returned. Entries are not finite if the relative
         velocity at an impact may be zero.
         """
-        maps = [(self.rate * duration).exp() * self._saltation(m) for m, _, _, duration in self.flights()]
-        whole = functools.reduce(lambda so_far, next_one: next_one * so_far, maps)
+        whole = identity(_SIZE)
+        for m, _, after, duration in self.flights():
+            impact, normal, field = self._impacts[m // 2], arb_mat([GAPS.tolist()[m // 2]]), self.rate * self._before(m)
+            saltation = impact + (self.rate * after - impact * field) * normal / (normal * field)[0, 0]
+            whole = (self.rate * duration).exp() * saltation * whole
         part = [place for place, module in enumerate(MODULES - 1) if module in self._conditions.modules]
         return arb_mat([[whole[row, column] for column in part] for row in part])
 
@@ -86,12 +87,6 @@ class EnclosedPassage:
         """Return the speed of the ball on the flight after impact k."""
         u = self._conditions.fraction(k // 2, self._lags)
         return self._unknowns[4 + k // 2] * (1 - u if WALLS[k] == 1 else u)
-
-    def _saltation(self, m):
-        impact, state, normal = self._impacts[m // 2], self._before(m), arb_mat([GAPS.tolist()[m // 2]])
-        field = self.rate * state
-        kick = self.rate * impact * state - impact * field
-        return impact + kick * normal / (normal * field)[0, 0]
 
 
 def _rate(system):
