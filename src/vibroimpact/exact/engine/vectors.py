@@ -25,7 +25,10 @@ UNDEFINED = ir.Constant(NUMBERS, ir.Undefined)
 
 @intrinsic
 def weighted_sum(_, table, mode, j, weights):
-    """Return the sum over m of weights[m] * table[mode, j, m] as two tuples (8,); the table is (modes, n, m, 16)."""
+    """Return the sum over m of weights[m] * table[mode, j, m] as two tuples (8,); the table is (modes, n, m, 16).
+
+    Product and sum are rounded together if the processor supports it.
+    """
     eight = types.UniTuple(types.float64, WIDTH)
 
     def generate(context, builder, signature, arguments):
@@ -37,26 +40,17 @@ def weighted_sum(_, table, mode, j, weights):
         weights = [builder.extract_value(arguments[3], m) for m in range(signature.args[3].count)]
         wide, halves = [_in_all(builder, weight) for weight in weights], []
         for half in range(2):
-            rows = [row_at(context, builder, start, 2 * m + half) for m in range(len(weights))]
-            halves.append(context.make_tuple(builder, eight, _entries(builder, weighted(builder, rows, wide))))
+            total = None
+            for m, weight in enumerate(wide):
+                pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * (2 * m + half))])
+                row = builder.load(builder.bitcast(pointer, NUMBERS.as_pointer()), align=8)
+                part = builder.fmul(row, weight, flags=("contract",))
+                total = part if total is None else builder.fadd(total, part, flags=("contract",))
+            entries = [builder.extract_element(total, ir.IntType(32)(k)) for k in range(WIDTH)]
+            halves.append(context.make_tuple(builder, eight, entries))
         return context.make_tuple(builder, signature.return_type, halves)
 
     return types.UniTuple(eight, 2)(table, types.intp, types.intp, weights), generate
-
-
-def row_at(context, builder, start, place):
-    """Load the vector of eight floats that begins 8 x `place` floats after the pointer `start`."""
-    pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * place)])
-    return builder.load(builder.bitcast(pointer, NUMBERS.as_pointer()), align=8)
-
-
-def weighted(builder, rows, weights):
-    """Return the weighted sum of vectors; product and sum are rounded together if the processor supports it."""
-    total = None
-    for row, weight in zip(rows, weights, strict=True):
-        part = builder.fmul(row, weight, flags=("contract",))
-        total = part if total is None else builder.fadd(total, part, flags=("contract",))
-    return total
 
 
 def _in_all(builder, number):
@@ -65,90 +59,51 @@ def _in_all(builder, number):
     return builder.shuffle_vector(first, UNDEFINED, INDICES([0] * WIDTH))
 
 
-def _entries(builder, vector):
-    return [builder.extract_element(vector, ir.IntType(32)(k)) for k in range(WIDTH)]
-
-
-TRUTHS = ir.VectorType(ir.IntType(1), WIDTH)
-
-
 class Lanes(types.Type):
     """Type of eight floats."""
 
-    def __init__(self):
-        super().__init__("Lanes")
+    vector = NUMBERS
 
 
 class Mask(types.Type):
     """Type of eight truth values."""
 
-    def __init__(self):
-        super().__init__("Mask")
+    vector = ir.VectorType(ir.IntType(1), WIDTH)
 
 
-LANES, MASK = Lanes(), Mask()
+LANES, MASK = Lanes("Lanes"), Mask("Mask")
 
 
 @register_model(Lanes)
-class _LanesModel(models.PrimitiveModel):
-    def __init__(self, manager, kind):
-        super().__init__(manager, kind, NUMBERS)
-
-
 @register_model(Mask)
-class _MaskModel(models.PrimitiveModel):
+class _Model(models.PrimitiveModel):
     def __init__(self, manager, kind):
-        super().__init__(manager, kind, TRUTHS)
+        super().__init__(manager, kind, kind.vector)
 
 
 def _wide(context, builder, value, kind):
-    """Return a value as Lanes; a float or integer is copied to all lanes."""
-    if isinstance(kind, Lanes):
+    """Return a value as a vector; a float or integer is copied to all lanes."""
+    if isinstance(kind, Lanes | Mask):
         return value
     return _in_all(builder, context.cast(builder, value, kind, types.float64))
 
 
-def _operation(function, result, generate):
-    """Register code for an operation on two operands, both Lanes or one a scalar."""
+def _operation(function, operand, result, generate):
+    """Register code for an operation on one or two operands of the type `operand`; one of two Lanes may be a scalar."""
+    kind, scalar = type(operand), (types.Float | types.Integer if operand is LANES else Mask)
 
     class Typing(AbstractTemplate):
         def generic(self, args, kws):
-            numbers = all(isinstance(one, Lanes | types.Float | types.Integer) for one in args)
-            return signature(result, *args) if len(args) == 2 and numbers and LANES in args else None
+            fits = operand in args and all(isinstance(one, kind | scalar) for one in args)
+            return signature(result, *args) if fits else None
 
     infer_global(function)(Typing)
 
     def lower(context, builder, signed, args):
         return generate(builder, *(_wide(context, builder, a, k) for a, k in zip(args, signed.args, strict=True)))
 
-    for kinds in ((Lanes, Lanes), (Lanes, types.Number), (types.Number, Lanes)):
+    for kinds in ((kind,), (kind, kind), (kind, types.Number), (types.Number, kind)):
         lower_builtin(function, *kinds)(lower)
-
-
-def _comparison(sign):
-    return lambda builder, a, b: builder.fcmp_ordered(sign, a, b)
-
-
-_operation(operator.add, LANES, lambda builder, a, b: builder.fadd(a, b))
-_operation(operator.sub, LANES, lambda builder, a, b: builder.fsub(a, b))
-_operation(operator.mul, LANES, lambda builder, a, b: builder.fmul(a, b))
-_operation(operator.truediv, LANES, lambda builder, a, b: builder.fdiv(a, b))
-_operation(operator.lt, MASK, _comparison("<"))
-_operation(operator.le, MASK, _comparison("<="))
-_operation(operator.gt, MASK, _comparison(">"))
-_operation(operator.ge, MASK, _comparison(">="))
-_operation(operator.eq, MASK, _comparison("=="))
-
-
-def _function(function, kind, generate):
-    """Register code for a function whose only argument has the type `kind` (Lanes or Mask)."""
-
-    class Typing(AbstractTemplate):
-        def generic(self, args, kws):
-            return signature(kind, kind) if args == (kind,) else None
-
-    infer_global(function)(Typing)
-    lower_builtin(function, type(kind))(lambda context, builder, signed, args: generate(builder, args[0]))
 
 
 def _called(name):
@@ -159,24 +114,26 @@ def _called(name):
     return generate
 
 
-_function(abs, LANES, _called("fabs"))
-_function(math.sqrt, LANES, _called("sqrt"))
-_function(math.floor, LANES, _called("floor"))
-_function(operator.neg, LANES, lambda builder, a: builder.fneg(a))
-_function(operator.invert, MASK, lambda builder, a: builder.not_(a))
+def _comparison(sign):
+    return lambda builder, a, b: builder.fcmp_ordered(sign, a, b)
 
 
-def _joined(function, generate):
-    class Typing(AbstractTemplate):
-        def generic(self, args, kws):
-            return signature(MASK, MASK, MASK) if args == (MASK, MASK) else None
-
-    infer_global(function)(Typing)
-    lower_builtin(function, Mask, Mask)(lambda context, builder, signed, args: generate(builder, *args))
-
-
-_joined(operator.and_, lambda builder, a, b: builder.and_(a, b))
-_joined(operator.or_, lambda builder, a, b: builder.or_(a, b))
+_operation(operator.add, LANES, LANES, ir.IRBuilder.fadd)
+_operation(operator.sub, LANES, LANES, ir.IRBuilder.fsub)
+_operation(operator.mul, LANES, LANES, ir.IRBuilder.fmul)
+_operation(operator.truediv, LANES, LANES, ir.IRBuilder.fdiv)
+_operation(operator.lt, LANES, MASK, _comparison("<"))
+_operation(operator.le, LANES, MASK, _comparison("<="))
+_operation(operator.gt, LANES, MASK, _comparison(">"))
+_operation(operator.ge, LANES, MASK, _comparison(">="))
+_operation(operator.eq, LANES, MASK, _comparison("=="))
+_operation(abs, LANES, LANES, _called("fabs"))
+_operation(math.sqrt, LANES, LANES, _called("sqrt"))
+_operation(math.floor, LANES, LANES, _called("floor"))
+_operation(operator.neg, LANES, LANES, ir.IRBuilder.fneg)
+_operation(operator.invert, MASK, MASK, ir.IRBuilder.not_)
+_operation(operator.and_, MASK, MASK, ir.IRBuilder.and_)
+_operation(operator.or_, MASK, MASK, ir.IRBuilder.or_)
 
 
 @intrinsic
