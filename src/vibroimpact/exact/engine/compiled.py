@@ -23,7 +23,6 @@ import os
 import shutil
 import sys
 import tempfile
-from contextlib import contextmanager
 from functools import cache, partial
 from pathlib import Path
 
@@ -41,11 +40,7 @@ class _Notice(event.Listener):
     """Listener that prints a line before Numba starts a long compilation."""
 
     def __init__(self):
-        self.within, self.said, self.hint = 0, set(), " (run python -m vibroimpact.compile to do it in advance)"
-
-    def beforehand(self) -> None:
-        """Omit the hint to compile in advance, since this process already compiles in advance."""
-        self.hint = ""
+        self.within, self.said, self.hint = 0, set(), "; to do this in advance, run python -m vibroimpact.compile"
 
     def on_start(self, compilation):
         module = compilation.data["dispatcher"].py_func.__module__ or ""
@@ -78,8 +73,12 @@ def disk_cached(**options):
     """Return a decorator like Numba's `njit` that caches the compiled code on disk, in `code_folder`."""
 
     def decorate(function):
-        with _numba_caching_in(code_folder(Path(function.__code__.co_filename).parent)):
+        folder, before = code_folder(Path(function.__code__.co_filename).parent), config.CACHE_DIR
+        config.CACHE_DIR = str(folder or before)  # until this function is decorated; other packages keep their folder
+        try:
             return njit(cache=True, **options)(function)
+        finally:
+            config.CACHE_DIR = before
 
     return decorate
 
@@ -88,12 +87,17 @@ def disk_cached(**options):
 def code_folder(package: Path) -> Path | None:
     """Return the cache folder for a package, or None if NUMBA_CACHE_DIR is set.
 
+    The name of the folder contains a hash of all source files that may be compiled into a function of the package.
     Numba needs a writable folder. If the library is read-only, the code compiled at its installation is copied
     to a writable folder.
     """
     if config.CACHE_DIR:
         return None
-    name = f"compiled-{_fingerprint(package)}"
+    files = {path for folder in (*(PACKAGE / name for name in SHARED_FOLDERS), package) for path in folder.glob("*.py")}
+    digest = hashlib.sha256()
+    for path in sorted(files):
+        digest.update(path.name.encode() + path.read_bytes())
+    name = f"compiled-{digest.hexdigest()[:16]}"
     folder, installed = _writable() / name, LIBRARY_CACHE / name
     if installed.is_dir() and not folder.exists():
         _copy(installed, folder)
@@ -111,27 +115,6 @@ def _copy(code, folder):
             Path(part, folder.name).rename(folder)
     except OSError:  # another process was first, or the disk is full: compile again
         pass
-
-
-@contextmanager
-def _numba_caching_in(folder):
-    """Set Numba's cache folder within a `with` block, so that other packages keep their own folder."""
-    before = config.CACHE_DIR
-    config.CACHE_DIR = str(folder or before)
-    try:
-        yield
-    finally:
-        config.CACHE_DIR = before
-
-
-@cache
-def _fingerprint(package):
-    """Return a hash of all source files that may be compiled into a function of `package`."""
-    files = {path for folder in (*(PACKAGE / name for name in SHARED_FOLDERS), package) for path in folder.glob("*.py")}
-    digest = hashlib.sha256()
-    for path in sorted(files):
-        digest.update(path.name.encode() + path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 @cache
