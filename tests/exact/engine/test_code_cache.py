@@ -68,7 +68,6 @@ def test_code_beside_a_library_that_is_read_only_is_copied_once(tmp_path, monkey
 CALLS = """run = vi.simulate(system, start, 3, sample_times=[0.5, 1.0])
 rest = vi.simulate(system, run.final, 2, run.end)
 _ = run.certificate, run.jacobian, run.energy.per_cycle, run.errors([1.0]), run.section(), rest.events, rest.jacobian
-run.carry(np.asfortranarray(np.eye(8)[:, :3]))
 vi.simulate_many(system, [start, start], 2)
 for one in (system, undamped(system), system.with_(sigma20_hat=1e5)):
     vi.ensemble(one, [start, start], 3, settle=1, energy=True, by_cycle=True)

@@ -51,15 +51,6 @@ def test_jacobian_against_high_precision_differences(chapter, changes, force, st
     np.testing.assert_allclose(run.jacobian, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
 
 
-def test_carried_perturbations_are_those_times_the_jacobian(chapter):
-    changes, force, start, cycles, _ = PROBLEMS["chatter, stick, release"]
-    run = vi.simulate(chapter(*force, **changes), start, cycles)
-    frame = np.random.default_rng(0).normal(size=(8, 3))
-    given = frame.copy()
-    np.testing.assert_allclose(run.carry(frame), run.jacobian @ frame, rtol=0, atol=1e-12 * np.abs(run.jacobian).max())
-    np.testing.assert_array_equal(frame, given)
-
-
 def test_jacobian_of_impacts_that_leave_hardly_any_velocity(chapter):
     system, start = chapter(kappa=1e-12), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
     run = vi.simulate(system, start, 3)

@@ -54,13 +54,7 @@ def pair(values, i, value):
 @inlined
 def with_velocity(values, i, velocity):
     """Return the boxes (or balls) with the velocity in module i replaced."""
-    return (values[0], values[1], velocity, values[3]) if i == 0 else (values[0], values[1], values[2], velocity)
-
-
-@inlined
-def with_position(values, i, position):
-    """Return the boxes (or balls) with the position in module i replaced."""
-    return (position, values[1], values[2], values[3]) if i == 0 else (values[0], position, values[2], values[3])
+    return values[:2] + pair(values[2:], i, velocity)
 
 
 @inlined
@@ -135,18 +129,6 @@ def pack(boxes, balls, state):
         state[2 * i + 1] = balls[i]
 
 
-class Moment(NamedTuple):
-    """Instant of a run.
-
-    elapsed: time since the start of the run. remaining: time to the end of the run. due: index (0 or 1) of the
-    module in which an event is due now, or -1.
-    """
-
-    elapsed: float
-    remaining: float
-    due: int
-
-
 @inlined
 def impact(q, box, ball):
     """Return the velocities (X', Y') after an impact, from the velocities `box` and `ball` before the impact.
@@ -173,8 +155,7 @@ def common_velocity(q, box, ball):
 @inlined
 def box_accelerations(q, walls, boxes, sine):
     """Return the accelerations of both boxes, given the walls to which balls stick and the sine of the phase."""
-    i1, i2 = inverse_masses(q, mode_of(walls))
-    return acceleration(q, (i1, i2), (boxes[0], boxes[1]), (boxes[2], boxes[3]), (q.f1 * sine, q.f2 * sine))
+    return acceleration(q, inverse_masses(q, mode_of(walls)), boxes[:2], boxes[2:], (q.f1 * sine, q.f2 * sine))
 
 
 @inlined
@@ -199,35 +180,31 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
     return force
 
 
-@inlined_source
-def _ends_soon(flow, motion, remaining, i, wall):
-    """Return True if ball i's chatter would end within `remaining` / 2 and half the time that one proof covers."""
-    q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
-    a = wall * box_accelerations(q, motion.walls, boxes, motion.sine)[i]
-    u = -wall * (boxes[2 + i] - balls[2 + i])
-    return 4.0 * u <= a * (1.0 - q.kappa) * min(remaining, LOOKAHEAD * flow.unit)
+@inlined
+def _hop(q, motion, i, wall):
+    """Return (u, a): inward speed at which ball i leaves a wall, and acceleration of its box towards the ball."""
+    a = wall * box_accelerations(q, motion.walls, motion.boxes, motion.sine)[i]
+    return -wall * (motion.boxes[2 + i] - motion.balls[2 + i]), a
 
 
 @inlined_source
 def _end_of_chatter(flow, motion, i, counters):
-    """Return (True if the chatter of ball i may be completed now, time until the chatter ends).
+    """Return the time until the chatter of ball i ends, or -1 if the chatter may not be completed now.
 
-    The ball leaves the wall at the inward speed u, and the acceleration of the box towards the ball is a. Each hop is
-    shorter than the one before by the factor kappa, so that the chatter ends after T = 2 u / (a (1 - kappa)).
-    Completing the chatter at once conserves the momentum of box and ball, but neglects the spring force due to the
-    ball's distance from the wall during the hops. The neglected effect is of the order u^3 / a^2.
+    With u and a from `_hop`, each hop is shorter than the one before by the factor kappa, so that the chatter ends
+    after T = 2 u / (a (1 - kappa)). Completing the chatter at once conserves the momentum of box and ball, but neglects
+    the spring force due to the ball's distance from the wall during the hops. The neglected effect is of the order
+    u^3 / a^2.
     """
-    q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
-    wall = motion.touching[i]
-    a = wall * box_accelerations(q, motion.walls, boxes, motion.sine)[i]
-    u = -wall * (boxes[2 + i] - balls[2 + i])
+    q, boxes, balls, wall = flow.coefficients, motion.boxes, motion.balls, motion.touching[i]
+    u, a = _hop(q, motion, i, wall)
     if a <= acceleration_rounding(q, boxes, i):
-        return False, 0.0
+        return -1.0
     neglected = q.epsilon * (q.k11 + q.k22) * u**3 / (a * a * (1.0 - q.kappa**3))
     height = u * u / (2.0 * a)
     unresolved = height <= gap_rounding(q, boxes, balls, i)
     if (neglected > NEGLIGIBLE or height > HIGHEST_HOP) and not unresolved:
-        return False, 0.0
+        return -1.0
     total = 2.0 * u / (a * (1.0 - q.kappa))
     window = 2.0 * total
     mode = mode_of(motion.walls)
@@ -235,25 +212,13 @@ def _end_of_chatter(flow, motion, i, counters):
     bound = remainder(q, mode, jets, window * q.growth)
     p = jets[0] if i == 0 else jets[1]
     if 8.0 * window * spread(p, bound, window) > a:
-        return False, 0.0
+        return -1.0
     t, width, _ = module_time(q, motion, 1 - i, jets, bound, window, 0.0)
     clear = t >= window and not width < window
     if not clear and not unresolved:
-        return False, 0.0
+        return -1.0
     counters[NEGLECTED] += neglected
-    if not clear:
-        return True, 0.0
-    return True, total * (1.0 - 2.0 * wall * p[3] * total / a)
-
-
-@inlined_source
-def _complete(flow, motion, i, counters):
-    """Complete the chatter of ball i if possible; return (motion, time until the chatter ends, or -1)."""
-    done, end = _end_of_chatter(flow, motion, i, counters)
-    if not done:
-        return motion, -1.0
-    counters[CHATTERS] += 1
-    return with_contacts(_joined(flow.coefficients, motion, i), i, motion.touching[i], 0), end
+    return total * (1.0 - 2.0 * wall * p[3] * total / a) if clear else 0.0
 
 
 @inlined
@@ -265,18 +230,20 @@ def _joined(q, motion, i):
 
 
 @inlined
-def resolve(flow, motion, moment, log):
-    """Return the motion after all events of the instant `moment`.
+def resolve(flow, motion, elapsed, remaining, due, log):
+    """Return the motion after all events of an instant.
+
+    elapsed: time since the start of the run. remaining: time to the end of the run. due: index (0 or 1) of the module
+    in which an event is due now, or -1.
 
     Contact forces on balls at rest are checked after all impacts, since an impact in one module can release the ball of
     the other module. Chatters are completed last, since their ends are later than this instant.
     """
-    due, elapsed = moment.due, moment.elapsed
     pulled = due if due >= 0 and motion.walls[due] != 0 else -1
     chatters = (False, False)
     for i in range(2):
         if motion.walls[i] == 0:
-            motion, ends = _apply_impact(flow, motion, i, moment, log)
+            motion, ends = _apply_impact(flow, motion, i, i == due, elapsed, remaining, log)
             chatters = pair(chatters, i, ends)
     for i in range(2):
         if motion.walls[i] != 0 or (motion.touching[i] != 0 and motion.boxes[2 + i] == motion.balls[2 + i]):
@@ -287,20 +254,21 @@ def resolve(flow, motion, moment, log):
 
 
 @inlined_source
-def _apply_impact(flow, motion, i, moment, log):
-    """Apply the impact of ball i, which flies, if the ball has reached a wall.
+def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
+    """Apply the impact of ball i, which flies, if the ball has reached a wall; due: True if the impact is due now.
 
-    Returns (motion, True if a chatter that begins with this impact would end soon, see `_ends_soon`).
+    Returns (motion, True if a chatter that begins with this impact would end soon: within half the remaining time, and
+    within half the time that one proof covers).
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
     wall = 1 if relative > 0.0 else -1
-    if i != moment.due and 1.0 - wall * relative > gap_rounding(q, boxes, balls, i):
+    if not due and 1.0 - wall * relative > gap_rounding(q, boxes, balls, i):
         return motion, False
     slow = RESOLUTION * (abs(boxes[2 + i]) + abs(balls[2 + i]))
-    if i != moment.due and wall * velocity < -slow and wall * relative < 1.0:  # the ball moves away from the wall
+    if not due and wall * velocity < -slow and wall * relative < 1.0:  # the ball moves away from the wall
         return with_contacts(motion, i, 0, wall), False
-    balls = with_position(balls, i, boxes[i] - wall)
+    balls = pair(balls[:2], i, boxes[i] - wall) + balls[2:]
     motion = with_contacts(with_boxes_and_balls(motion, boxes, balls), i, 0, wall)
     if abs(velocity) <= slow:
         return with_boxes_and_balls(motion, boxes, with_velocity(balls, i, boxes[2 + i])), False
@@ -311,8 +279,9 @@ def _apply_impact(flow, motion, i, moment, log):
     motion = with_boxes_and_balls(motion, with_velocity(boxes, i, box), with_velocity(balls, i, ball))
     if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # rebound speed below rounding
         motion = _joined(q, motion, i)
-    record(log, moment.elapsed, i, wall, IMPACT, motion.boxes, motion.balls, velocity)
-    return motion, _ends_soon(flow, motion, moment.remaining, i, wall)
+    record(log, elapsed, i, wall, IMPACT, motion.boxes, motion.balls, velocity)
+    u, a = _hop(q, motion, i, wall)
+    return motion, 4.0 * u <= a * (1.0 - q.kappa) * min(remaining, LOOKAHEAD * flow.unit)
 
 
 @inlined
@@ -341,7 +310,7 @@ def _stick_or_release(q, motion, i, pulled, elapsed, log):
 def _complete_both(flow, motion, chatters, elapsed, log):
     """Return the motion after completing the chatter of each ball, where possible.
 
-    chatters: for each ball, True if its chatter would end soon (`_ends_soon`).
+    chatters: for each ball, True if its chatter would end soon (`_apply_impact`).
 
     The ends of the chatters are recorded last, in order of time and with the states at these times.
     """
@@ -349,8 +318,11 @@ def _complete_both(flow, motion, chatters, elapsed, log):
     ends, inward = (-1.0, -1.0), (abs(boxes[2] - balls[2]), abs(boxes[3] - balls[3]))
     for i in range(2):
         if chatters[i] and motion.touching[i] != 0:
-            motion, end = _complete(flow, motion, i, log.counters)
+            end = _end_of_chatter(flow, motion, i, log.counters)
             ends = pair(ends, i, end)
+            if end >= 0.0:
+                log.counters[CHATTERS] += 1
+                motion = with_contacts(_joined(flow.coefficients, motion, i), i, motion.touching[i], 0)
     for i in range(2):  # completing a chatter may pull the other ball off its wall
         if motion.walls[i] != 0 and ends[i] < 0.0:
             motion = _stick_or_release(flow.coefficients, motion, i, False, elapsed, log)

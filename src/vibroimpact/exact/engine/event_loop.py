@@ -84,17 +84,20 @@ def _first_event(q, motion, jets, bound, horizon, short):
 
     The module is -1 if no event is certainly the first. doubt: `undecided` from `module_time` for the first event.
     """
-    one = _first_to_check(motion.boxes, motion.balls)
+    # check first the module whose ball would be first at the wall ahead of it, at constant relative velocity
+    (x1, x2, v1, v2), (y1, y2, u1, u2) = motion.boxes, motion.balls
+    gap1, gap2 = 1.0 - math.copysign(1.0, v1 - u1) * (x1 - y1), 1.0 - math.copysign(1.0, v2 - u2) * (x2 - y2)
+    one = 0 if gap1 * abs(v2 - u2) <= gap2 * abs(v1 - u1) else 1
     two = 1 - one
-    t1, w1, u1 = module_time(q, motion, one, jets, bound, horizon, short)
+    t1, w1, doubt1 = module_time(q, motion, one, jets, bound, horizon, short)
     w, s1 = _bounds(t1, w1, short)
     # check the other module for a little longer, so that none of its events precedes the first event unnoticed
-    t2, w2, u2 = module_time(q, motion, two, jets, bound, min(t1 + w + short, horizon), short)
+    t2, w2, doubt2 = module_time(q, motion, two, jets, bound, min(t1 + w + short, horizon), short)
     v, s2 = _bounds(t2, w2, short)
     if w1 < math.inf and t1 + w <= s2:
-        return one, t1, w, s1, u1
+        return one, t1, w, s1, doubt1
     if w2 < math.inf and t2 + v <= s1:
-        return two, t2, v, s2, u2
+        return two, t2, v, s2, doubt2
     return -1, 0.0, 0.0, min(s1, s2), False
 
 
@@ -103,15 +106,6 @@ def _bounds(t, width, short):
     """Return (uncertainty of `t`, end of the interval without events) from the `t` and `width` of `module_time`."""
     w = 0.0 if width == math.inf or abs(t) <= short else width
     return w, t - w
-
-
-@inlined_source
-def _first_to_check(boxes, balls):
-    """Return the module (0 or 1) whose ball would be first at the wall ahead of it, at constant relative velocity."""
-    v1, v2 = boxes[2] - balls[2], boxes[3] - balls[3]
-    g1 = 1.0 - math.copysign(1.0, v1) * (boxes[0] - balls[0])
-    g2 = 1.0 - math.copysign(1.0, v2) * (boxes[1] - balls[1])
-    return 0 if g1 * abs(v2) <= g2 * abs(v1) else 1
 
 
 @inlined
@@ -152,8 +146,8 @@ MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages
 EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
 """Indices in the array of a run, (RUN_LENGTH,). The array contains the state in public order, the other fields of
-`Progress`, the number of events in earlier rows (EARLIER_EVENTS), the `Span`, and the time on the sample clock at the
-start (CLOCK)."""
+`Progress`, the number of events in earlier rows (EARLIER_EVENTS), the phase at the start with its rounding remainder
+and the number of forcing cycles (from SPAN on), and the time on the sample clock at the start (CLOCK)."""
 
 
 class Progress(NamedTuple):
@@ -174,22 +168,6 @@ class Progress(NamedTuple):
     stalled: int
 
 
-class Span(NamedTuple):
-    """Start and length of a run: forcing phase at the start with its remainder, and number of forcing cycles."""
-
-    phase: float
-    tail: float
-    cycles: int
-
-
-class Sampling(NamedTuple):
-    """Ascending sample times (n,), on a clock that shows `start` when the run starts, and the sampled states (n, 8)."""
-
-    start: float
-    times: np.ndarray
-    states: np.ndarray
-
-
 @compiled
 def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """Continue a run to its end or to a pause; return the status.
@@ -198,14 +176,22 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     samples (n, 8): filled with the states at these times, at the time of an event with the state after the event. run,
     rows, counters: as from `memory`; updated. run[:8] is then the state reached.
 
-    The status is PAUSED if the rows are full (`is_full`; then call `empty_rows`), or after INTERRUPT_INTERVAL
-    exclusions, so that the interpreter can handle an interrupt; call the function again to continue. Only a number is
-    returned, because an interrupt during the conversion of a tuple would leave the tuple incomplete.
+    The status is PAUSED if the rows may be too few for the events of the next instant, or after INTERRUPT_INTERVAL
+    exclusions, so that the interpreter can handle an interrupt. To continue, call the function again with new rows,
+    after counting the events in the rows as earlier events. Only a number is returned, because an interrupt during the
+    conversion of a tuple would leave the tuple incomplete.
     """
+    boxes, balls = (run[0], run[2], run[4], run[6]), (run[1], run[3], run[5], run[7])
+    motion = Motion(boxes, balls, (int(run[8]), int(run[9])), (int(run[10]), int(run[11])), 0.0, 1.0)
+    progress = Progress(motion, int(run[12]), run[13], run[14], int(run[15]), run[16], int(run[17]), int(run[18]))
     flow, log, interval = unpacked(numbers, series, rotations), Log(rows, counters), np.int64(INTERRUPT_INTERVAL)
-    span, sampling = Span(run[SPAN], run[SPAN + 1], int(run[SPAN + 2])), Sampling(run[CLOCK], times, samples)
-    progress, status = run_until(flow, progress_of(run), span, sampling, log, run[EARLIER_EVENTS], interval)
-    write_progress(progress, run)
+    span, sampling = (run[SPAN], run[SPAN + 1], int(run[SPAN + 2])), (run[CLOCK], times, samples)
+    progress, status = run_until(flow, progress, span, sampling, log, run[EARLIER_EVENTS], interval)
+    (boxes, balls, walls, touching, _, _), due, phase, tail, revolutions, elapsed, sampled, stalled = progress
+    pack(boxes, balls, run)
+    run[8], run[9], run[10], run[11] = walls[0], walls[1], touching[0], touching[1]
+    run[12], run[13], run[14], run[15] = due, phase, tail, revolutions
+    run[16], run[17], run[18] = elapsed, sampled, stalled
     return status
 
 
@@ -220,41 +206,15 @@ def memory(state, phase, tail, cycles, clock):
     return run, np.empty((room, contact.ROW)), np.zeros(contact.ENTRIES)
 
 
-def is_full(rows, counters):
-    """Return True if the rows may be too few for the events of the next instant."""
-    return counters[EVENTS] + MOST_AT_ONCE > len(rows)
-
-
-def empty_rows(run, counters):
-    """Count the events in the rows as earlier events, so that the run continues in new rows."""
-    run[EARLIER_EVENTS] += counters[EVENTS]
-    counters[EVENTS] = 0.0
-
-
-@inlined_source
-def progress_of(run):
-    """Return the `Progress` of a run from the array of the run."""
-    boxes, balls = (run[0], run[2], run[4], run[6]), (run[1], run[3], run[5], run[7])
-    motion = Motion(boxes, balls, (int(run[8]), int(run[9])), (int(run[10]), int(run[11])), 0.0, 1.0)
-    return Progress(motion, int(run[12]), run[13], run[14], int(run[15]), run[16], int(run[17]), int(run[18]))
-
-
-@inlined_source
-def write_progress(progress, run):
-    """Write the `Progress` of a run to the array of the run."""
-    (boxes, balls, walls, touching, _, _), due, phase, tail, revolutions, elapsed, sampled, stalled = progress
-    pack(boxes, balls, run)
-    run[8], run[9], run[10], run[11] = walls[0], walls[1], touching[0], touching[1]
-    run[12], run[13], run[14], run[15] = due, phase, tail, revolutions
-    run[16], run[17], run[18] = elapsed, sampled, stalled
-
-
 @in_place
 def run_until(flow, progress, span, sampling, log, earlier, interval):
     """Continue a run to its end or to a pause; return (progress, status).
 
-    The run pauses if `log.rows` are full or after more than `interval` exclusions. earlier: number of events in earlier
-    rows.
+    The run pauses if `log.rows` are full or after more than `interval` exclusions.
+
+    span: forcing phase at the start of the run with its rounding remainder, and number of forcing cycles. sampling:
+    time on the clock of the samples at the start of the run, ascending sample times (n,) on this clock, and array
+    (n, 8) for the sampled states. earlier: number of events in earlier rows.
     """
     q = flow.coefficients
     (first, first_tail, cycles), (start, sample_times, samples) = span, sampling
@@ -271,7 +231,7 @@ def run_until(flow, progress, span, sampling, log, earlier, interval):
         whole = cycles - revolutions
         remaining = max((whole * TWO_PI - ahead_of_start + whole * TWO_PI_TAIL) / q.omega, 0.0)
         motion = Motion(motion.boxes, motion.balls, motion.walls, motion.touching, sine, cosine)
-        motion = contact.resolve(flow, motion, contact.Moment(elapsed, remaining, due), log)
+        motion = contact.resolve(flow, motion, elapsed, remaining, due, log)
         count = int(log.counters[EVENTS])
         for k in range(noted, count):
             log.rows[k, contact.PHASE], log.rows[k, contact.SINE], log.rows[k, contact.COSINE] = phase, sine, cosine

@@ -25,16 +25,9 @@ def least(c, t):
     """Return a lower bound for the polynomial c (8,) on [0, t]: its least coefficient in the Bernstein basis."""
     t2 = t * t
     t3, t4 = t2 * t, t2 * t2
-    b = (
-        c[0],
-        c[1] * t * (1 / 7),
-        c[2] * t2 * (1 / 21),
-        c[3] * t3 * (1 / 35),
-        c[4] * t4 * (1 / 35),
-        c[5] * (t2 * t3) * (1 / 21),
-        c[6] * (t3 * t3) * (1 / 7),
-        c[7] * (t3 * t4),
-    )
+    first = c[0], c[1] * t * (1 / 7), c[2] * t2 * (1 / 21), c[3] * t3 * (1 / 35)
+    second = c[4] * t4 * (1 / 35), c[5] * (t2 * t3) * (1 / 21), c[6] * (t3 * t3) * (1 / 7), c[7] * (t3 * t4)
+    b = first + second
     low = c[0]
     for _ in range(7):  # coefficient k is the sum of the terms b with row k of Pascal's triangle as weights
         b = (b[0] + b[1], b[1] + b[2], b[2] + b[3], b[3] + b[4], b[4] + b[5], b[5] + b[6], b[6] + b[7], b[7])
@@ -225,22 +218,12 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
     boxes under the second derivative of the forcing.
     """
     one, two = jets
-    fall = -q.omega * q.omega
-    start = (2.0 * one[2], 2.0 * two[2], 6.0 * one[3], 6.0 * two[3])
+    fall = -wall * q.omega * q.omega
+    start = (wall * 2.0 * one[2], wall * 2.0 * two[2], wall * 6.0 * one[3], wall * 6.0 * two[3])
     bent = jet(q, mode, start, fall * sine, fall * cosine)
     both = remainder(q, mode, bent, horizon * q.growth * q.omega**2)
     bound = own_remainder(q, mode, bent, both, i, abs(q.f1 if i == 0 else q.f2) * q.omega**8, horizon)
-    p = bent[0] if i == 0 else bent[1]
-    return (
-        wall * p[0],
-        wall * p[1],
-        wall * p[2],
-        wall * p[3],
-        wall * p[4],
-        wall * p[5],
-        wall * p[6],
-        wall * p[7],
-    ), bound
+    return (bent[0] if i == 0 else bent[1]), bound
 
 
 @inlined

@@ -307,7 +307,7 @@ def _digits(value):
 
     Both numbers count the bits after the binary point.
     """
-    return _GUARD_BITS + max(math.ceil(abs(value)).bit_length(), 0)
+    return _GUARD_BITS + math.ceil(abs(value)).bit_length()
 
 
 @lru_cache(maxsize=64)

@@ -52,10 +52,8 @@ def exact_rates(parameters):
                         high, low = _ratio(high, low, mass, mass_low)
                     rates[k, 0, mode, 2 + i, j], rates[k, 1, mode, 2 + i, j] = high, low
         for j in range(2):
-            middle, half = (
-                (rows[0, 0, 2 * j] + rows[0, 1, 2 * j + 1]) / 2,
-                (rows[0, 0, 2 * j] - rows[0, 1, 2 * j + 1]) / 2,
-            )
+            middle = (rows[0, 0, 2 * j] + rows[0, 1, 2 * j + 1]) / 2
+            half = (rows[0, 0, 2 * j] - rows[0, 1, 2 * j + 1]) / 2
             fastest[k, j] = math.sqrt(half * half + rows[0, 0, 2 * j + 1] ** 2) - middle
         fastest[k, 0] = math.sqrt(fastest[k, 0])
     return rates, impulses, fastest
@@ -139,12 +137,10 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
                         rate, rest = rates[0, k, n, j] * spacing, rates[1, k, n, j] * spacing
                         high, low = _plus_product(high, low, term[0, i, n, 0], term[1, i, n, 0], rate, rest)
                 high, low = _normal(high, low)
-                after[0, i, j, 0], after[1, i, j, 0] = _over(high, low, order)
-        for i in range(SIZE):
-            for j in range(SIZE):
-                high, low = after[0, i, j, 0], after[1, i, j, 0]
-                term[0, i, j, 0], term[1, i, j, 0] = high, low
+                high, low = _ratio(high, low, 1.0 * order, 0.0)
+                after[0, i, j, 0], after[1, i, j, 0] = high, low
                 powers[0, i, j, 1], powers[1, i, j, 1] = _sum(powers[0, i, j, 1], powers[1, i, j, 1], high, low)
+        term, after = after, term
 
 
 @inlined_source
@@ -165,9 +161,7 @@ def _fill_coefficients(rates, k, rows, power, after):
                 for n in range(SIZE):
                     total += power[0, i, n, 0] * rates[0, k, n, j]
                 after[0, i, j, 0] = total / (m + 1)
-        for i in range(SIZE):
-            for j in range(SIZE):
-                power[0, i, j, 0] = after[0, i, j, 0]
+        power, after = after, power
 
 
 @inlined_source
@@ -228,13 +222,6 @@ def _sum(a, a_low, b, b_low):
     total = a + b
     part = total - a
     return _normal(total, (a - (total - part)) + (b - part) + (a_low + b_low))
-
-
-@inlined
-def _over(high, low, k):
-    """Return the double-double number (high, low) divided by a small integer k."""
-    quotient = high / k
-    return _normal(quotient, (fused(-quotient, k, high) + low) / k)
 
 
 @inlined

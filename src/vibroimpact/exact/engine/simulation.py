@@ -3,7 +3,7 @@
 import math
 import numbers
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from functools import cached_property
 
@@ -47,17 +47,12 @@ def checked_state(state) -> np.ndarray:
         raise ValueError(
             f"state: needs 8 finite numbers [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], got {short_repr(values)}"
         )
-    x1, y1, x2, y2 = values[:4]
-    if abs(x1 - y1) > 1.0 or abs(x2 - y2) > 1.0:
-        _check_walls((1, x1, y1), (2, x2, y2))
-    return state
-
-
-def _check_walls(*modules):
-    for module, box, ball in modules:
+    for module in (1, 2):
+        box, ball = values[2 * module - 2 : 2 * module]
         relative = abs(box - ball)
         if relative > 1.0 + WALL_TOLERANCE + 2.0 * math.ulp(max(abs(box), abs(ball))):
             raise ValueError(f"state: |X{module} - Y{module}| = {relative} is above 1, the ball is beyond a wall")
+    return state
 
 
 def within_walls(states) -> np.ndarray:
@@ -78,7 +73,11 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
         If an argument is malformed, or if |tau| reaches LARGEST_TIME during the run.
     """
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
-    begin = _instant(tau0)
+    if isinstance(tau0, Instant):
+        begin = tau0
+    else:  # keep a float as it is, and another rational number without rounding
+        number = real("tau0", tau0)
+        begin = exactly(tau0) if isinstance(tau0, numbers.Rational) else number
     start = float(begin)
     end = start + cycles * system.period
     if not (abs(start) < LARGEST_TIME and abs(end) < LARGEST_TIME):
@@ -88,14 +87,6 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
             "apart. The motion stays the same if whole forcing periods are subtracted from tau0"
         )
     return begin, cycles
-
-
-def _instant(tau0):
-    """Return tau0 without rounding: a float as it is, another rational number as an Instant."""
-    if isinstance(tau0, Instant):
-        return tau0
-    number = real("tau0", tau0)
-    return exactly(tau0) if not isinstance(tau0, float) and isinstance(tau0, numbers.Rational) else number
 
 
 def checked_times(name, times, start, end) -> np.ndarray:
@@ -117,7 +108,7 @@ def checked_times(name, times, start, end) -> np.ndarray:
     return times
 
 
-@dataclass(frozen=True, eq=False, repr=False, init=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Run(Representation):
     """A simulated motion.
 
@@ -151,17 +142,13 @@ class Run(Representation):
     pieces: list[np.ndarray]
     counters: np.ndarray
 
-    def __init__(self, system, start, begin, cycles, samples, final, pieces, counters):
-        fields = self.__dict__  # in a frozen class, one update takes half the time of single assignments
-        fields.update(system=system, start=start, begin=begin, cycles=cycles)
-        fields.update(samples=samples, final=final, pieces=pieces, counters=counters)
-        for array in (start, samples, final, counters):
+    def __post_init__(self):
+        for array in (self.start, self.samples, self.final, self.counters):
             array.flags.writeable = False
 
     def __reduce__(self):
         """Copy or unpickle a run through its constructor, because copies of NumPy arrays lose the read-only flag."""
-        given = self.system, self.start, self.begin, self.cycles, self.samples, self.final, self.pieces, self.counters
-        return type(self), given
+        return type(self), tuple(getattr(self, field.name) for field in fields(self))
 
     def _shown(self):
         counts = np.bincount(self.events["kind"], minlength=len(KINDS))
@@ -219,24 +206,9 @@ class Run(Representation):
 
         The derivative includes the effects of impacts, chatter, sticking and releases.
         """
-        jacobian = self.carry(np.eye(8))
+        jacobian = propagate(*self.trajectory, np.eye(8)[INNER_ORDER])[PUBLIC_ORDER]
         jacobian.flags.writeable = False
         return jacobian
-
-    def carry(self, perturbations: np.ndarray) -> np.ndarray:
-        """Propagate small perturbations of the initial state to the final state, to first order.
-
-        Parameters
-        ----------
-        perturbations : ndarray
-            Perturbations as columns, shape (8, k).
-
-        Returns
-        -------
-        ndarray
-            Perturbations of the final state, shape (8, k).
-        """
-        return propagate(*self.trajectory, perturbations[INNER_ORDER])[PUBLIC_ORDER]
 
     @cached_property
     def certificate(self) -> Certificate:
@@ -422,9 +394,8 @@ def simulate_many(
     4
     """
     instance("system", system, System)
-    states = np.ascontiguousarray(
-        states_array("states", states)
-    )  # another memory order would trigger another compilation
+    # Another memory order would trigger another compilation.
+    states = np.ascontiguousarray(states_array("states", states))
     if states.ndim != 2 or states.shape[1] != 8:
         raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
     for row, state in enumerate(states):
@@ -455,10 +426,9 @@ def attempt(system, state, cycles, begin, times, clock):
     run, rows, counters = event_loop.memory(state, *phase_at(begin, system.Omega), cycles, clock)
     tables, samples, pieces = tables_of(system), np.empty((len(times), 8)), []
     while (status := event_loop.integrate(*tables, run, times, samples, rows, counters)) == event_loop.PAUSED:
-        if event_loop.is_full(rows, counters):
-            pieces.append(rows[: int(counters[contact.EVENTS])])
-            event_loop.empty_rows(run, counters)
-            rows = np.empty((event_loop.ROWS_PER_PIECE, contact.ROW))
+        pieces.append(rows[: int(counters[contact.EVENTS])])
+        run[event_loop.EARLIER_EVENTS] += counters[contact.EVENTS]
+        rows, counters[contact.EVENTS] = np.empty((event_loop.ROWS_PER_PIECE, contact.ROW)), 0.0
         stop_if_cancelled()
     pieces.append(rows[: int(counters[contact.EVENTS])])
     return status, Run(system, state, begin, cycles, samples, run[:8].copy(), pieces, counters)

@@ -124,18 +124,8 @@ def ensemble(
     order = np.argsort(numbers, axis=None, kind="stable")  # runs of one system share its tables
     share = -(-numbers.size // cores())
     size = max(min(MOST_RUNS, share, max(share // SHARES, 8 * WIDTH)), 1)
-    pieces = [
-        (
-            known,
-            begins,
-            numbers.ravel(),
-            starts,
-            (settle, cycles, 1 if by_cycle else cycles - settle),
-            filled,
-            order[first : first + size],
-        )
-        for first in range(0, len(order), size)
-    ]
+    shared = known, begins, numbers.ravel(), starts, (settle, cycles, 1 if by_cycle else cycles - settle), filled
+    pieces = [(*shared, order[first : first + size]) for first in range(0, len(order), size)]
     on_all_cores(_run, pieces, [len(piece[-1]) for piece in pieces], progress)
     return outcomes[..., : cycles - settle] if by_cycle else outcomes[..., 0]
 

@@ -9,7 +9,7 @@ from vibroimpact.exact.engine import event_loop
 from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlined_source
 from vibroimpact.exact.engine.contact import ENTRIES, EVENTS, ROW, Log, Motion
 from vibroimpact.exact.engine.energy import Squares
-from vibroimpact.exact.engine.event_loop import FINISHED, PAUSED, Progress, Sampling, Span, run_until
+from vibroimpact.exact.engine.event_loop import FINISHED, PAUSED, Progress, run_until
 from vibroimpact.exact.engine.flow import TWO_PI, mode_of, unpacked
 from vibroimpact.exact.engine.flow_tables import ORDERS, fill_table
 from vibroimpact.exact.engine.variation import Departure
@@ -43,7 +43,7 @@ class Piece(NamedTuple):
     status: np.ndarray
     final: np.ndarray
     statistics: np.ndarray
-    continued: bool = False
+    continued: bool
 
 
 class Memory(NamedTuple):
@@ -107,7 +107,10 @@ def run_lanes(piece, memory):
         if alive == 0:
             return True
         if done > INTERRUPT_INTERVAL:
-            _stop_crowded(piece, m)
+            most = event_loop.MOST_EVENTS + event_loop.MOST_EVENTS_PER_CYCLE * float(piece.stages[1])
+            for lane in range(WIDTH):
+                if m.members[lane] >= 0 and m.runs[rows.EVENTS, lane] > most:
+                    piece.status[m.members[lane]], m.members[lane] = event_loop.CROWDED, -1
             return False
         done += steps.advance_lanes(m.runs, m.constants, m.work, max(3 * alive // 4, 1)) + 16
         if steps.step_to_event(m.runs, m.constants, m.work, piece.drifts.shape[2]) == 0:
@@ -267,24 +270,21 @@ def _write_statistics(m, lane):
         m.runs[STATISTICS_AT + k, lane] = m.statistics[k]
 
 
-@in_place
-def _stop_crowded(piece, m):
-    """Stop runs with too many events, with the status CROWDED."""
-    most = event_loop.MOST_EVENTS + event_loop.MOST_EVENTS_PER_CYCLE * float(piece.stages[1])
-    for lane in range(WIDTH):
-        if m.members[lane] >= 0 and m.runs[rows.EVENTS, lane] > most:
-            piece.status[m.members[lane]], m.members[lane] = event_loop.CROWDED, -1
-
-
 @inlined_source
 def _run_by_events(piece, flow, squares, lane, m):
-    """Continue the run in a lane by the event loop until both balls fly; return PAUSED then, or its final status."""
-    runs, counters, unsampled = m.runs[:, lane], m.counters[lane], Sampling(0.0, np.empty(0), np.empty((0, 8)))
+    """Continue the run in a lane by the event loop until both balls fly; return PAUSED then, or its final status.
+
+    A new flight then begins in the lane.
+    """
+    runs, counters, unsampled = m.runs[:, lane], m.counters[lane], (0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[rows.FIRST, lane], m.constants[rows.FIRST_TAIL, lane]
-    progress = _progress_of(m.runs, lane, first, flow.coefficients.omega)
+    phase, tail, turns = runs[rows.PHASE], runs[rows.TAIL], int(runs[rows.REVOLUTIONS])
+    elapsed = (turns * TWO_PI + ((phase - first[0]) + (tail - first[1]))) / flow.coefficients.omega
+    stalled, due, motion = int(runs[rows.STALLED]), int(runs[rows.DUE]), _motion_of(m.runs, lane)
+    progress = Progress(motion, due, phase, tail, turns, elapsed, 0, stalled)
     while True:
         _make_tables(flow, piece.rates[piece.owners[m.members[lane]]], progress, m.made[m.slots[lane]], m.change)
-        leaving, span = progress, Span(*first, int(runs[rows.STOP]))
+        leaving, span = progress, (*first, int(runs[rows.STOP]))
         counters[EVENTS] = 0.0
         log, earlier = Log(m.log, counters), runs[rows.EVENTS]
         progress, ended = run_until(flow, progress, span, unsampled, log, earlier, np.int64(0))
@@ -297,22 +297,6 @@ def _run_by_events(piece, flow, squares, lane, m):
             continue
         if ended != PAUSED or mode_of(walls) == 0:
             break
-    _write_progress(runs, motion, progress)
-    return ended
-
-
-@inlined_source
-def _progress_of(runs, lane, first, omega):
-    """Return the run in a lane as `Progress` for the event loop; first: initial phase with its tail."""
-    phase, tail, turns = runs[rows.PHASE, lane], runs[rows.TAIL, lane], int(runs[rows.REVOLUTIONS, lane])
-    elapsed = (turns * TWO_PI + ((phase - first[0]) + (tail - first[1]))) / omega
-    stalled, due = int(runs[rows.STALLED, lane]), int(runs[rows.DUE, lane])
-    return Progress(_motion_of(runs, lane), due, phase, tail, turns, elapsed, 0, stalled)
-
-
-@inlined_source
-def _write_progress(runs, motion, progress):
-    """Write the `Progress` of a run from the event loop to its lane, where a flight begins."""
     for i in range(4):
         runs[rows.X1 + i], runs[rows.Y1 + i] = motion.boxes[i], motion.balls[i]
     runs[rows.SINE], runs[rows.COSINE] = motion.sine, motion.cosine
@@ -320,6 +304,7 @@ def _write_progress(runs, motion, progress):
     runs[rows.DUE], runs[rows.STALLED] = progress.due, progress.stalled
     runs[rows.TRIAL] = runs[rows.REACH] = runs[rows.PASSED] = 0.0
     runs[rows.TOUCH1] = runs[rows.TOUCH2] = runs[rows.Y1_LOW] = runs[rows.Y2_LOW] = 0.0
+    return ended
 
 
 @inlined_source

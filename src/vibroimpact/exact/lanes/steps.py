@@ -147,18 +147,6 @@ class Clock(NamedTuple):
     left: Lanes
 
 
-class Impact(NamedTuple):
-    """Impact in each lane: wall, velocities of box and ball after the impact.
-
-    plain: the ball leaves the wall without a chatter that must be completed, so that the lane can go on.
-    """
-
-    wall: Lanes
-    box: Lanes
-    ball: Lanes
-    plain: Mask
-
-
 @in_place
 def step_to_event(runs, c, work, integrals):
     """Advance the waiting runs by one step, which ends at an impact, at the end of the flight or earlier.
@@ -180,16 +168,16 @@ def step_to_event(runs, c, work, integrals):
     limit = _limit(c, size, end.time, rounding)
     proved = _prove(now, then, end, limit, rounding)
     clock = _advance_clock(runs, c, elapsed)
-    impact = _collide(c, then, end, clock, rounding)
+    wall, box, ball, plain = _collide(c, then, end, clock, rounding)
 
     done = pending & (proved | leaves)
-    hits, doubt = done & end.meets & impact.plain, done & end.meets & ~impact.plain
+    hits, doubt = done & end.meets & plain, done & end.meets & ~plain
     hit1, hit2 = hits & end.first, hits & ~end.first
     stops = done & ~end.meets & ~leaves & (elapsed >= load(runs, rows.REACH)) & (clock.left <= SAME_TIME)
     after = Bodies(
-        then.x1, then.x2, where(hit1, impact.box, then.v1), where(hit2, impact.box, then.v2),
-        where(hit1, then.x1 - impact.wall, then.y1), where(hit2, then.x2 - impact.wall, then.y2),
-        where(hit1, impact.ball, u1), where(hit2, impact.ball, u2),
+        then.x1, then.x2, where(hit1, box, then.v1), where(hit2, box, then.v2),
+        where(hit1, then.x1 - wall, then.y1), where(hit2, then.x2 - wall, then.y2),
+        where(hit1, ball, u1), where(hit2, ball, u2),
     )  # fmt: skip
     if integrals > 0:
         flight, early = (done, end.time, elapsed, 1.0 - limit), (x1, x2, v1, v2, s, k)
@@ -201,8 +189,8 @@ def step_to_event(runs, c, work, integrals):
     replace_rows(runs, rows.TRIAL, pending, (trial,))
     replace_rows(runs, rows.Y1_LOW, done, (where(hit1, 0.0, lows[0]), where(hit2, 0.0, lows[1])))
     replace_rows(runs, rows.TOUCH1, done & (end.time > 0.0), (0.0, 0.0))
-    replace_rows(runs, rows.TOUCH1, hit1, (impact.wall,))
-    replace_rows(runs, rows.TOUCH2, hit2, (impact.wall,))
+    replace_rows(runs, rows.TOUCH1, hit1, (wall,))
+    replace_rows(runs, rows.TOUCH2, hit2, (wall,))
     due = where(leaves, load(runs, rows.DUE), -1.0)
     replace_rows(runs, rows.DUE, done, (where(doubt, where(end.first, 0.0, 1.0), due),))
     replace_rows(runs, rows.EVENTS, hits, (load(runs, rows.EVENTS) + 1.0,))
@@ -279,10 +267,10 @@ def _advance_clock(runs, c, elapsed):
 
 @inlined
 def _collide(c, then, end, clock, rounding):
-    """Return the Impact for the lanes where a ball meets a wall.
+    """Return (wall, velocities of box and ball after the impact, mask `plain`) for the lanes where a ball meets a wall.
 
-    The impact is not plain if a chatter that begins with the impact would end soon, or if the relative velocities
-    before or after the impact may be rounding errors.
+    After a plain impact the lane can go on. An impact is not plain if a chatter that begins with the impact would end
+    soon, or if the relative velocities before or after the impact may be rounding errors.
     """
     x1, x2, v1, v2, y1, y2, u1, u2 = then
     kappa, epsilon = load(c, rows.KAPPA), load(c, rows.EPSILON)
@@ -304,7 +292,7 @@ def _collide(c, then, end, clock, rounding):
     push, inward = wall * where(end.first, force1, force2), -wall * (box - ball)
     soon = 4.0 * inward <= push * (1.0 - kappa) * least(clock.left, LOOKAHEAD * load(c, rows.UNIT))
     plain = plain & ~(soon & (inward * inward <= 2.0 * push * (HIGHEST_HOP + 4.0 * rounding)))
-    return Impact(wall, box, ball, plain)
+    return wall, box, ball, plain
 
 
 @inlined
