@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine import contact
-from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
+from vibroimpact.exact.engine.compiled import compiled, inlined
 from vibroimpact.exact.engine.flow import advance_phase
-from vibroimpact.exact.engine.margins import DEPTH, DOUBT, DOUBTS, GAP, hits_of, margins_of, turning_points
+from vibroimpact.exact.engine.margins import DOUBTS, GAP, margins_of, turning_points
 from vibroimpact.exact.engine.variation import (
     AFTER,
     BEFORE,
@@ -21,6 +21,7 @@ from vibroimpact.exact.engine.variation import (
     FORCING,
     LENGTH,
     WALLS,
+    copy,
     fill_end,
     fill_event,
     fill_flight,
@@ -65,7 +66,7 @@ def errors_of(flow, flights, events, limit):
     for n in range(len(flights)):
         estimates[n, 0] = estimates[n, 1] = UNIT * root
         if flights[n, LENGTH] > 0.0:
-            _copy(flights[n], part)
+            copy(flights[n], part)
             _fly(flow, part, errors, matrix, product)
             estimates[n, 1] = UNIT * _root(errors)
         if n < len(events):
@@ -94,9 +95,9 @@ def errors_at(flow, flights, events, times, limit):
     for n in range(len(flights)):
         last = n == len(events)
         while k < len(times) and (last or times[k] < start + flights[n, LENGTH]):
-            _copy(flights[n], part)
-            _copy(errors.independent.flat, there.independent.flat)
-            _copy(errors.repeated.flat, there.repeated.flat)
+            copy(flights[n], part)
+            copy(errors.independent.flat, there.independent.flat)
+            copy(errors.repeated.flat, there.repeated.flat)
             part[LENGTH] = min(max(times[k] - start, 0.0), flights[n, LENGTH])
             _fly(flow, part, there, matrix, product)
             fill_end(flow, part)
@@ -106,7 +107,7 @@ def errors_at(flow, flights, events, times, limit):
             k += 1
         if last:
             break
-        _copy(flights[n], part)
+        copy(flights[n], part)
         _fly(flow, part, errors, matrix, product)
         _pass_event(q, flights, events, n, errors, matrix, product)
         if not _root(errors) <= largest:
@@ -140,17 +141,19 @@ def _fly(flow, flight, errors, matrix, product):
         if left > 0.0:
             fill_end(flow, flight)
             _add_rounding(flow.coefficients, errors, flight[:AFTER], flight[AFTER:], (False, False))
-            _copy(flight[AFTER:], flight[BEFORE:AFTER])
+            copy(flight[AFTER:], flight[BEFORE:AFTER])
             flight[FORCING], _ = advance_phase(flight[FORCING], 0.0, flow.coefficients.omega, flight[LENGTH])
 
 
 @inlined
 def _pass_event(q, flights, events, n, errors, matrix, product):
     """Propagate errors over event n, and add the rounding errors of the event."""
-    _add_miss(errors.independent, flights[n], events[n])
+    i, reached = int(events[n, 1]) - 1, flights[n + 1, BEFORE:AFTER]
+    if events[n, 3] == IMPACT:  # the ball was moved onto its wall
+        miss = 1.0 - abs(flights[n, AFTER + i] - flights[n, AFTER + 4 + i])
+        errors.independent[4 + i, 4 + i] += (miss / UNIT) ** 2
     fill_event(q, flights, events, n, matrix)
     _propagate(matrix, errors, product)
-    i, reached = int(events[n, 1]) - 1, flights[n + 1, BEFORE:AFTER]
     if events[n, 3] == IMPACT:
         follows = (6 if q.epsilon <= 1.0 else 2) + i
         errors.repeated[follows, 4 + i] += REBOUND * (reached[2 + i] - reached[6 + i])
@@ -159,8 +162,16 @@ def _pass_event(q, flights, events, n, errors, matrix, product):
 
 @inlined
 def _end(q, flight, elapsed, errors, rate):
-    """Add to `errors` the effects of rounding the time and the state at the end of a run or at a sample."""
-    _add_time_error(q, errors.independent, flight, elapsed, rate)
+    """Add to `errors` the effects of rounding the time and the state at the end of a run or at a sample.
+
+    The end time of a run is a difference of phases; `elapsed` is then 0. A sample time is a difference of times since
+    the start of the run, so that its rounding error grows with `elapsed`.
+    """
+    late = 2.0 / q.omega + flight[LENGTH] + elapsed
+    _, _, walls = start_of(flight)
+    fill_rate(q, walls, flight[AFTER:], flight[FORCING] + q.omega * flight[LENGTH], rate)
+    for k in range(8):
+        errors.independent[k, k] += (late * rate[k]) ** 2
     _add_rounding(q, errors, flight[:AFTER], flight[AFTER:], (False, False))
 
 
@@ -194,13 +205,6 @@ def _multiply(a, b, product):
 
 
 @inlined
-def _copy(source, target):
-    """Copy entries one by one; for an array assignment Numba would compile an error message, which takes 2 s."""
-    for i in range(len(source)):
-        target[i] = source[i]
-
-
-@inlined
 def _root(errors):
     """Return the root of the sum of the mean squares of errors over all components of the state."""
     total = 0.0
@@ -210,29 +214,6 @@ def _root(errors):
             row += errors.repeated[k, j] ** 2
         total += row
     return math.sqrt(total)
-
-
-@inlined_source
-def _add_miss(covariance, flight, event):
-    """Add to the covariance the square of the distance by which the ball was moved onto its wall at an impact."""
-    if event[3] == IMPACT:
-        i = int(event[1]) - 1
-        miss = 1.0 - abs(flight[AFTER + i] - flight[AFTER + 4 + i])
-        covariance[4 + i, 4 + i] += (miss / UNIT) ** 2
-
-
-@inlined
-def _add_time_error(q, covariance, flight, elapsed, rate):
-    """Add the effect of a rounding error in the time to the covariance at the end of a flight.
-
-    The end time of a run is a difference of phases; `elapsed` is then 0. A sample time is a difference of times since
-    the start of the run, so that its rounding error grows with `elapsed`.
-    """
-    late = 2.0 / q.omega + flight[LENGTH] + elapsed
-    _, _, walls = start_of(flight)
-    fill_rate(q, walls, flight[AFTER:], flight[FORCING] + q.omega * flight[LENGTH], rate)
-    for k in range(8):
-        covariance[k, k] += (late * rate[k]) ** 2
 
 
 @inlined
@@ -341,9 +322,12 @@ class Certificate(Representation):
         """Return the certificate of a finished run."""
         counters, (flow, flights, rows) = run.counters, run.trajectory
         q, phase, duration = flow.coefficients, flights[0, FORCING], run.cycles * run.system.period
-        turns, hits = turning_points(flow, flights), hits_of(q, flights, rows)
+        turns = turning_points(flow, flights)
         errors, error = errors_of(flow, flights, rows, HORIZON_ERROR)
-        margins = margins_of(q, flights, turns, hits, rows, phase, duration)
+        margins, depths, doubts = margins_of(q, flights, turns, rows, phase, duration)
+        known, horizon = np.isfinite(errors), np.inf
+        if not np.isfinite(error):  # the first event or the end with an infinite error
+            horizon = run.tau0 + [*rows[:, 0], duration][np.count_nonzero(known[:, 0]) - 1]
         return cls(
             flights=int(counters[contact.FLIGHTS]),
             exclusions=int(counters[contact.EXCLUSIONS]),
@@ -351,11 +335,11 @@ class Certificate(Representation):
             neglected=float(counters[contact.NEGLECTED]),
             wall_residual=float(counters[contact.RESIDUAL]),
             nearest_miss=float(turns[:, GAP].min()),
-            shallowest_hit=float(hits[:, DEPTH].min(initial=np.inf)),
-            clearance=_least_ratio(margins, errors),
-            undecided=int(counters[contact.UNDECIDED] + turns[:, DOUBTS].sum() + hits[:, DOUBT].sum()),
+            shallowest_hit=float(depths.min(initial=np.inf)),
+            clearance=float((margins / errors).min()) if known.all() else 0.0,
+            undecided=int(counters[contact.UNDECIDED] + turns[:, DOUBTS].sum() + doubts.sum()),
             error=error,
-            horizon=run.tau0 + _horizon(errors, error, rows[:, 0], duration),
+            horizon=horizon,
         )
 
     def _shown(self):
@@ -366,16 +350,3 @@ class Certificate(Representation):
     def decided(self) -> bool:
         """True if `undecided` is 0, `clearance` exceeds CLEARANCE_FACTOR, and the run ends before `horizon`."""
         return not self.undecided and self.clearance > CLEARANCE_FACTOR and bool(np.isfinite(self.error))
-
-
-def _least_ratio(margins, errors):
-    """Return the smallest ratio of a margin to its error, or 0 if an error is inf."""
-    known = np.isfinite(errors)
-    return float((margins[known] / errors[known]).min()) if known.all() else 0.0
-
-
-def _horizon(errors, error, times, duration):
-    """Return the time since the start of the first event (or the end) with infinite error; inf if there is none."""
-    if np.isfinite(error):
-        return np.inf
-    return [*times, duration][np.count_nonzero(np.isfinite(errors[:, 0])) - 1]

@@ -58,18 +58,12 @@ class Squares(NamedTuple):
 NO_POTENTIALS = Squares(np.empty((4, 0, SIZE, SIZE)), np.empty((4, 0)))
 
 
-def _kernels():
-    """Return matrices G with z G z = sin X_1', sin X_2', X_1'^2, X_2'^2 and (X_1' - X_2')^2, shape (5, 6, 6)."""
-    unit = np.eye(SIZE)
-    work = [(np.outer(unit[2 + i], unit[4]) + np.outer(unit[4], unit[2 + i])) / 2 for i in range(2)]
-    difference = unit[2] - unit[3]
-    return np.stack([*work, *(np.diag(unit[2 + i]) for i in range(2)), np.outer(difference, difference)])
-
-
-POSITIONS = np.stack([np.diag(np.eye(SIZE)[i]) for i in range(2)])
-"""Matrices G with z G z = X_1^2 and X_2^2, shape (2, 6, 6)."""
-OBSERVED = np.concatenate([POSITIONS, _kernels()])
-"""Matrices G of all quadratic forms to integrate: X_1^2, X_2^2 and the terms of the energy balance, (7, 6, 6)."""
+X1, X2, V1, V2, SINE = np.eye(SIZE)[:5]
+POSITIONS = (X1, X1), (X2, X2)
+FORMS = *POSITIONS, (SINE, V1), (SINE, V2), (V1, V1), (V2, V2), (V1 - V2, V1 - V2)
+"""Quadratic forms to integrate, as products of two linear forms: X_1^2, X_2^2 and the terms of the energy balance."""
+OBSERVED = np.stack([(np.outer(one, other) + np.outer(other, one)) / 2 for one, other in FORMS])
+"""Matrices G with z G z = each of these forms, (7, 6, 6)."""
 LOSSES, STORED, ENTRIES = 7, 9, 10
 """First index of the losses, index of the stored energy, and length of a row of energies. The row contains 7 integrals,
 the losses in the impacts of both modules, and the change of the stored energy."""
@@ -81,20 +75,9 @@ to ground and in the coupling damper, loss in the impacts of each module, change
 impact_loss, energy_stored = inlined(energy_lost), inlined(stored)
 
 
-def _lyapunov():
-    """Return the linear map from A to the matrix of S -> A^T S + S A, (36, 441), and the form sin^2 + cos^2, (21,).
-
-    Symmetric matrices are represented by the 21 entries of their upper triangle.
-    """
-    units = np.zeros((TRIANGLE, SIZE, SIZE))
-    units[np.arange(TRIANGLE), ROWS, COLUMNS] = units[np.arange(TRIANGLE), COLUMNS, ROWS] = 1.0
-    rates = np.eye(SIZE * SIZE).reshape(-1, 1, SIZE, SIZE)
-    images = rates.transpose(0, 1, 3, 2) @ units + units @ rates
-    images = images[..., ROWS, COLUMNS].transpose(0, 2, 1).reshape(SIZE * SIZE, -1)
-    return np.ascontiguousarray(images), ((ROWS == COLUMNS) & (ROWS >= 4)).astype(float)
-
-
-OPERATORS, FORCED = _lyapunov()
+UNITS = np.zeros((TRIANGLE, SIZE, SIZE))
+UNITS[np.arange(TRIANGLE), ROWS, COLUMNS] = UNITS[np.arange(TRIANGLE), COLUMNS, ROWS] = 1.0
+"""Basis of the symmetric matrices, which are represented by the 21 entries of their upper triangle."""
 
 
 def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -104,10 +87,11 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     True if differences of z S z + c t keep enough digits for the system.
     """
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
-    images = rates.reshape(-1, SIZE * SIZE) @ OPERATORS
-    equations[..., :-1, :-1] = images.reshape(*rates.shape[:2], TRIANGLE, TRIANGLE)
+    images = UNITS @ rates[:, :, None]
+    images = (images + images.swapaxes(-1, -2))[..., ROWS, COLUMNS]  # A^T S + S A for each S of the basis
+    equations[..., :-1, :-1] = images.swapaxes(-1, -2)
     # The matrix S is defined up to a multiple of the form sin^2 + cos^2, which is constant; these entries select one S.
-    equations[..., :-1, -1] = equations[..., -1, :-1] = FORCED
+    equations[..., :-1, -1] = equations[..., -1, :-1] = (ROWS == COLUMNS) & (ROWS >= 4)
     sides = np.zeros((TRIANGLE + 1, len(kernels)))
     sides[:-1] = kernels[:, ROWS, COLUMNS].T
     sides = np.broadcast_to(sides, (*rates.shape[:2], *sides.shape))

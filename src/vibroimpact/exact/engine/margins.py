@@ -23,7 +23,7 @@ from vibroimpact.exact.engine.exclusion import (
     own_remainder,
     remainder,
 )  # fmt: skip
-from vibroimpact.exact.engine.flow import acceleration, advance, advance_phase, inverse_masses, jet, mode_of, value
+from vibroimpact.exact.engine.flow import advance, advance_phase, inverse_masses, jet, mode_of, value
 from vibroimpact.exact.engine.variation import FORCING, LENGTH, completes_chatter, end_of, start_of
 from vibroimpact.system.state import IMPACT, RELEASE
 
@@ -61,10 +61,9 @@ def _search(flow, motion, length, least_of):
     """Record the turns in a flight of length <= flow.longest in `least_of`; return the final boxes and balls."""
     q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
-    now, there, s, c, t = motion.boxes, motion.balls, motion.sine, motion.cosine, 0.0
-    sides, fastest = (0.0, 0.0), q.omega**6
+    now, there, t = motion.boxes, motion.balls, 0.0
+    sides, fastest, jets = (0.0, 0.0), q.omega**6, jet(q, mode, motion.boxes, motion.sine, motion.cosine)
     while t < length:
-        jets = jet(q, mode, now, s, c)
         step = min(length - t, LOOKAHEAD * flow.unit)
         both = remainder(q, mode, jets, step * q.growth)
         own1 = own_remainder(q, mode, jets, both, 0, abs(q.f1) * fastest, step)
@@ -78,9 +77,9 @@ def _search(flow, motion, length, least_of):
         sides = (rate1[0] if rate1[0] != 0.0 else sides[0], rate2[0] if rate2[0] != 0.0 else sides[1])
         end = t + step if t + step > t else length
         now, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, end)
-        there = drift_balls(motion.balls, walls, now, end)
+        there, jets = drift_balls(motion.balls, walls, now, end), jet(q, mode, now, s, c)
         for i in range(2):
-            rate = _rate_at(q, walls, now, there, s, c, i)
+            rate = _rate(q, jets, now, there, walls, i, 0.0)[0][0]
             if rate * sides[i] < 0.0:
                 _note(flow, motion, i, (t, end), (sides[i], rate), least_of)
             if rate != 0.0:
@@ -133,15 +132,6 @@ def _derivative(c):
     return c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 5.0 * c[5], 6.0 * c[6], 7.0 * c[7], 0.0
 
 
-@inlined
-def _rate_at(q, walls, boxes, balls, sine, cosine, i):
-    """Return the rate of the constraint of module i at one point of a flight, up to the sign (see `_rate`)."""
-    if walls[i] == 0:
-        return boxes[2 + i] - balls[2 + i]
-    jets = jet(q, mode_of(walls), boxes, sine, cosine)
-    return 6.0 * (jets[0] if i == 0 else jets[1])[3]
-
-
 @inlined_source
 def _note(flow, motion, i, times, rates, least_of):
     """Find where the rate of module i's constraint is zero between two `times`; record a minimum in `least_of`.
@@ -178,41 +168,20 @@ def _note(flow, motion, i, times, rates, least_of):
         least_of[DOUBTS] += gap <= DOUBT_FACTOR * gap_rounding(q, x, y, i)
 
 
-DEPTH, DOUBT = 0, 1
-
-
 @compiled
-def hits_of(q, flights, events):
-    """For each event, return (prevented depth, doubt), rows (m, 2).
+def margins_of(q, flights, turns, events, start_phase, duration):
+    """Return the least margins at the start and end of each flight (m + 1, 2), and the depths and doubts of impacts.
+
+    Each margin is the error of the state that would lead to a change: another contact state at the start of the run; an
+    additional event at a turn (turning_points); a miss instead of an event (the depth), or an event only after the end
+    of the run; another effect of an impact on the sticking ball in the other module; an additional event at the end.
 
     Without the impact, a ball at relative speed u and deceleration b would reach the depth u^2 / (2 b) beyond the wall.
     Without deceleration the depth is inf. The doubt is 1 if rounding decides whether the ball hits the wall, else 0.
-    Events other than impacts have depth inf and doubt 0.
-    """
-    hits = np.empty((len(events), 2))
-    for n in range(len(events)):
-        hits[n, DEPTH], hits[n, DOUBT] = math.inf, 0.0
-        if events[n, 3] != IMPACT:
-            continue
-        i, wall = int(events[n, 1]) - 1, events[n, 2]
-        _, _, walls = start_of(flights[n])
-        boxes, balls = end_of(flights[n])
-        brake = -wall * box_accelerations(q, walls, boxes, math.sin(events[n, PHASE]))[i]
-        if brake > 0.0:
-            hits[n, DEPTH] = (boxes[2 + i] - balls[2 + i]) ** 2 / (2.0 * brake)
-            hits[n, DOUBT] = hits[n, DEPTH] <= DOUBT_FACTOR * gap_rounding(q, boxes, balls, i)
-    return hits
-
-
-@compiled
-def margins_of(q, flights, turns, hits, events, start_phase, duration):
-    """For each flight, return the least margin at its start and at its end, rows (m + 1, 2).
-
-    Each margin is the error of the state that would lead to a change: another contact state at the start of the run; an
-    additional event at a turn (turning_points); a miss instead of an event (hits_of), or an event only after the end of
-    the run; another effect of an impact on the sticking ball in the other module; an additional event at the end.
+    Depths and doubts have the shape (m,); events other than impacts have depth inf and doubt 0.
     """
     margins = np.full((len(flights), 2), math.inf)
+    depths, doubts = np.full(len(events), math.inf), np.zeros(len(events))
     for n in range(len(flights)):
         boxes, balls, walls = start_of(flights[n])
         for i in range(2):
@@ -227,11 +196,16 @@ def margins_of(q, flights, turns, hits, events, start_phase, duration):
                 margins[n, 0] = min(margins[n, 0], abs(_force(q, walls, boxes, events[n - 1, PHASE], other)))
         boxes, balls = end_of(flights[n])
         if n < len(events):
-            margin = min(hits[n, DEPTH], _of_event(q, walls, boxes, balls, events, n, duration - events[n, 0]))
+            i = int(events[n, 1]) - 1
+            force = events[n, 2] * box_accelerations(q, walls, boxes, math.sin(events[n, PHASE]))[i]
+            if events[n, 3] == IMPACT and force < 0.0:
+                depths[n] = (boxes[2 + i] - balls[2 + i]) ** 2 / (-2.0 * force)
+                doubts[n] = depths[n] <= DOUBT_FACTOR * gap_rounding(q, boxes, balls, i)
+            margin = min(depths[n], _of_event(q, walls, boxes, balls, events, n, force, duration - events[n, 0]))
         else:
             margin = _at_end(q, walls, boxes, balls, start_phase)
         margins[n, 1] = min(margins[n, 1], margin)
-    return margins
+    return margins, depths, doubts
 
 
 @inlined
@@ -242,18 +216,17 @@ def _lower(margins, margin):
 
 
 @inlined_source
-def _of_event(q, walls, boxes, balls, events, n, left):
+def _of_event(q, walls, boxes, balls, events, n, force, left):
     """Return the error of the state at event n that would move the event to the end of the run, a time `left` later.
 
     For a release, the result is also at most the error that would prevent the release. The result is inf for a stick
     that does not complete a chatter.
     """
-    i, wall, kind, phase = int(events[n, 1]) - 1, events[n, 2], events[n, 3], events[n, PHASE]
-    force = wall * box_accelerations(q, walls, boxes, math.sin(phase))[i]
+    i, wall, kind = int(events[n, 1]) - 1, events[n, 2], events[n, 3]
     if kind == IMPACT:  # how far beyond the wall the ball would be at the end of the run
         return left * (wall * (boxes[2 + i] - balls[2 + i]) + 0.5 * left * max(force, 0.0))
     if kind == RELEASE:
-        change, bend = _changes(q, walls, boxes, phase, i)
+        change, bend = _changes(q, walls, boxes, events[n, PHASE], i)
         depth = 0.5 * change * change / (wall * bend) if wall * bend > 0.0 else math.inf
         return min(left * abs(change), depth) / _force_weight(q, walls, i)
     if completes_chatter(events, n):  # a chatter with rebound speed u and acceleration a takes 2 u / (a (1 - kappa))
@@ -310,10 +283,5 @@ def _force_weight(q, walls, i):
 @inlined
 def _changes(q, walls, boxes, phase, i):
     """Return the first and second time derivative of the acceleration of box i."""
-    one, two = inverse_masses(q, mode_of(walls))
-    s, c, fall = math.sin(phase), q.omega * math.cos(phase), -q.omega * q.omega
-    x1, x2, v1, v2 = boxes
-    a1, a2 = acceleration(q, (one, two), (x1, x2), (v1, v2), (q.f1 * s, q.f2 * s))
-    b1, b2 = acceleration(q, (one, two), (v1, v2), (a1, a2), (q.f1 * c, q.f2 * c))
-    c1, c2 = acceleration(q, (one, two), (a1, a2), (b1, b2), (q.f1 * fall * s, q.f2 * fall * s))
-    return (b1, c1) if i == 0 else (b2, c2)
+    p = jet(q, mode_of(walls), boxes, math.sin(phase), math.cos(phase))[0 if i == 0 else 1]
+    return 6.0 * p[3], 24.0 * p[4]

@@ -13,16 +13,17 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
-from vibroimpact.exact.engine.contact import APPROACH, PHASE, common_velocity, drift_balls, impact, pair, with_velocity
-from vibroimpact.exact.engine.flow import (
-    TWO_PI,
-    acceleration,
-    advance,
-    advance_phase,
-    evaluate,
-    inverse_masses,
-    mode_of,
-)  # fmt: skip
+from vibroimpact.exact.engine.contact import (
+    APPROACH,
+    PHASE,
+    box_accelerations,
+    common_velocity,
+    drift_balls,
+    impact,
+    pair,
+    with_velocity,
+)
+from vibroimpact.exact.engine.flow import TWO_PI, advance, advance_phase, evaluate, mode_of
 from vibroimpact.exact.engine.flow_tables import ORDERS
 from vibroimpact.system.state import IMPACT, RELEASE, STICK, active_mask
 
@@ -41,9 +42,20 @@ def replayed(flow, start, events, start_phase, duration):
     events: rows of the log. start (8,): initial state in public order. The flight before a stick that completes a
     chatter has zero length, because the stick is applied at the last simulated impact, before the chatter ends.
     """
-    flights = departures(flow.coefficients, start, events, start_phase, duration)
+    q, flights = flow.coefficients, np.zeros((len(events) + 1, COLUMNS))
+    leaving = first_departure(start, start_phase)
     for n in range(len(flights)):
-        fill_end(flow, flights[n])
+        flight = flights[n]
+        flight[WALLS], flight[WALLS + 1], flight[FORCING] = leaving.walls[0], leaving.walls[1], leaving.phase
+        for k in range(4):
+            flight[BEFORE + k], flight[BEFORE + 4 + k] = leaving.boxes[k], leaving.balls[k]
+        following = next_departure(q, events, n, leaving, (duration, start_phase))
+        # correct the difference of times by the more accurate difference of phases
+        lapse, turned = following.time - leaving.time, following.phase - leaving.phase
+        more = turned - q.omega * lapse
+        flight[LENGTH] = max(lapse + (more - TWO_PI * math.floor(more / TWO_PI + 0.5)) / q.omega, 0.0)
+        fill_end(flow, flight)
+        leaving = following
     return flights
 
 
@@ -55,22 +67,6 @@ class Departure(NamedTuple):
     walls: tuple[int, int]
     time: float
     phase: float
-
-
-@inlined_source
-def departures(q, start, events, start_phase, duration):
-    """Return the flights of a run as in `replayed`, but with zeros instead of the states at their ends."""
-    flights = np.zeros((len(events) + 1, COLUMNS))
-    leaving = first_departure(start, start_phase)
-    for n in range(len(flights)):
-        flight = flights[n]
-        flight[WALLS], flight[WALLS + 1], flight[FORCING] = leaving.walls[0], leaving.walls[1], leaving.phase
-        for k in range(4):
-            flight[BEFORE + k], flight[BEFORE + 4 + k] = leaving.boxes[k], leaving.balls[k]
-        following = next_departure(q, events, n, leaving, (duration, start_phase))
-        flight[LENGTH] = _length(q, following.time - leaving.time, following.phase - leaving.phase)
-        leaving = following
-    return flights
 
 
 @inlined
@@ -97,13 +93,6 @@ def next_departure(q, events, n, leaving, end):
         return Departure(boxes, balls, walls, leaving.time, leaving.phase)
     boxes, balls = (event[4], event[6], event[8], event[10]), (event[5], event[7], event[9], event[11])
     return Departure(boxes, balls, walls, event[0], event[PHASE])
-
-
-@inlined_source
-def _length(q, lapse, turned):
-    """Return the time between two events: `lapse`, corrected by the more accurate difference of phases `turned`."""
-    more = turned - q.omega * lapse
-    return max(lapse + (more - TWO_PI * math.floor(more / TWO_PI + 0.5)) / q.omega, 0.0)
 
 
 @inlined_source
@@ -201,7 +190,7 @@ def fill_flight(flow, flight, matrix):
     while left > 0.0:
         step, before = min(left, flow.longest), matrix.copy()
         _fill_free(flow, walls, step, matrix)
-        _copy(matrix @ before, matrix)
+        copy((matrix @ before).flat, matrix.flat)
         left -= step
 
 
@@ -217,19 +206,18 @@ def _fill_free(flow, walls, t, matrix):
         matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = evaluate((p[:ORDERS], p[ORDERS:]), rest)
     for i in range(2):
         if walls[i] != 0:  # the ball moves with its box
-            _copy(matrix[i : i + 1], matrix[4 + i : 5 + i])
-            _copy(matrix[2 + i : 3 + i], matrix[6 + i : 7 + i])
+            copy(matrix[i], matrix[4 + i])
+            copy(matrix[2 + i], matrix[6 + i])
         else:
             matrix[4 + i, 4 + i] = matrix[6 + i, 6 + i] = 1.0
             matrix[4 + i, 6 + i] = t
 
 
 @inlined
-def _copy(rows, to):
-    """Copy rows (n, 8) entry by entry; for an assignment to a slice, Numba would compile a check of shapes."""
-    for n in range(len(rows)):
-        for k in range(8):
-            to[n, k] = rows[n, k]
+def copy(source, target):
+    """Copy entries one by one; for an array assignment Numba would compile an error message, which takes 2 s."""
+    for i in range(len(source)):
+        target[i] = source[i]
 
 
 @compiled
@@ -255,9 +243,7 @@ def fill_event(q, flights, events, n, matrix):
 @compiled
 def fill_rate(q, walls, state, phase, field):
     """Write the time derivative (8,) of a state (8,), given the walls to which balls stick and the forcing phase."""
-    i1, i2 = inverse_masses(q, mode_of(walls))
-    force = math.sin(phase)
-    a1, a2 = acceleration(q, (i1, i2), (state[0], state[1]), (state[2], state[3]), (q.f1 * force, q.f2 * force))
+    a1, a2 = box_accelerations(q, walls, (state[0], state[1], state[2], state[3]), math.sin(phase))
     field[0], field[1], field[2], field[3] = state[2], state[3], a1, a2
     field[4], field[5] = state[6], state[7]
     field[6] = a1 if walls[0] != 0 else 0.0
@@ -299,7 +285,7 @@ def _fill_identity(matrix):
 def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     """Write the derivative (8, 8) of the state after a stick of ball i with respect to the state before.
 
-    For a completed chatter, inward = u and push = a as in `contact._end_of_chatter`; otherwise both are 0.
+    For a completed chatter, inward = u and push = a as in `contact._hop`; otherwise both are 0.
 
     Box and ball keep their momentum and centre of mass. During the chatter, springs and dampers act on the box at its
     actual position, not at the centre of mass. The time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), and the
@@ -308,12 +294,10 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     e = q.epsilon
     share = e / (1.0 + e)
     _fill_identity(matrix)
-    for row in (i, 4 + i):
-        matrix[row, :] = 0.0
-        matrix[row, i], matrix[row, 4 + i] = 1.0 / (1.0 + e), share
-    for row in (2 + i, 6 + i):
-        matrix[row, :] = 0.0
-        matrix[row, 2 + i], matrix[row, 6 + i] = 1.0 / (1.0 + e), share
+    for k in (i, 2 + i):  # position and velocity
+        for row in (k, 4 + k):
+            matrix[row, :] = 0.0
+            matrix[row, k], matrix[row, 4 + k] = 1.0 / (1.0 + e), share
     by_gap = 2.0 * inward / (push * (1.0 - q.kappa**3)) if inward > 0.0 else 0.0
     by_speed = by_gap * inward / push if inward > 0.0 else 0.0
     j = 1 - i
@@ -329,7 +313,7 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
         matrix[box, 2 + i] += speed
         matrix[box, 6 + i] -= speed
         if k == 0 or other_stuck:
-            _copy(matrix[box : box + 1], matrix[ball : ball + 1])
+            copy(matrix[box], matrix[ball])
 
 
 class Growth(NamedTuple):
