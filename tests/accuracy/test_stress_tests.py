@@ -7,7 +7,7 @@ from vibroimpact.accuracy import stress_tests as table
 from vibroimpact.accuracy.grazing import grazing_start
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.integrators import METHODS
-from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Failure, Method, MethodRun
+from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun
 from vibroimpact.system import System
 
 SYSTEM = System(**table.CHAPTER)
@@ -48,7 +48,7 @@ class Scripted(Method):
 
     name, family, knob, settings, careful = "scripted", "test", "none", (0,), 0
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
+    def run(self, system, state, cycles, tau0, setting):
         return self.result
 
 
@@ -60,8 +60,8 @@ class Scripted(Method):
         (MethodRun(np.full(8, np.nan), [], 1), table.SILENTLY_WRONG),
         (MethodRun(np.zeros(8), [(1.0, 1, 1, 0.5)], 1), table.SILENTLY_WRONG),
         (MethodRun(np.full(8, 0.02), [], 1, doubt=lambda: "unsure"), table.UNDECIDABLE),
-        (MethodRun(None, [], 1, failure=Failure(REFUSED, "no")), table.ERROR),
-        (MethodRun(None, [], 1, failure=Failure(UNFINISHED, "long")), table.ENDLESS),
+        (MethodRun(None, [], 1, outcome=REFUSED, reason="no"), table.ERROR),
+        (MethodRun(None, [], 1, outcome=UNFINISHED, reason="long"), table.ENDLESS),
     ],
 )
 def test_verdicts(result, verdict):
@@ -69,8 +69,7 @@ def test_verdicts(result, verdict):
     scripted = Scripted()
     scripted.result = result
     (row,) = table.judge(at_rest, [scripted])
-    reason = result.failure.reason if result.failure else result.doubt()
-    assert (row["test"], row["verdict"], row["reason"]) == ("rest", verdict, reason or "")
+    assert (row["test"], row["verdict"], row["reason"]) == ("rest", verdict, result.reason or result.doubt())
 
 
 def test_a_motion_that_has_not_settled_is_no_reference():

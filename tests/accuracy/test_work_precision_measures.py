@@ -42,7 +42,7 @@ def impacts(*times):
 def test_impacts_are_paired_in_order_and_by_their_walls(found, times, missed, spurious):
     expected, theirs = reference((1.0, 2.0, 3.0), 1.0), impacts(*found)
     errors = run_errors(MethodRun(np.zeros(8), theirs, 1), expected, period=1.0)
-    assert (errors.missed, errors.spurious, errors.times) == (missed, spurious, pytest.approx(times))
+    assert (errors.missed, errors.spurious, errors.error_time) == (missed, spurious, pytest.approx(times))
     theirs["wall"] = -1
     errors = run_errors(MethodRun(np.zeros(8), theirs, 1), expected, period=1.0)
     assert (errors.missed, errors.spurious) == (3, len(found))
@@ -67,7 +67,7 @@ def test_order_is_fitted_where_it_is_resolved_only():
 class Refusing(Method):
     name, family, knob, settings, careful = "refusing", "test", "none", (1, 2), 1
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
+    def run(self, system, state, cycles, tau0, setting):
         self.seen.append(setting)
         return failed(REFUSED, "not today", 3)
 

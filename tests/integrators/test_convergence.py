@@ -5,6 +5,7 @@ import pytest
 
 from vibroimpact.accuracy.errors import run_errors
 from vibroimpact.accuracy.work_precision import fitted_order
+from vibroimpact.integrators.protocol import FINISHED
 
 # name, settings from coarse to fine, error of the final state at the finest in the periodic motion
 SETTINGS = [
@@ -27,14 +28,14 @@ SETTINGS = [
 def errors(method, motion, setting):
     system, state, cycles, reference = motion
     run = method.run(system, state, cycles, 0.0, setting)
-    assert run.failure is None
+    assert run.outcome == FINISHED
     return run_errors(run, reference, system.period)
 
 
 @pytest.mark.parametrize(("name", "settings", "finest"), SETTINGS)
 def test_error_falls_with_every_finer_setting_and_no_impact_is_lost(name, settings, finest, method, motion):
     found = [errors(method(name), motion("periodic"), setting) for setting in settings]
-    final = [error.final for error in found]
+    final = [error.error_state for error in found]
     assert final == sorted(final, reverse=True)
     assert final[-1] < finest
     assert (found[-1].missed, found[-1].spurious) == (0, 0)
@@ -50,7 +51,7 @@ def test_order_of_convergence(name, method, motion):
     points = []
     for setting in rival.settings:
         run = rival.run(system, state, cycles, 0.0, setting)
-        points.append((rival.scale(setting, run), run_errors(run, reference, system.period).final))
+        points.append((rival.scale(setting, run), run_errors(run, reference, system.period).error_state))
     assert fitted_order(points) == pytest.approx(rival.order, rel=0.2)
 
 
@@ -60,7 +61,7 @@ def test_ivanovs_jumps_make_it_of_first_order_if_they_are_not_located(method, mo
     errors = []
     for steps in (100, 1_000, 10_000):
         runs = [method("Ivanov").run(system, state, cycles, 0.0, steps + n * steps // 100) for n in range(20)]
-        finals = [run_errors(run, reference, system.period).final for run in runs]
+        finals = [run_errors(run, reference, system.period).error_state for run in runs]
         errors.append(np.sqrt(np.mean(np.square(finals))))
     slopes = -np.diff(np.log10(errors))
     assert slopes == pytest.approx(1.0, abs=0.25)
@@ -73,7 +74,7 @@ CHATTER = {"heyoka": 1e-11, "RK4, compiled": 1e-9, "DOP853": 1e-9, "penalty": 1e
 def test_chatter_sticking_and_release_are_followed(name, allowed, method, motion):
     rival = method(name)
     found = errors(rival, motion("chatter"), rival.careful)
-    assert found.final < allowed
+    assert found.error_state < allowed
     assert (found.missed, found.spurious) == (0, 0)
 
 
@@ -82,7 +83,7 @@ def test_methods_with_exact_flights_are_exact_to_rounding_at_every_setting(name,
     for setting in method(name).settings:
         for difficult in ("periodic", "chatter"):
             found = errors(method(name), motion(difficult), setting)
-            assert found.final < allowed
+            assert found.error_state < allowed
             assert (found.missed, found.spurious) == (0, 0)
 
 

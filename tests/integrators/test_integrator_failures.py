@@ -11,31 +11,32 @@ from vibroimpact.integrators.right_hand_side import coefficients
 
 
 @pytest.mark.parametrize("name", ["heyoka", "RK45", "LSODA", "Moreau-Jean", "penalty", "Ivanov", "Ivanov, events"])
-def test_work_is_limited_by_counting_steps(name, method, motion):
+def test_work_is_limited_by_counting_steps(name, method, motion, monkeypatch):
     system, state, _, _ = motion("periodic")
     rival = method(name)
-    run = rival.run(system, state, 50, 0.0, rival.settings[0], limit=20)
+    monkeypatch.setattr(rival, "limit", 20)
+    run = rival.run(system, state, 50, 0.0, rival.settings[0])
     assert run.final is None
-    assert run.failure.kind == UNFINISHED
+    assert run.outcome == UNFINISHED
     assert run.steps < 1000  # the limit is looked at after each flight or cycle
-    assert run.failure.reason
+    assert run.reason
 
 
 def test_the_leading_order_refuses_where_no_response_is_stable(motion):
     system, state, cycles, _ = motion("chatter")
     run = LeadingOrder().run(system, state, cycles, 0.0, 0)
-    assert run.failure.kind == REFUSED
-    assert "fixed point" in run.failure.reason
+    assert run.outcome == REFUSED
+    assert "fixed point" in run.reason
 
 
 def test_located_impacts_of_a_chatter_have_no_end_in_ivanovs_coordinates(method, motion):
     system, state, cycles, reference = motion("chatter")
     run = method("Ivanov, events").run(system, state, cycles, 0.0, 10)
-    assert run.failure.kind == UNFINISHED
+    assert run.outcome == UNFINISHED
     end = run.impacts["tau"][-1]
     rest = reference.events["tau"][reference.events["kind"] == 1][0]
     assert end == pytest.approx(rest, abs=1e-4)
-    assert f"at tau = {rest:.3g}" in run.failure.reason[:40]
+    assert f"at tau = {rest:.3g}" in run.reason[:40]
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """Compare methods by cost and stress tests, and choose the cheapest ones for each problem and error."""
 
+from itertools import product
+
 from vibroimpact.accuracy.stress_tests import ENDLESS, ERROR, RIGHT, SILENTLY_WRONG
 from vibroimpact.system.extras import need
 
@@ -46,20 +48,14 @@ def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFram
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]
-    rows = [
-        {"problem": problem, "error": goal, "choice": place, "method": run.method, "setting": run.setting}
-        | {"seconds_per_cycle": run.seconds_per_cycle, **counts.loc[run.method]}
-        for problem in work_precision["problem"].unique()
-        for goal in GOALS
-        for place, run in enumerate(_cheapest(tested[tested["problem"] == problem], goal), start=1)
-    ]
+    by_cost = tested.sort_values("seconds_per_cycle", kind="stable")
+    rows = []
+    for problem, goal in product(work_precision["problem"].unique(), GOALS):
+        cheapest = _good(by_cost[by_cost["problem"] == problem], goal).drop_duplicates("method").head(2)
+        for place, run in enumerate(cheapest.itertuples(), start=1):
+            row = {"problem": problem, "error": goal, "choice": place, "method": run.method, "setting": run.setting}
+            rows.append(row | {"seconds_per_cycle": run.seconds_per_cycle, **counts.loc[run.method]})
     return pd.DataFrame(rows)
-
-
-def _cheapest(runs, goal):
-    """Return, for each of the two cheapest methods that reach the error `goal`, its cheapest run, as a named tuple."""
-    by_cost = _good(runs, goal).sort_values("seconds_per_cycle", kind="stable")
-    return by_cost.drop_duplicates("method").head(2).itertuples()
 
 
 def _good(work_precision, goal):

@@ -1,6 +1,6 @@
 """Measure the errors of a run against the reference: final state, impact times, missed and spurious impacts."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,24 +13,18 @@ WINDOW = 0.05
 """Largest time difference, in forcing periods, between an impact of a run and its match in the reference run."""
 
 
-@dataclass(frozen=True)
-class Errors:
-    """Errors of a run against a reference.
+class Errors(NamedTuple):
+    """Errors of a run against a reference, named like the columns of tables.
 
-    final: largest difference of a coordinate of the final state (inf if the run has no final state). times: largest
-    time difference [tau] between matching impacts (0 if no impacts match). missed: number of impacts of the reference
-    without a match in the run. spurious: number of impacts of the run without a match in the reference.
+    error_state: largest difference of a coordinate of the final state (inf if the run has no final state). error_time:
+    largest time difference [tau] between matching impacts (0 if no impacts match). missed: number of impacts of the
+    reference without a match in the run. spurious: number of impacts of the run without a match in the reference.
     """
 
-    final: float
-    times: float
+    error_state: float
+    error_time: float
     missed: int
     spurious: int
-
-    def columns(self) -> dict[str, float]:
-        """Return a dictionary from the names of table columns to the errors."""
-        names = "error_state", "error_time", "missed", "spurious"
-        return dict(zip(names, (self.final, self.times, self.missed, self.spurious), strict=True))
 
 
 def run_errors(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
@@ -50,26 +44,18 @@ def run_errors(run, reference, period: float, faint: float = FAINT, events: bool
     if run.final is None:
         return Errors(np.inf, np.inf, 0, 0)
     times, missed, spurious = 0.0, 0, 0
-    speeds = rebound_speeds(reference.events)
-    hits = reference.events["kind"] == IMPACT
+    hits = reference.events[reference.events["kind"] == IMPACT]
     for module in (1, 2) if events else ():
         for wall in (1, -1):
-            here = hits & (reference.events["module"] == module) & (reference.events["wall"] == wall)
-            taus = reference.events["tau"][here]
-            plain = speeds[here] > faint
+            here = hits[(hits["module"] == module) & (hits["wall"] == wall)]
+            taus, box = here["tau"], 4 + 2 * (module - 1)
+            plain = np.abs(here["state"][:, box] - here["state"][:, box + 1]) > faint  # rebound speeds |W'|
             theirs = run.impacts[(run.impacts["module"] == module) & (run.impacts["wall"] == wall)]
             theirs = theirs[(theirs["speed"] > faint) | _near(theirs["tau"], taus[plain], WINDOW * period)]
             apart, lost, extra = _align(taus[plain], theirs["tau"], WINDOW * period)
             in_tail = _near(extra, taus[~plain], WINDOW * period)
             times, missed, spurious = max(times, apart), missed + lost, spurious + int(np.sum(~in_tail))
     return Errors(float(np.abs(run.final - reference.final).max()), times, missed, spurious)
-
-
-def rebound_speeds(events) -> np.ndarray:
-    """Return the speed |W'| just after each event of a run, in the module of that event, shape (n,)."""
-    box = 4 + 2 * (events["module"].astype(int) - 1)
-    rows = np.arange(len(events))
-    return np.abs(events["state"][rows, box] - events["state"][rows, box + 1])
 
 
 def _near(times, others, window) -> np.ndarray:

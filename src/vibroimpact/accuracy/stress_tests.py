@@ -18,14 +18,8 @@ VISIBLE = 1e-2
 SETTLED_CHANGE = 1e-6
 """Largest change of a coordinate over one cycle of a settled motion."""
 
-RIGHT, UNDECIDABLE, ERROR, ENDLESS, SILENTLY_WRONG, UNAVAILABLE = (
-    "right",
-    "reported undecidable",
-    "refused with an error",
-    "did not finish",
-    "silently wrong",
-    "unavailable",
-)
+RIGHT, SILENTLY_WRONG, UNDECIDABLE = "right", "silently wrong", "reported undecidable"
+ERROR, ENDLESS, UNAVAILABLE = "refused with an error", "did not finish", "unavailable"
 FAILURES = {REFUSED: ERROR, UNFINISHED: ENDLESS}
 
 CHAPTER = PARAMETERS | CASES["equal"]
@@ -66,9 +60,9 @@ def stress_tests() -> list[StressTest]:
     weak = system.with_(f10_hat=0.5, f20_hat=0.5)
     twins = system.with_(sigma20_hat=0.0)
     still = system.with_(f10_hat=0.0, f20_hat=0.0)
-    problems = [grazing(system, side, n) for n in (2, 6, 10, 12, 13, 14) for side in (1, -1)]
-    problems += [StressTest("chatter", f"kappa = {k}", system.with_(kappa=k), PRESSED, 2) for k in (0.3, 0.65, 0.9)]
-    problems += [
+    return [
+        *(grazing(system, side, n) for n in (2, 6, 10, 12, 13, 14) for side in (1, -1)),
+        *(StressTest("chatter", f"kappa = {k}", system.with_(kappa=k), PRESSED, 2) for k in (0.3, 0.65, 0.9)),
         StressTest("sticking", "stick and release", system, RESTING, 2),
         StressTest("sticking", "modulated response", weak, MODULATED, 8),
         StressTest("coincidence", "both balls, same wall", twins, TOGETHER, 3),
@@ -86,7 +80,6 @@ def stress_tests() -> list[StressTest]:
         StressTest("chaos", "within the horizon", weak, REST, 20),
         StressTest("chaos", "far beyond the horizon", weak, REST, 120, quick=False),
     ]
-    return problems
 
 
 def judge(test: StressTest, methods) -> list[dict]:
@@ -106,36 +99,31 @@ def reference_of(test: StressTest):
     if test.reference_cycles is None:
         return proven_run(test.system, test.state, test.cycles, exact_floats=False).run
     times = [(test.reference_cycles - 1) * test.system.period]
-    # an attracting motion loses no digits, so that `proven_run` can start with few digits
-    run = proven_run(
-        test.system, test.state, test.reference_cycles, digits=40, sample_times=times, exact_floats=False
-    ).run
+    # An attracting motion loses no digits, so that `proven_run` can start with few digits.
+    few = {"digits": 40, "sample_times": times, "exact_floats": False}
+    run = proven_run(test.system, test.state, test.reference_cycles, **few).run
     change = abs(run.samples[0] - run.final).max()
     if change > SETTLED_CHANGE:
-        raise ArithmeticError(f"{test.name}: the motion still changes by {change:.1e} in cycle {test.reference_cycles}")
+        raise ArithmeticError(
+            f"stress test {test.name!r}: the reference motion still changes by {change:.1e} in cycle "
+            f"{test.reference_cycles}; expected at most {SETTLED_CHANGE:.0e}"
+        )
     return run
 
 
 def _row(test, method, reference):
     row = {"group": test.group, "test": test.name, "method": method.name, "family": method.family}
-    missing = method.available()
-    if missing:
-        return {**row, "verdict": UNAVAILABLE, "reason": missing}
-    row["setting"] = str(method.careful)
+    if missing := method.available():
+        return row | {"verdict": UNAVAILABLE, "reason": missing}
     run = method.run(test.system, test.state, test.cycles, 0.0, method.careful)
-    row["steps"] = run.steps
-    if run.failure:
-        return {**row, "verdict": FAILURES[run.failure.kind], "reason": run.failure.reason}
+    row |= {"setting": str(method.careful), "steps": run.steps}
+    if run.outcome in FAILURES:
+        return row | {"verdict": FAILURES[run.outcome], "reason": run.reason}
     whole = test.reference_cycles is None
-    errors = run_errors(run, reference, test.system.period, test.faint, events=whole)
-    doubt = run.doubt()
-    wrong = not errors.final <= VISIBLE or errors.missed or errors.spurious
-    return {
-        **row,
-        "verdict": UNDECIDABLE if doubt else SILENTLY_WRONG if wrong else RIGHT,
-        **errors.columns(),
-        "reason": doubt or "",
-    }
+    errors, doubt = run_errors(run, reference, test.system.period, test.faint, events=whole), run.doubt()
+    wrong = not errors.error_state <= VISIBLE or errors.missed or errors.spurious
+    verdict = UNDECIDABLE if doubt else SILENTLY_WRONG if wrong else RIGHT
+    return row | {"verdict": verdict, **errors._asdict(), "reason": doubt}
 
 
 def grazing(system: System, side: int, digits: int) -> StressTest:

@@ -41,9 +41,8 @@ class Scene(NamedTuple):
         systems = np.asarray(self.systems, dtype=object)
         shape = np.broadcast_shapes(systems.shape, self.states.shape[:-1])
         places = np.unique(np.linspace(0, np.prod(shape) - 1, count).astype(int))
-        return np.broadcast_to(systems, shape).flat[places], np.broadcast_to(self.states, (*shape, 8)).reshape(-1, 8)[
-            places
-        ]
+        states = np.broadcast_to(self.states, (*shape, 8)).reshape(-1, 8)
+        return np.broadcast_to(systems, shape).flat[places], states[places]
 
 
 def scenes(equal: System, weak: System, settled) -> dict[str, Scene]:
@@ -96,9 +95,10 @@ def throughput(equal: System, weak: System, settled, seconds: float) -> list[dic
     seconds : float
         Time [s] for which each method is repeated.
     """
+    long_run = partial(simulate, equal, settled, LONG)
     with at_most(1):
         return [
-            {"scene": name} | _timed(scene, partial(_long_run, equal, settled), seconds) | _compared(scene)
+            {"scene": name} | _timed(scene, long_run, seconds) | _compared(scene)
             for name, scene in scenes(equal, weak, settled).items()
         ]
 
@@ -115,23 +115,19 @@ def ranges(rows: list[dict]) -> list[str]:
     ]
 
 
-def _long_run(system, state):
-    return len(simulate(system, state, LONG).rows)
-
-
 def _timed(scene, long_run, seconds):
     """Return the time per impact [ns] of every method in a scene.
 
     For both uses of `ensemble`, the ratio of this time to that of `long_run` is also returned.
     """
     impacts, systems, states = _impacts(scene), *scene.runs(SAMPLE)
-    short = Scene(systems, states, SHORT)
-    few = _impacts(short)
+    few = _impacts(Scene(systems, states, SHORT))
+    pairs = list(zip(systems, states, strict=True))
     functions = {
-        "one long run": (long_run, long_run()),
+        "one long run": (long_run, len(long_run().rows)),
         "final": (partial(ensemble, *scene, settle=scene.cycles), impacts),
         "observed": (partial(ensemble, *scene), impacts),
-        "one by one": (partial(_each, simulate, systems, states), few),
+        "one by one": (lambda: [simulate(system, state, SHORT) for system, state in pairs], few),
     }
     flying = [one for one in zip(*scene.runs(8 * LANES), strict=True) if not ensemble(*one, SHORT)["sticks"].any()]
     if heyoka and len(flying) >= LANES:
@@ -150,11 +146,6 @@ def _timed(scene, long_run, seconds):
 
 def _impacts(scene):
     return int(ensemble(*scene)["impacts"].sum())
-
-
-def _each(method, systems, states):
-    for system, state in zip(systems, states, strict=True):
-        method(system, state, SHORT)
 
 
 def _compared(scene):

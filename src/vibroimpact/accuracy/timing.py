@@ -5,13 +5,15 @@ import time
 from importlib.metadata import PackageNotFoundError, version
 
 PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
+MOST_CALLS = 5000
 
 
-def interleaved(functions, seconds: float, most: int = 5000) -> list[tuple]:
+def interleaved(functions, seconds: float) -> list[tuple]:
     """Call several functions repeatedly, in turn, so that a disturbance of the machine affects all of them.
 
-    Each function is called as often as fits in `seconds`, at least once and at most `most` times. One-time work (such
-    as compilation) must be done by an earlier call. Return, for each function, its result and its shortest time [s].
+    Each function is called as often as fits in `seconds`, at least once and at most MOST_CALLS times. One-time work
+    (such as compilation) must be done by an earlier call. Return, for each function, its result and its shortest time
+    [s].
     """
     given, best = [None] * len(functions), [float("inf")] * len(functions)
     total, calls, left = [0.0] * len(functions), [0] * len(functions), list(range(len(functions)))
@@ -21,7 +23,7 @@ def interleaved(functions, seconds: float, most: int = 5000) -> list[tuple]:
             given[n] = functions[n]()
             elapsed = time.perf_counter() - start
             best[n], total[n], calls[n] = min(best[n], elapsed), total[n] + elapsed, calls[n] + 1
-        left = [n for n in left if total[n] < seconds and calls[n] < most]
+        left = [n for n in left if total[n] < seconds and calls[n] < MOST_CALLS]
     return list(zip(given, best, strict=True))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from vibroimpact.accuracy.errors import run_errors
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.accuracy.timing import interleaved
-from vibroimpact.integrators.protocol import Method, MethodRun
+from vibroimpact.integrators.protocol import FINISHED, Method
 from vibroimpact.system import System
 
 RESOLVED = 0.03, 1e-11
@@ -37,57 +37,47 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
         Use only every second setting of each method.
     """
     reference = proven_run(problem.system, problem.state, problem.cycles, exact_floats=False).run
-    missing = [method for method in methods if method.available()]
     settings = [
         (method, setting)
         for method in methods
-        if method not in missing
+        if not method.available()
         for setting in (method.settings[::-2][::-1] if short else method.settings)
     ]
-    for n, (method, setting) in enumerate(settings):
+    works = [partial(m.run, problem.system, problem.state, problem.cycles, 0.0, setting) for m, setting in settings]
+    for n, (method, _) in enumerate(settings):
         if method.compiles_settings or n == 0 or settings[n - 1][0] is not method:
-            _run(problem, method, setting)
-    timed = interleaved([partial(_run, problem, method, setting) for method, setting in settings], seconds)
-    rows = [
-        _row(problem, method, setting, **_measured(problem, run, time, reference))
-        for (method, setting), (run, time) in zip(settings, timed, strict=True)
-    ]
-    orders = {method.name: _order(method, settings, timed, rows) for method in methods if method.order}
-    rows = [{**row, "order": orders.get(row["method"])} for row in rows]
-    unavailable = [_row(problem, method, None, outcome="unavailable", reason=method.available()) for method in missing]
-    places = {method.name: n for n, method in enumerate(methods)}
-    return sorted(rows + unavailable, key=lambda row: places[row["method"]])
+            works[n]()
+    timed = list(zip(settings, interleaved(works, seconds), strict=True))
+    rows = []
+    for method in methods:
+        row = {"problem": problem.name, "method": method.name, "family": method.family}
+        if reason := method.available():
+            rows.append(row | {"setting": "", "outcome": "unavailable", "reason": reason})
+            continue
+        runs = [(setting, run, time) for (one, setting), (run, time) in timed if one is method]
+        measured = [row | _measured(problem, *one, reference) for one in runs]
+        # The order is fitted to the finished runs without missed or spurious impacts.
+        points = [
+            (method.scale(setting, run), found["error_state"])
+            for (setting, run, _), found in zip(runs, measured, strict=True)
+            if run.outcome == FINISHED and found["missed"] == found["spurious"] == 0
+        ]
+        order = fitted_order(points) if method.order else None
+        rows += [found | {"order": order} for found in measured]
+    return rows
 
 
-def _measured(problem, run, time, reference):
+def _measured(problem, setting, run, time, reference):
     """Return the columns of a run: errors, time, steps, evaluations, outcome, and the reason for a failure or doubt."""
     return {
-        **run_errors(run, reference, problem.system.period).columns(),
+        "setting": str(setting),
+        **run_errors(run, reference, problem.system.period)._asdict(),
         "seconds_per_cycle": time / problem.cycles,
         "steps": run.steps,
         "evaluations": run.evaluations,
-        "outcome": run.failure.kind if run.failure else "finished",
-        "reason": run.failure.reason if run.failure else (run.doubt() or ""),
+        "outcome": run.outcome,
+        "reason": run.reason or run.doubt(),
     }
-
-
-def _order(method, settings, timed, rows):
-    """Return the order of convergence of a method, fitted to its runs without missed or spurious impacts."""
-    points = [
-        (method.scale(setting, run), row["error_state"])
-        for (one, setting), (run, _), row in zip(settings, timed, rows, strict=True)
-        if one is method and run.failure is None and row["missed"] == row["spurious"] == 0
-    ]
-    return fitted_order(points)
-
-
-def _run(problem, method, setting) -> MethodRun:
-    return method.run(problem.system, problem.state, problem.cycles, 0.0, setting)
-
-
-def _row(problem, method, setting, **measured):
-    text = "" if setting is None else str(setting)
-    return {"problem": problem.name, "method": method.name, "family": method.family, "setting": text, **measured}
 
 
 def fitted_order(points) -> float | None:

@@ -56,14 +56,14 @@ def stiffness_of(law: Law, mass: float, duration: float) -> float:
     return mass / (2.0 * share) * (2.0 * path / duration) ** (law.stiffness + 1.0)
 
 
-def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float, speed: float) -> float:
-    """Return the stiffness K of a spring over the whole box for which a ball turns back at W = 1.
+def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float) -> float:
+    """Return the stiffness K of a spring over the whole box for which a ball with speed 1 in the middle turns at W = 1.
 
-    The ball has the given speed in the middle of the box.
+    K is proportional to the square of this speed.
     """
     zeta = damping_ratio(kappa)
     deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # omega times the largest u at speed 1
-    return 0.5 * (law.stiffness + 1.0) * mass * (deepest * speed) ** 2
+    return 0.5 * (law.stiffness + 1.0) * mass * deepest**2
 
 
 def damping_of(law: Law, mass: float, kappa: float, stiffness: float) -> float:
@@ -71,11 +71,6 @@ def damping_of(law: Law, mass: float, kappa: float, stiffness: float) -> float:
     if law.damping == law.stiffness:
         return stiffness * hunt_crossley_number(kappa)
     return damping_ratio(kappa) * math.sqrt(2.0 * (law.stiffness + 1.0) * stiffness * mass)
-
-
-def damping_speed_exponent(law: Law) -> float:
-    """Return the power of 1 / V to which D must be proportional for the same kappa at every speed V."""
-    return (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
 
 
 def damping_ratio(kappa: float) -> float:

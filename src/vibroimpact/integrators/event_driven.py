@@ -15,7 +15,7 @@ class Engine(Method):
 
     name, family, knob, settings, careful = "this engine", "exact flow", "precision", ("float64",), "float64"
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
+    def run(self, system, state, cycles, tau0, setting):
         try:
             run = simulate(system, state, cycles, tau0)
         except ArithmeticError as error:
@@ -28,8 +28,8 @@ class CertifiedEngine(Engine):
 
     name = "this engine, certified"
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
-        run = super().run(system, state, cycles, tau0, setting, limit)
+    def run(self, system, state, cycles, tau0, setting):
+        run = super().run(system, state, cycles, tau0, setting)
         run.doubt()
         return run
 
@@ -41,11 +41,11 @@ def _impacts(run):
 
 
 def _doubt(run):
-    """Return a text on what the certificate of a run leaves undecided, or None."""
+    """Return a text on what the certificate of a run leaves undecided, or an empty text."""
     certificate = run.certificate
     if certificate.horizon < run.tau0 + run.cycles * run.system.period:
         return f"known up to tau = {certificate.horizon:.6g}"
     if not certificate.decided:
         nearest = min(certificate.nearest_miss, certificate.shallowest_hit)
         return f"an approach to a wall (the nearest: {nearest:.1e}) is within its error"
-    return None
+    return ""

@@ -34,23 +34,21 @@ class HeyokaTaylor(Method):
     def available(self):
         return None if heyoka else _missing
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
-        limit = limit or self.limit
+    def run(self, system, state, cycles, tau0, setting):
         contacts = Contacts(system, slow=max(setting**0.5, SLOWEST))
         tau, end, s = tau0, tau0 + cycles * system.period, np.array(state, dtype=float)
         steps = 0
         contacts.start(tau, s)
         while True:
-            integrator = _integrator(setting, tuple(w != 0 for w in contacts.walls))
-            flight = integrator.propagate(contacts, tau, s, end, limit - steps)
-            steps += flight.steps
-            if flight.failure:
-                kind = UNFINISHED if flight.failure == heyoka.taylor_outcome.step_limit else REFUSED
-                return failed(kind, f"{flight.failure} at tau = {flight.tau:.6g}", steps, noted=contacts.impacts)
-            tau, s = flight.tau, flight.state
-            if flight.module is None:
+            integrator = _Integrator(setting, tuple(w != 0 for w in contacts.walls))
+            tau, s, taken, module, failure = integrator.propagate(contacts, tau, s, end, self.limit - steps)
+            steps += taken
+            if failure:
+                outcome = UNFINISHED if failure == heyoka.taylor_outcome.step_limit else REFUSED
+                return failed(outcome, f"{failure} at tau = {tau:.6g}", steps, noted=contacts.impacts)
+            if module is None:
                 return MethodRun(s, contacts.impacts, steps)
-            contacts.resolve(tau, s, [flight.module])
+            contacts.resolve(tau, s, [module])
 
 
 def right_hand_side(numbers, stuck=(False, False)):
@@ -74,21 +72,7 @@ def right_hand_side(numbers, stuck=(False, False)):
     return s, acceleration, [*equations, (sine, q["omega"] * cosine), (cosine, -q["omega"] * sine)]
 
 
-class _Flight:
-    """Result of a flight.
-
-    module: module whose event ended the flight, or None. failure: outcome of heyoka if it failed, or None.
-    """
-
-    def __init__(self, tau, state, steps, module, failure):
-        self.tau, self.state, self.steps, self.module, self.failure = tau, state, steps, module, failure
-
-
-@lru_cache(maxsize=64)
-def _integrator(tolerance, stuck):
-    return _Integrator(tolerance, stuck)
-
-
+@lru_cache(maxsize=64)  # heyoka compiles each integrator when it is created
 class _Integrator:
     """heyoka's integrator of (10.2) in one contact state, with event callbacks that apply the impact law."""
 
@@ -100,6 +84,10 @@ class _Integrator:
         self._state = self._taylor.state  # a view of the integrator's memory
 
     def propagate(self, contacts, tau, state, end, limit):
+        """Integrate to a change of the contact state or to `end`; return (tau, state, steps, module, failure).
+
+        module: module of the event, or None. failure: outcome of heyoka if it failed, or None.
+        """
         taylor, system = self._taylor, contacts.system
         taylor.pars[:] = coefficients(system)[: len(taylor.pars)]  # only the parameters that the equations use
         taylor.time = tau
@@ -111,24 +99,21 @@ class _Integrator:
         self._slow = contacts.slow / system.kappa
         outcome, _, _, steps, *_ = taylor.propagate_until(end, max_steps=limit)
         stopped = self._stopped_by is not None or outcome == heyoka.taylor_outcome.time_limit
-        failure = None if stopped else outcome
-        return _Flight(taylor.time, self._state[:8].copy(), steps, self._stopped_by, failure)
+        return taylor.time, self._state[:8].copy(), steps, self._stopped_by, None if stopped else outcome
 
     def _events(self, i, gap, acceleration):
         rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
         if self.stuck[i]:  # the event is a sign change of the contact force, at either wall
-            return [heyoka.t_event(acceleration, callback=self._stop(i))]
+            return [heyoka.t_event(acceleration, callback=lambda taylor, sign: self._stop(i))]
         return [
             heyoka.t_event(gap - 1.0, callback=self._impact(i, 1), direction=rising),
             heyoka.t_event(gap + 1.0, callback=self._impact(i, -1), direction=falling),
         ]
 
     def _stop(self, i):
-        def callback(taylor, sign):
-            self._stopped_by = i
-            return False
-
-        return callback
+        """Note the module whose event stops the flight; return False, which stops heyoka."""
+        self._stopped_by = i
+        return False
 
     def _impact(self, i, wall):
         """Return the callback that applies the impact law to the state in place.
@@ -142,8 +127,7 @@ class _Integrator:
             s = self._state
             speed = s[s_box] - s[s_ball]
             if abs(speed) <= self._slow or any(self.stuck):
-                self._stopped_by = i
-                return False
+                return self._stop(i)
             impulse = self._bounce * speed
             s[s_box] -= self._epsilon * impulse
             s[s_ball] += impulse

@@ -46,10 +46,9 @@ class Ivanov(Method):
         self.name, self.settings, self.careful, self.order = name, settings, careful, order
         self._located = located
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
-        limit = limit or self.limit
-        if setting * cycles > limit:
-            return failed(UNFINISHED, f"{limit} steps are {limit / setting:g} cycles", 0)
+    def run(self, system, state, cycles, tau0, setting):
+        if setting * cycles > self.limit:
+            return failed(UNFINISHED, f"{self.limit} steps end after {self.limit / setting:g} cycles", 0)
         k, step = (1.0 - system.kappa) / (1.0 + system.kappa), system.period / setting
         start = unfolded(np.array(state, dtype=float), system.epsilon, k)
         march = _march_to_jumps if self._located else _march_across_jumps
@@ -222,9 +221,8 @@ def _ahead_of(z, i, boxes, signs):
     return 1.0 - signs[i] * (z[4 * i] - 2.0 * boxes[i]), signs[i] * z[4 * i + 1]
 
 
-def variants() -> list[Ivanov]:
-    """Return two methods: one without and one with location of the jumps."""
-    return [
-        Ivanov("Ivanov", False, (100, 300, 1_000, 3_000, 10_000, 30_000), careful=30_000, order=1),
-        Ivanov("Ivanov, events", True, (10, 30, 100, 300, 1_000, 3_000), careful=3_000, order=4),
-    ]
+METHODS = [
+    Ivanov("Ivanov", False, (100, 300, 1_000, 3_000, 10_000, 30_000), careful=30_000, order=1),
+    Ivanov("Ivanov, events", True, (10, 30, 100, 300, 1_000, 3_000), careful=3_000, order=4),
+]
+"""One method without and one with location of the jumps."""

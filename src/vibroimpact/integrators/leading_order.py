@@ -16,7 +16,7 @@ class LeadingOrder(Method):
 
     name, family, knob, settings, careful = "leading order", "multiple scales", "order", (0,), 0
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
+    def run(self, system, state, cycles, tau0, setting):
         try:
             points = [point for point in fixed_points(system) if (point.slow_eigenvalues.real < 0).all()]
         except ValueError as error:

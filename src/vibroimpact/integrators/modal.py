@@ -38,12 +38,12 @@ class Modal(Method):
     careful = 256
     limit = 10_000_000
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
+    def run(self, system, state, cycles, tau0, setting):
         tables, condition = modes(system)
         if not condition < WORST:
             return failed(REFUSED, f"the boxes' eigenvectors have condition number {condition:.1g}", 0)
         start, end, step = np.array(state, dtype=float), tau0 + cycles * system.period, system.period / setting
-        final, rows, samples, tau = _march(coefficients(system), tables, start, tau0, end, step, limit or self.limit)
+        final, rows, samples, tau = _march(coefficients(system), tables, start, tau0, end, step, self.limit)
         if tau < end:
             return failed(UNFINISHED, f"{samples} samples reach tau = {tau:.6g}", samples, noted=rows)
         return MethodRun(final, rows, samples)

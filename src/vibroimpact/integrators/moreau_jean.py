@@ -20,11 +20,10 @@ class MoreauJean(Method):
     careful = 100_000
     limit = 1_000_000_000
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
-        limit = limit or self.limit
+    def run(self, system, state, cycles, tau0, setting):
         steps, step = setting * cycles, system.period / setting
-        if steps > limit:
-            return failed(UNFINISHED, f"{limit} steps are {limit / setting:g} cycles", 0)
+        if steps > self.limit:
+            return failed(UNFINISHED, f"{self.limit} steps end after {self.limit / setting:g} cycles", 0)
         final, rows = _march(coefficients(system), np.array(state, dtype=float), tau0, step, steps)
         return MethodRun(final, rows, steps)
 
@@ -41,7 +40,7 @@ def _march(q, s, tau0, h, steps):
     determinant = m11 * m22 - m12 * m12
     n11, n12, n22 = m22 / determinant, -m12 / determinant, m11 / determinant
     x1, y1, x2, y2, v1, w1, v2, w2 = s
-    rows, count = np.empty((64, 4)), 0
+    rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     closed1, closed2 = 0, 0
     for n in range(steps):
         sine = 0.5 * (math.sin(omega * (tau0 + n * h)) + math.sin(omega * (tau0 + (n + 1) * h)))
@@ -59,11 +58,11 @@ def _march(q, s, tau0, h, steps):
         x1, x2, y1, y2 = x1 + g * (v1 + u1), x2 + g * (v2 + u2), y1 + g * (w1 + b1), y2 + g * (w2 + b2)
         v1, v2, w1, w2 = u1, u2, b1, b2
         if p1 > 0.0 and closed1 == 0:
-            rows, count = _note(rows, count, tau0 + (n + 0.5) * h, 1, wall1, before1)
+            rows.append((tau0 + (n + 0.5) * h, 1.0, float(wall1), before1))
         if p2 > 0.0 and closed2 == 0:
-            rows, count = _note(rows, count, tau0 + (n + 0.5) * h, 2, wall2, before2)
+            rows.append((tau0 + (n + 0.5) * h, 2.0, float(wall2), before2))
         closed1, closed2 = (1 if p1 > 0.0 else 0), (1 if p2 > 0.0 else 0)
-    return np.array([x1, y1, x2, y2, v1, w1, v2, w2]), rows[:count]
+    return np.array([x1, y1, x2, y2, v1, w1, v2, w2]), rows
 
 
 @disk_cached()
@@ -89,11 +88,3 @@ def _impulses(q1, q2, d11, d12, d22):
     if q1 > 0.0 and q2 - d12 * q1 / d11 <= 0.0:
         return q1 / d11, 0.0
     return 0.0, q2 / d22
-
-
-@disk_cached()
-def _note(rows, count, tau, module, wall, speed):
-    if count == len(rows):
-        rows = np.concatenate((rows, np.empty_like(rows)))
-    rows[count, 0], rows[count, 1], rows[count, 2], rows[count, 3] = tau, module, wall, speed
-    return rows, count + 1

@@ -17,7 +17,6 @@ from vibroimpact.integrators.contact_laws import (
     SPRING,
     Law,
     damping_of,
-    damping_speed_exponent,
     power_law,
     stiffness_of,
     stiffness_turning_at_the_wall,
@@ -31,7 +30,6 @@ SLOWEST = 1e-3
 limit at V = 0."""
 SLOWEST_COUNTED = 0.01
 """For a spring over the whole box: lowest speed of a ball, in the middle of the box, for its impact to be counted."""
-SETTINGS = 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5
 HALVINGS = 40  # largest number of bisections to find when in a step a contact begins
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
@@ -43,26 +41,25 @@ class Penalty(Method):
     """
 
     family, knob, order = "compliant contact", "contact duration", 1
+    settings = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5)
+    careful = 1e-5
     limit = 10_000_000
 
-    def __init__(self, name: str, law: Law, settings=SETTINGS, careful=1e-5):
-        self.name, self.settings, self.careful = name, settings, careful
-        self._law = law
+    def __init__(self, name: str, law: Law):
+        self.name, self._law = name, law
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
-        law, wall = self.wall(system, setting)
-        end, start = tau0 + cycles * system.period, np.array(state, dtype=float)
-        numbers, steps = coefficients(system), limit or self.limit
-        final, rows, steps, tau = _march(numbers, law_numbers(law, *wall), _STAGES, start, tau0, end, steps)
+    def run(self, system, state, cycles, tau0, setting):
+        law, end, start = self.law(system, setting), tau0 + cycles * system.period, np.array(state, dtype=float)
+        final, rows, steps, tau = _march(coefficients(system), law, _STAGES, start, tau0, end, self.limit)
         if tau < end:
             return failed(UNFINISHED, f"{steps} steps reach tau = {tau:.6g}", steps, 6 * steps, rows)
         return MethodRun(final, rows, steps, 6 * steps)
 
-    def wall(self, system, setting) -> tuple[Law, tuple[float, float, float]]:
-        """Return the law and (K, D at speed 1, |W| at which contact begins)."""
+    def law(self, system, setting) -> np.ndarray:
+        """Return the numbers of the contact law (see `law_numbers`)."""
         mass = system.epsilon / (1.0 + system.epsilon)
         stiffness = stiffness_of(self._law, mass, setting * system.period)
-        return self._law, (stiffness, damping_of(self._law, mass, system.kappa, stiffness), 1.0)
+        return law_numbers(self._law, stiffness, damping_of(self._law, mass, system.kappa, stiffness), 1.0)
 
     def scale(self, setting, run):
         return setting
@@ -71,26 +68,18 @@ class Penalty(Method):
 class PowerLaw(Penalty):
     """Integration with a spring W^(2n - 1) over the whole box instead of walls; the setting is n.
 
-    Parameters
-    ----------
-    speed : float
-        A ball with this speed in the middle of its box turns at W = 1. The stiffness is proportional to the square of
-        the speed.
+    A ball with speed 1 in the middle of its box turns at W = 1.
     """
 
     knob = "exponent"
+    settings = (10, 30, 100, 300, 1_000, 3_000, 10_000)
+    careful = 10_000
 
-    def __init__(
-        self, name: str, settings=(10, 30, 100, 300, 1_000, 3_000, 10_000), careful=10_000, speed: float = 1.0
-    ):
-        super().__init__(name, None, settings, careful)
-        self._speed = speed
-
-    def wall(self, system, setting):
-        law, mass = power_law(setting), system.epsilon / (1.0 + system.epsilon)
-        stiffness = stiffness_turning_at_the_wall(law, mass, system.kappa, self._speed)
-        contact = (SLOWEST_COUNTED / self._speed) ** (1.0 / setting)
-        return law, (stiffness, damping_of(law, mass, system.kappa, stiffness), contact)
+    def law(self, system, setting):
+        law, mass = self._law(setting), system.epsilon / (1.0 + system.epsilon)
+        stiffness = stiffness_turning_at_the_wall(law, mass, system.kappa)
+        damping, contact = damping_of(law, mass, system.kappa, stiffness), SLOWEST_COUNTED ** (1.0 / setting)
+        return law_numbers(law, stiffness, damping, contact)
 
     def scale(self, setting, run):
         return 1.0 / setting
@@ -98,19 +87,18 @@ class PowerLaw(Penalty):
 
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
     """Return [n, m, K, D at speed 1, power of 1 / V in D, |W| at p = 0, |W| at which contact begins]."""
-    return np.array(
-        [law.stiffness, law.damping, stiffness, damping, damping_speed_exponent(law), float(law.walls), contact]
-    )
+    # For the same kappa at every speed V, D must be proportional to this power of 1 / V.
+    power = (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
+    return np.array([law.stiffness, law.damping, stiffness, damping, power, float(law.walls), contact])
 
 
-def variants() -> list[Penalty]:
-    """Return one method for each contact law."""
-    return [
-        Penalty("penalty", SPRING),
-        Penalty("Hertz", HERTZ),
-        Penalty("Hunt-Crossley", HUNT_CROSSLEY),
-        PowerLaw("power law"),
-    ]
+METHODS = [
+    Penalty("penalty", SPRING),
+    Penalty("Hertz", HERTZ),
+    Penalty("Hunt-Crossley", HUNT_CROSSLEY),
+    PowerLaw("power law", power_law),
+]
+"""One method for each contact law."""
 
 
 @disk_cached()
@@ -173,13 +161,6 @@ def _reach(s, i, law):
 
 
 @disk_cached()
-def _outwards(s, i):
-    """Return the wall (+1 or -1) that is nearer to ball i, and the speed of the ball towards this wall."""
-    wall = 1.0 if s[2 * i] > s[2 * i + 1] else -1.0
-    return wall, wall * (s[2 * i + 4] - s[2 * i + 5])
-
-
-@disk_cached()
 def _march(q, law, stages, s, tau, end, limit):
     """Integrate to `end` in at most `limit` steps; return the last state, rows of impacts, number of steps and time.
 
@@ -190,7 +171,8 @@ def _march(q, law, stages, s, tau, end, limit):
     contact, h, steps = (q, law, dampings), 0.01 * (end - tau), 0
     while steps < limit:
         for i in range(2):  # a contact always begins at the end of a step
-            wall, speed = _outwards(s, i)
+            wall = 1.0 if s[2 * i] > s[2 * i + 1] else -1.0  # the wall nearer to the ball
+            speed = wall * (s[2 * i + 4] - s[2 * i + 5])
             if not touching[i] and _reach(s, i, law) >= 0.0:
                 touching[i], dampings[i] = True, law[3] * max(speed, SLOWEST) ** -law[4]
                 if speed > 0.0:

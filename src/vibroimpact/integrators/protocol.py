@@ -10,18 +10,8 @@ import numpy as np
 IMPACT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("speed", "f8")])
 """Data type of an impact: time, module 1 or 2, wall +1 or -1, speed |W'| just before."""
 
-REFUSED, UNFINISHED = "refused", "unfinished"
-
-
-@dataclass(frozen=True)
-class Failure:
-    """Reason why a run has no result.
-
-    kind: REFUSED (the method raised or returned an error) or UNFINISHED (out of steps).
-    """
-
-    kind: str
-    reason: str
+FINISHED, REFUSED, UNFINISHED = "finished", "refused", "unfinished"
+"""Outcomes of a run: it has a result, the method raised or returned an error, or the method ran out of steps."""
 
 
 @dataclass(eq=False)
@@ -30,8 +20,9 @@ class MethodRun:
 
     final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure. noted: impacts (tau,
     module, wall, speed) in order of time, or a function that returns them. steps: number of integration steps.
-    evaluations: number of evaluations of the right-hand side if the method counts them, else 0. failure: reason for
-    having no result, or None. doubt(): text on what the method itself reports as undecided, or None.
+    evaluations: number of evaluations of the right-hand side if the method counts them, else 0. outcome: FINISHED,
+    REFUSED or UNFINISHED. reason: why the run has no result, or "". doubt(): text on what the method itself reports as
+    undecided, or "".
 
     `impacts` and doubt() are evaluated after the run, so that the measured run time does not include them.
     """
@@ -40,8 +31,9 @@ class MethodRun:
     noted: Iterable | Callable[[], Iterable]
     steps: int
     evaluations: int = 0
-    failure: Failure | None = None
-    doubt: Callable[[], str | None] = lambda: None
+    outcome: str = FINISHED
+    reason: str = ""
+    doubt: Callable[[], str] = lambda: ""
 
     @cached_property
     def impacts(self) -> np.ndarray:
@@ -73,10 +65,10 @@ class Method(ABC):
         return None
 
     @abstractmethod
-    def run(self, system, state, cycles: int, tau0: float, setting, limit: int | None = None) -> MethodRun:
+    def run(self, system, state, cycles: int, tau0: float, setting) -> MethodRun:
         """Integrate from a state (8,) at tau0 over `cycles` forcing periods in at most `limit` steps.
 
-        setting: one of `settings`. limit: by default, that of the class. A run that cannot continue returns a failure.
+        setting: one of `settings`. A run that cannot continue returns the result of `failed`.
         """
 
     def scale(self, setting, run: MethodRun) -> float:
@@ -84,6 +76,6 @@ class Method(ABC):
         return 1.0 / run.steps
 
 
-def failed(kind: str, reason: str, steps: int, evaluations: int = 0, noted=()) -> MethodRun:
+def failed(outcome: str, reason: str, steps: int, evaluations: int = 0, noted=()) -> MethodRun:
     """Return a run without a result, with the impacts found up to the failure."""
-    return MethodRun(None, noted, steps, evaluations, Failure(kind, reason))
+    return MethodRun(None, noted, steps, evaluations, outcome, reason)

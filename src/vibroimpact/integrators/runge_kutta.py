@@ -31,9 +31,9 @@ class RungeKutta4(Method):
     careful = 2048
     limit, order = 10_000_000, 4.0
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
+    def run(self, system, state, cycles, tau0, setting):
         start, end, step = np.array(state, dtype=float), tau0 + cycles * system.period, system.period / setting
-        final, rows, steps, tau = _march(coefficients(system), start, tau0, end, step, limit or self.limit)
+        final, rows, steps, tau = _march(coefficients(system), start, tau0, end, step, self.limit)
         if tau < end:
             return failed(UNFINISHED, f"{steps} steps reach tau = {tau:.6g}", steps, noted=rows)
         return MethodRun(final, rows, steps, 4 * steps)

@@ -25,15 +25,15 @@ class SolveIvp(Method):
         self.name, self.settings, self.careful, self.order = integrator, settings, careful, order
         self._implicit = implicit
 
-    def run(self, system, state, cycles, tau0, setting, limit=None):
-        limit = limit or self.limit
+    def run(self, system, state, cycles, tau0, setting):
         contacts = Contacts(system, slow=setting**0.5)
         tau, end, s = tau0, tau0 + cycles * system.period, np.array(state, dtype=float)
         steps = evaluations = idle = 0
         contacts.start(tau, s)
         while tau < end:
-            if steps >= limit:
-                return failed(UNFINISHED, f"{limit} steps reach tau = {tau:.6g}", steps, evaluations, contacts.impacts)
+            if steps >= self.limit:
+                reason = f"{self.limit} steps reach tau = {tau:.6g}"
+                return failed(UNFINISHED, reason, steps, evaluations, contacts.impacts)
             options = {"jac": jacobian(system, [w != 0 for w in contacts.walls])} if self._implicit else {}
             first = first_sample_time(tau, s, contacts.numbers, contacts.walls, np.inf)
             if first < end - tau:
@@ -72,34 +72,23 @@ def _events(i, wall):
     contact force, so that each module has two functions in every contact state.
     """
     x, y = BOXES[i], BALLS[i]
-    if wall:
-
-        def force(tau, s, numbers, walls):
-            return guard(tau, s, numbers, walls, i)
-
-        return [_terminal(force), _terminal(force)]
 
     def lower(tau, s, numbers, walls):
-        return 1.0 + s[x] - s[y]
+        return guard(tau, s, numbers, walls, i) if wall else 1.0 + s[x] - s[y]
 
     def upper(tau, s, numbers, walls):
-        return 1.0 - s[x] + s[y]
+        return guard(tau, s, numbers, walls, i) if wall else 1.0 - s[x] + s[y]
 
-    return [_terminal(lower), _terminal(upper)]
-
-
-def _terminal(function):
-    function.terminal, function.direction = True, -1.0
-    return function
+    for event in (lower, upper):
+        event.terminal, event.direction = True, -1.0
+    return [lower, upper]
 
 
-def integrators() -> list[SolveIvp]:
-    """Return explicit, implicit and switching methods of solve_ivp."""
-    coarse = 1e-3, 1e-4, 1e-5, 1e-6, 1e-7
-    fine = 1e-8, 1e-9, 1e-10, 1e-11
-    return [
-        SolveIvp("RK45", (*coarse, *fine), careful=1e-9, order=5),
-        SolveIvp("DOP853", (*coarse[1:], *fine, 1e-12, 3e-13, 3e-14), careful=1e-12, order=8),
-        SolveIvp("Radau", (*coarse, 1e-8), careful=1e-8, order=5, implicit=True),
-        SolveIvp("LSODA", (*coarse, *fine), careful=1e-10),
-    ]
+COARSE, FINE = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7), (1e-8, 1e-9, 1e-10, 1e-11)
+METHODS = [
+    SolveIvp("RK45", (*COARSE, *FINE), careful=1e-9, order=5),
+    SolveIvp("DOP853", (*COARSE[1:], *FINE, 1e-12, 3e-13, 3e-14), careful=1e-12, order=8),
+    SolveIvp("Radau", (*COARSE, 1e-8), careful=1e-8, order=5, implicit=True),
+    SolveIvp("LSODA", (*COARSE, *FINE), careful=1e-10),
+]
+"""Explicit, implicit and switching methods."""
