@@ -97,5 +97,5 @@ def test_methods_that_fail_keep_their_rows_and_what_is_compiled_is_compiled_befo
 def test_unavoidable_error_of_one_cycle_is_the_rounding_of_its_end():
     once = Problem("once", SYSTEM, PROBLEM.state, 1)
     mp.dps = 40
-    end = [mpf(text) for text in reference_run(SYSTEM, PROBLEM.state, 1, 40).final_text]
+    end = [mpf(x.str(40, radius=False)) for x in reference_run(SYSTEM, PROBLEM.state, 1, 40).final_exact]
     assert benchmark.unavoidable_error(once) == pytest.approx(float(max(abs(x - float(x)) for x in end)), rel=1e-6)

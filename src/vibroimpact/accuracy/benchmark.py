@@ -28,7 +28,7 @@ def measure(problem: Problem, methods, seconds: float) -> list[dict]:
     return [{**{name: row[name] for name in COLUMNS}, "ratio": row["us_per_impact"] / ours} for row in rows]
 
 
-def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
+def unavoidable_error(problem: Problem) -> float:
     """Return the error of an otherwise exact run whose state is rounded to float64 once per forcing cycle.
 
     The error is the largest difference of a coordinate from the exact motion, over the ends of all cycles. No method
@@ -37,12 +37,13 @@ def unavoidable_error(problem: Problem, digits: int = DIGITS) -> float:
     exact = rounded = [Fraction(repr(float(value))) for value in problem.state]
     largest = Fraction(0)
     for _ in range(problem.cycles):
-        exact = _after_one_cycle(problem.system, exact, digits)
-        rounded = [Fraction(float(value)) for value in _after_one_cycle(problem.system, rounded, digits)]
+        exact = _after_one_cycle(problem.system, exact)
+        rounded = [Fraction(float(value)) for value in _after_one_cycle(problem.system, rounded)]
         largest = max(largest, *(abs(a - b) for a, b in zip(exact, rounded, strict=True)))
     return float(largest)
 
 
-def _after_one_cycle(system, state, digits):
-    """Return the state (8,) one forcing period after `state`, as rational numbers accurate to `digits` decimals."""
-    return [Fraction(text) for text in reference_run(system, state, 1, digits, exact_floats=False).final_text]
+def _after_one_cycle(system, state):
+    """Return the state (8,) one forcing period after `state`, as rational numbers accurate to DIGITS decimals."""
+    final = reference_run(system, state, 1, DIGITS, exact_floats=False).final_exact
+    return [Fraction(value.str(DIGITS, radius=False)) for value in final]

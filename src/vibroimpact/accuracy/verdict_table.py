@@ -60,12 +60,10 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
     rows = []
     for point, place in zip(points, found, strict=True):
         partner = None if place is None else symmetric.iloc[place]
-        exact = NO_ORBIT if partner is None else partner[EXACT]
+        orbit, exact = ("", NO_ORBIT) if partner is None else (partner["label"], partner[EXACT])
         within = all(stays_within_walls(C, system.kappa) for C in point.C if np.isfinite(C))
-        verdicts = {**criteria.of_fixed_point(system, point), EXACT: exact}
-        orbit = "" if partner is None else partner["label"]
         row = {"case": case, "label": point.label, "admissible": within, "C1": point.C[0], "C2": point.C[1]}
-        rows.append({**row, "orbit": orbit, **verdicts})
+        rows.append(row | {"orbit": orbit} | criteria.of_fixed_point(system, point) | {EXACT: exact})
     columns = ["case", "label", "admissible", "C1", "C2", "orbit", *CRITERIA]
     return pd.DataFrame(rows, columns=columns)
 

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.frames import of_run
 from vibroimpact.system import System
 from vibroimpact.system.extras import need
-from vibroimpact.system.state import KINDS, NAMES
+from vibroimpact.system.state import NAMES
 
 need("figures", "pandas")
 
@@ -15,7 +16,6 @@ import pandas as pd  # noqa: E402 (after the dependency check)
 
 ARITHMETICS = "float64", "reference"
 DIGITS = 40
-SPAN = ("transient_cycles", "window_cycles", "samples_per_cycle")
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,52 +51,31 @@ def window(system: System, settings: dict) -> Window:
     """
     cycles = settings["transient_cycles"] + settings["window_cycles"]
     starts = np.arange(settings["transient_cycles"]) * system.period
-    times = window_times(system.period, *(settings[name] for name in SPAN))
+    per_cycle = settings["samples_per_cycle"]
+    phases = np.arange(settings["window_cycles"] * per_cycle + 1) / per_cycle  # the same phases in every cycle
+    times = (settings["transient_cycles"] + phases) * system.period
     run, trust = _integrate(system, settings, cycles, np.concatenate([starts, times]))
-    samples, every = run.samples[len(starts) :], slice(None, None, settings["samples_per_cycle"])
+    states = pd.DataFrame(np.column_stack([[*starts, *times], run.samples]), columns=["tau", *NAMES])
+    samples, events = states[len(starts) :].reset_index(drop=True), of_run(run)
     return Window(
-        samples=_states(times, samples),
-        events=_events(run.events[run.events["tau"] >= times[0]]),
-        strobe=_states(
-            np.concatenate([starts, times[every]]), np.concatenate([run.samples[: len(starts)], samples[every]])
-        ),
+        samples=samples,
+        events=events[events["tau"] >= times[0]].reset_index(drop=True),
+        strobe=pd.concat([states[: len(starts)], samples[::per_cycle]], ignore_index=True),
         trust=trust,
     )
-
-
-def window_times(period: float, transient_cycles: int, window_cycles: int, samples_per_cycle: int) -> np.ndarray:
-    """Return the sample times of the window, both ends included, at the same phases in every cycle."""
-    return (transient_cycles + np.arange(window_cycles * samples_per_cycle + 1) / samples_per_cycle) * period
 
 
 def _integrate(system, settings, cycles, times):
     """Return the run and its validation metadata."""
     if settings["model"] not in ARITHMETICS:
-        raise ValueError(f"model: {settings['model']!r} is not {' or '.join(ARITHMETICS)}")
+        raise ValueError(f"model: {settings['model']!r} should be {' or '.join(ARITHMETICS)}")
     if settings["model"] == "float64":
         run = simulate(system, settings["initial_state"], cycles, sample_times=times)
         certificate = {name: value for name, value in vars(run.certificate).items() if np.isfinite(value)}
         return run, {"method": "float64", "certificate": certificate}
     from vibroimpact.accuracy.reference.run import proven_run  # loads packages that float64 runs do not need
 
-    proof = proven_run(
-        system,
-        settings["initial_state"],
-        cycles,
-        digits=settings.get("digits", DIGITS),
-        sample_times=times,
-        exact_floats=False,
-    )
+    options = {"digits": settings.get("digits", DIGITS), "sample_times": times, "exact_floats": False}
+    proof = proven_run(system, settings["initial_state"], cycles, **options)
     digits = [proof.coarse.digits, proof.run.digits]
     return proof.run, {"method": "arbitrary precision", "digits": digits, "agreement": proof.agreement}
-
-
-def _states(times, states):
-    return pd.DataFrame(np.column_stack([times, states]), columns=["tau", *NAMES])
-
-
-def _events(events):
-    table = pd.DataFrame({name: events[name] for name in ("tau", "module", "wall")})
-    table["kind"] = [KINDS[kind] for kind in events["kind"]]
-    table[list(NAMES)] = events["state"]
-    return table

@@ -19,7 +19,7 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
         If the precision cannot distinguish a nearly tangential approach from a contact.
     """
     if not series(arb(0)) > 0:
-        raise Undecidable("the distance at the start is not positive to working precision")
+        raise Undecidable("cannot decide whether a ball touches or leaves a wall when a flight starts; use more digits")
     slope = series.derivative()
     pieces = [(arb(0), end, 0)] if hint is None else [(hint, end, 0), (arb(0), hint, 0)]
     while pieces:
@@ -37,8 +37,10 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
                 return interval
             stop = (stop + (stop - start) / 8).mid()  # the root may be at `stop`: extend the interval
         if depth > 0.6 * ctx.prec:
+            least = float(abs(series(middle)).upper())
             raise Undecidable(
-                f"approach within {float(abs(series(middle)).upper()):.1e} cannot be distinguished from a contact"
+                "cannot decide whether a ball touches or leaves a wall, since the distance or contact force falls to "
+                f"{least:.1e}; use more digits"
             )
         pieces += [(middle, stop, depth + 1), (start, middle, depth + 1)]
     return None

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from flint import arb, ctx
+from flint import ctx
 
 from vibroimpact.accuracy.reference.roots import Undecidable
 from vibroimpact.accuracy.reference.taylor_models import ExactSystem, to_fraction
@@ -19,6 +19,7 @@ from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
 
 ROUNDED = Fraction(1, 10**12)  # largest distance of a ball beyond a wall that counts as rounding
+ACCURACY, MAX_DIGITS = 1e-15, 5000
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,9 +29,7 @@ class ReferenceRun:
     digits: decimals to which a single flight is computed. events: structured array (tau, module, wall, kind 0 impact /
     1 stick / 2 release, state after), rounded to float64. event_taus (n,), event_states (n, 8), final_exact (8,): times
     and states of the events, and final state, in arbitrary precision (flint.arb). samples (n, 8), final (8,): float64.
-    local_error (arb): largest radius of an enclosure in a single flight. completion_error (arb): largest change by the
-    last step of a chatter's extrapolation. flights, chatters: number of flights, and number of chatters that were
-    extrapolated to their end.
+    chatters: number of chatters that were extrapolated to their end.
     """
 
     digits: int
@@ -40,15 +39,7 @@ class ReferenceRun:
     samples: np.ndarray
     final: np.ndarray
     final_exact: tuple
-    local_error: arb
-    completion_error: arb
-    flights: int
     chatters: int
-
-    @property
-    def final_text(self) -> tuple[str, ...]:
-        """Final state as decimal strings with all digits."""
-        return tuple(value.str(self.digits, radius=False) for value in self.final_exact)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,17 +89,24 @@ def reference_run(
         If a decision, such as graze or miss, needs more digits.
     """
     if digits < 20:
-        raise ValueError(f"digits: {digits} is below 20; use simulate for float64 accuracy")
+        raise ValueError(f"digits: {digits} should be at least 20; for fewer digits, use vibroimpact.simulate")
     length = to_fraction("cycles", cycles)
     if length < 0:
-        raise ValueError(f"cycles: {cycles} is below 0")
+        raise ValueError(f"cycles: {cycles} should be at least 0")
     if exact_floats is None:
         exact_floats = isinstance(system_parameters, System)
     system = ExactSystem.of(system_parameters, exact_floats)
     start = [to_fraction("state", value, exact_floats) for value in state]
-    if exact_floats:
-        _put_on_walls(start)
-    _require_inside(start)
+    if len(start) != 8:
+        raise ValueError(f"state: {len(start)} numbers given, expected 8")
+    for i in (0, 2):
+        gap = start[i] - start[i + 1]
+        on_wall = float(start[i]) - float(start[i + 1]) in (1.0, -1.0) or 1 < abs(gap) <= 1 + ROUNDED
+        if exact_floats and on_wall:  # up to rounding: move the ball onto the wall
+            start[i + 1] = start[i] - (1 if gap > 0 else -1)
+        elif abs(gap) > 1:
+            module = i // 2 + 1
+            raise ValueError(f"state: ball {module} starts beyond a wall, |W{module}| = {float(abs(gap))} is above 1")
     bits = int(digits * 3.3219281) + 1
     with ctx.workprec(bits + GUARD_BITS):
         trajectory = Trajectory(system, start, to_fraction("tau0", tau0, exact_floats), length, bits, sample_times)
@@ -116,23 +114,13 @@ def reference_run(
         return _collect(trajectory, digits)
 
 
-def proven_run(
-    system_parameters,
-    state,
-    cycles,
-    accuracy=1e-15,
-    digits=None,
-    tau0=0,
-    sample_times=None,
-    max_digits=5000,
-    exact_floats=None,
-) -> ProvenRun:
-    """Repeat `reference_run` with doubled digits until two successive runs differ by at most `accuracy`.
+def proven_run(system_parameters, state, cycles, digits=None, sample_times=None, exact_floats=None) -> ProvenRun:
+    """Repeat `reference_run` with doubled digits until two successive runs differ by at most ACCURACY.
 
     Parameters
     ----------
-    system_parameters, state, cycles, tau0, sample_times, exact_floats
-        As in `reference_run`.
+    system_parameters, state, cycles, sample_times, exact_floats
+        As in `reference_run`, with tau0 = 0.
     digits : int, optional
         Initial number of digits. The default is 40 plus 0.33 per forcing period; the modulated case was measured to
         lose 0.33 digits per period.
@@ -140,21 +128,26 @@ def proven_run(
     Raises
     ------
     ArithmeticError
-        If no two successive runs with up to max_digits agree.
+        If no two successive runs with up to MAX_DIGITS agree.
     """
     digits = digits or int(40 + 0.33 * float(to_fraction("cycles", cycles)))
     coarse, agreement = None, np.inf
-    while digits <= max_digits:
+    while digits <= MAX_DIGITS:
         try:
-            fine = reference_run(system_parameters, state, cycles, digits, tau0, sample_times, exact_floats)
+            fine = reference_run(system_parameters, state, cycles, digits, 0, sample_times, exact_floats)
         except Undecidable:
             fine = None
-        if coarse and fine:
-            agreement = _agreement(coarse, fine)
-            if agreement <= accuracy:
+        if coarse and fine and len(coarse.events) == len(fine.events):
+            samples = np.abs(coarse.samples - fine.samples).max(initial=0.0)
+            events = departure(coarse, fine)[1].max(initial=0.0)
+            agreement = float(max(_distance(coarse.final_exact, fine.final_exact), events, samples))
+            if agreement <= ACCURACY:
                 return ProvenRun(fine, coarse, agreement)
         coarse, digits = fine, 2 * digits
-    raise ArithmeticError(f"no two precisions up to {max_digits} digits agree to {accuracy} (last: {agreement})")
+    raise ArithmeticError(
+        f"reference run: no two successive runs with up to {MAX_DIGITS} digits agree to {ACCURACY}; "
+        f"the last two that could be compared differ by {agreement}"
+    )
 
 
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
@@ -184,43 +177,12 @@ def _collect(trajectory, digits):
         events=events,
         event_taus=tuple(entry[0] for entry in record),
         event_states=tuple(entry[4] for entry in record),
-        samples=_to_float(trajectory.samples),
-        final=_to_float([final])[0],
+        samples=np.array(trajectory.samples, dtype=float).reshape(-1, 8),
+        final=np.array(final, dtype=float),
         final_exact=final,
-        local_error=trajectory.local_error,
-        completion_error=trajectory.completion_error,
-        flights=trajectory.flights,
         chatters=trajectory.chatters,
     )
 
 
-def _to_float(states):
-    return np.array([[float(value) for value in state] for state in states]).reshape(-1, 8)
-
-
-def _agreement(coarse, fine):
-    if len(coarse.events) != len(fine.events):
-        return np.inf
-    apart = [departure(coarse, fine)[1], np.abs(coarse.samples - fine.samples).ravel()]
-    return float(max(_distance(coarse.final_exact, fine.final_exact), *(a.max(initial=0.0) for a in apart)))
-
-
 def _distance(one, other):
     return max(float(abs(a - b).upper()) for a, b in zip(one, other, strict=True))
-
-
-def _put_on_walls(start):
-    """Move each ball onto its wall if it is on the wall up to rounding, or beyond the wall by rounding."""
-    for i in (0, 2):
-        gap = start[i] - start[i + 1]
-        if float(start[i]) - float(start[i + 1]) in (1.0, -1.0) or 1 < abs(gap) <= 1 + ROUNDED:
-            start[i + 1] = start[i] - (1 if gap > 0 else -1)
-
-
-def _require_inside(start):
-    if len(start) != 8:
-        raise ValueError(f"state: needs 8 entries, got {len(start)}")
-    for i in (0, 2):
-        gap = start[i] - start[i + 1]
-        if abs(gap) > 1:
-            raise ValueError(f"state: |W{i // 2 + 1}| = {float(abs(gap))} is above 1, the ball is beyond a wall")

@@ -63,25 +63,22 @@ class ExactSystem:
         if isinstance(parameters, System):
             parameters = {name: getattr(parameters, name) for name in names}
         if set(parameters) != set(names):
-            raise ValueError(f"system_parameters: got {sorted(parameters)}, needs exactly {names}")
+            raise ValueError(f"system_parameters: got the parameters {sorted(parameters)}, expected exactly {names}")
         rounded = System(**{name: float(value) for name, value in parameters.items()})
         q = {name: to_fraction(name, value, exact_floats) for name, value in parameters.items()}
         epsilon = q["epsilon"]
-        coupling, coupling_damping = epsilon * q["alpha12_hat"], epsilon * q["gamma12_hat"]
-        ground = (Fraction(1), 1 + epsilon * q["sigma20_hat"])
-        ground_damping = (epsilon * q["gamma1_hat"], epsilon * q["gamma2_hat"])
         return cls(
             epsilon=epsilon,
             kappa=q["kappa"],
             Omega=Fraction(rounded.Omega) if exact_floats else 1 + epsilon * q["sigma_e_hat"],
-            stiffness=_coupled(ground, coupling),
-            damping=_coupled(ground_damping, coupling_damping),
+            stiffness=_coupled(Fraction(1), 1 + epsilon * q["sigma20_hat"], epsilon * q["alpha12_hat"]),
+            damping=_coupled(epsilon * q["gamma1_hat"], epsilon * q["gamma2_hat"], epsilon * q["gamma12_hat"]),
             forcing=(epsilon * q["f10_hat"], epsilon * q["f20_hat"]),
         )
 
 
-def _coupled(ground, coupling):
-    return ((ground[0] + coupling, -coupling), (-coupling, ground[1] + coupling))
+def _coupled(one, two, coupling):
+    return (one + coupling, -coupling), (-coupling, two + coupling)
 
 
 class Flow:
@@ -97,7 +94,9 @@ class Flow:
         rate = rate_matrix(system, stuck)
         weights, self.norm = _weighted_norm(rate)
         self._weights = [to_ball(weight) for weight in weights]
-        self.terms = _terms(bits)
+        self.terms = 12
+        while self.terms * math.log2(REACH) - math.lgamma(self.terms + 1) / math.log(2) > -bits:
+            self.terms += 1
         with ctx.workprec(bits):
             A = arb_mat(6, 6, [to_ball(entry) for row in rate for entry in row])
             rows = arb_mat(2, 6, [1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0])
@@ -163,10 +162,3 @@ def _weighted_norm(rate):
     weights = [frequency, frequency] + [Fraction(1)] * 4
     norm = max(sum(weights[i] * abs(entry) / weights[j] for j, entry in enumerate(row)) for i, row in enumerate(rate))
     return weights, norm
-
-
-def _terms(bits):
-    terms = 12
-    while terms * math.log2(REACH) - math.lgamma(terms + 1) / math.log(2) > -bits:
-        terms += 1
-    return terms

@@ -32,15 +32,6 @@ class _Ball:
     order: int | None = 0
     stuck: bool = False
 
-    def walls_ahead(self):
-        """Return the walls at which the next event of the ball may occur.
-
-        A ball in flight may hit either wall. A stuck ball may leave its wall, unless its contact force is always zero.
-        """
-        if not self.stuck:
-            return (1, -1)
-        return () if self.order is None else (self.wall,)
-
 
 @dataclass(frozen=True)
 class _Candidate:
@@ -65,10 +56,7 @@ class Trajectory:
     cycles: Fraction
     bits: int
     sample_times: object
-    flights: int = 0
     chatters: int = 0
-    local_error: arb = field(default_factory=arb)
-    completion_error: arb = field(default_factory=arb)
     record: list = field(default_factory=list)
     samples: list = field(default_factory=list)
 
@@ -76,8 +64,8 @@ class Trajectory:
         x1, y1, x2, y2, v1, u1, v2, u2 = self.start
         self.tau = to_ball(self.tau0).mid()
         self.box = [to_ball(value).mid() for value in (x1, x2, v1, v2)]
-        self.balls = [_Ball(to_ball(x1 - y1).mid(), to_ball(v1 - u1).mid())]
-        self.balls.append(_Ball(to_ball(x2 - y2).mid(), to_ball(v2 - u2).mid()))
+        gaps = (x1 - y1, v1 - u1), (x2 - y2, v2 - u2)
+        self.balls = [_Ball(to_ball(gap).mid(), to_ball(rate).mid()) for gap, rate in gaps]
         self.omega = to_ball(self.system.Omega)
         self.kappa = to_ball(self.system.kappa)
         self.impulse = to_ball(self.system.epsilon * (1 + self.system.kappa) / (1 + self.system.epsilon))
@@ -92,10 +80,10 @@ class Trajectory:
         # A float in a grid of times is the result of a computation, so that its binary value is used.
         rational = [Fraction(float(t)) if isinstance(t, float) else to_fraction("sample_times", t) for t in times]
         if any(later < earlier for earlier, later in pairwise(rational)):
-            raise ValueError("sample_times: must be ascending")
+            raise ValueError("sample_times: should be ascending")
         balls = [to_ball(t).mid() for t in rational]
         if balls and (balls[0] < self.tau - self.tolerance or balls[-1] > self.end + self.tolerance):
-            raise ValueError(f"sample_times: must be within the window [{float(self.tau)}, {float(self.end)}]")
+            raise ValueError(f"sample_times: should be within the run, from {float(self.tau)} to {float(self.end)}")
         return balls[::-1]
 
     # -- the loop ----------------------------------------------------------------------------------------
@@ -110,7 +98,6 @@ class Trajectory:
 
     def _fly(self):
         """Advance to the next event, to the end of the window or by the longest step, whichever comes first."""
-        self.flights += 1
         self._settle()
         flow, search_flow = self._flow(self.bits + GUARD_BITS), self._flow(SEARCH_BITS)
         vector = self._vector()
@@ -132,11 +119,8 @@ class Trajectory:
     # -- state -------------------------------------------------------------------------------------------
 
     def state(self):
-        x, v = self.box[:2], self.box[2:]
-        one, two = self.balls
-        gaps, rates = (one.gap, two.gap), (one.rate, two.rate)
-        places = [value for i in range(2) for value in (x[i], (x[i] - gaps[i]).mid())]
-        return [*places, *(value for i in range(2) for value in (v[i], (v[i] - rates[i]).mid()))]
+        relative = *(ball.gap for ball in self.balls), *(ball.rate for ball in self.balls)
+        return [one for box, W in zip(self.box, relative, strict=True) for one in (box, (box - W).mid())]
 
     def _vector(self):
         return [*self.box, *(self.omega * self.tau).sin_cos()]
@@ -151,10 +135,9 @@ class Trajectory:
         self.record.append((self.tau, module, self.balls[module].wall, kind, tuple(self.state())))
 
     def _point(self, value):
-        """Return the midpoint of an enclosure, as start of the next flight; update local_error by the radius."""
+        """Return the midpoint of an enclosure, as start of the next flight."""
         if not value.rad() < self.tolerance:
-            raise Undecidable(f"a flight's enclosure has radius {value.rad()}, too wide for the requested digits")
-        self.local_error = self.local_error.max(value.rad())
+            raise Undecidable(f"the state after a flight is only known to {value.rad()}; use more digits")
         return value.mid()
 
     def _advance(self, series, step, arriving):
@@ -210,7 +193,12 @@ class Trajectory:
 
         Each interval (arb) contains only the first root of the distance. The distance is that of `_distance`.
         """
-        keys = [(module, wall) for module in range(2) for wall in self.balls[module].walls_ahead()]
+        keys = []
+        for module, ball in enumerate(self.balls):
+            if not ball.stuck:
+                keys += [(module, 1), (module, -1)]
+            elif ball.order is not None:  # a ball without any contact force never leaves its wall
+                keys.append((module, ball.wall))
         distances = [(key, self._distance(key, series)) for key in keys]
         hints = {key: _parabola_hint(distance, longest) for key, distance in distances}
         found, end = [], longest
@@ -232,7 +220,8 @@ class Trajectory:
         ball = self.balls[module]
         if ball.stuck:
             return _force(ball, series[module]).right_shift(ball.order)
-        relative = _relative(ball, series[module])
+        relative = arb_poly(series[module])  # W = X - Y, whose terms from t^2 on are those of X
+        relative[0], relative[1] = ball.gap, ball.rate
         distance = -relative if wall > 0 else relative
         if ball.wall == wall:
             return distance.right_shift(ball.order)
@@ -261,7 +250,7 @@ class Trajectory:
         """
         ball = self.balls[module]
         if not ball.wall * ball.rate > -self.tolerance:
-            raise Undecidable("the approach speed of an impact is not positive within the digits")
+            raise Undecidable("cannot decide whether a ball at a wall moves towards it; use more digits")
         self.box[2 + module] = self._point(self.box[2 + module] - self.impulse * ball.rate)
         ball.rate, ball.order = self._point(-self.kappa * ball.rate), 1
         self._note(module, IMPACT)
@@ -342,7 +331,6 @@ class Trajectory:
 
     def _complete(self, contacts, others):
         self.chatters += 1
-        self.completion_error = self.completion_error.max(self.chatter.change)
         tau, *values = [self._point(value) for value in self.chatter.limit]
         self._forget_unlisted(dict(contacts))
         self.tau, self.box = tau, values[:4]
@@ -361,13 +349,6 @@ class Trajectory:
             if kind != IMPACT or module not in modules or speed > to_ball(LISTED_SPEED):
                 return
             self.record.pop()
-
-
-def _relative(ball, motion):
-    """Return W = X - Y of a ball in free flight as a power series, whose terms from t^2 on are those of X."""
-    relative = arb_poly(motion)
-    relative[0], relative[1] = ball.gap, ball.rate
-    return relative
 
 
 def _force(ball, motion):
