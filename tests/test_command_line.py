@@ -92,7 +92,7 @@ def test_a_table_that_cannot_be_saved_is_printed(capsys):
     printed = capsys.readouterr()
     assert end.value.code == 1
     assert len(printed.out.splitlines()) == 4
-    assert "output: /dev/full cannot be written, so the table is printed: No space left" in printed.err
+    assert "output: /dev/full cannot be written (No space left on device), so the table was printed" in printed.err
     assert printed.err.count("\n") == 1
 
 

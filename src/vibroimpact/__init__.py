@@ -20,53 +20,31 @@ Verdicts on stability have the same names everywhere: `fast` (impacts), `slow` (
 from importlib import import_module
 from importlib.metadata import version
 
-_PUBLIC = {
-    "System": "vibroimpact.system",
-    "PhysicalSystem": "vibroimpact.system",
-    "fixed_points": "vibroimpact.theory.fixed_points.symmetric_points",
-    "FixedPoint": "vibroimpact.theory.fixed_points.symmetric_points",
-    "orbits": "vibroimpact.exact.orbits.search",
-    "Orbit": "vibroimpact.exact.orbits.search",
-    "prove": "vibroimpact.exact.orbits.search",
-    "periodic_orbit": "vibroimpact.exact.periodic",
-    "PeriodicOrbit": "vibroimpact.exact.periodic",
-    "to_frame": "vibroimpact.frames",
-    "to_dataset": "vibroimpact.frames",
-    "branches": "vibroimpact.studies.public.continuation",
-    "bifurcation_curves": "vibroimpact.studies.public.continuation",
-    "sweep": "vibroimpact.studies.public.sweeps",
-    "sections": "vibroimpact.studies.public.sections",
-    "attractors": "vibroimpact.studies.regimes.attractors",
-    "basins": "vibroimpact.studies.regimes.attractors",
-    "Basins": "vibroimpact.studies.regimes.attractors",
-    "Attractor": "vibroimpact.studies.regimes.attractors",
-    "Observation": "vibroimpact.studies.regimes.settling",
-    "starts": "vibroimpact.studies.regimes.classification",
-    "largest_lyapunov": "vibroimpact.studies.regimes.lyapunov",
-    "lyapunov_spectrum": "vibroimpact.studies.regimes.lyapunov",
-    "Tuning": "vibroimpact.studies.absorbers.references",
-    "tuned": "vibroimpact.studies.absorbers.references",
-    "best_tuning": "vibroimpact.studies.absorbers.tuning",
-    "textbook_tuning": "vibroimpact.studies.absorbers.tuning",
-    "decay_time": "vibroimpact.studies.absorbers.decay",
-    "design": "vibroimpact.studies.one_machine",
-    "Design": "vibroimpact.studies.one_machine",
-    "simulate": "vibroimpact.exact.engine.simulation",
-    "simulate_many": "vibroimpact.exact.engine.simulation",
-    "ensemble": "vibroimpact.exact.lanes.ensemble",
-    "OUTCOME": "vibroimpact.exact.lanes.ensemble",
-    "STATUSES": "vibroimpact.exact.lanes.ensemble",
-    "Run": "vibroimpact.exact.engine.simulation",
-    "Energy": "vibroimpact.exact.engine.energy",
-    "ENERGY": "vibroimpact.exact.engine.energy",
-    "Certificate": "vibroimpact.exact.engine.certificate",
-    "EVENT": "vibroimpact.system.state",
-    "KINDS": "vibroimpact.system.state",
-    "IMPACT": "vibroimpact.system.state",
-    "STICK": "vibroimpact.system.state",
-    "RELEASE": "vibroimpact.system.state",
+_NAMES = {
+    "system": "System PhysicalSystem",
+    "theory.fixed_points.symmetric_points": "fixed_points FixedPoint",
+    "exact.orbits.search": "orbits Orbit prove",
+    "exact.periodic": "periodic_orbit PeriodicOrbit",
+    "frames": "to_frame to_dataset",
+    "studies.public.continuation": "branches bifurcation_curves",
+    "studies.public.sweeps": "sweep",
+    "studies.public.sections": "sections",
+    "studies.regimes.attractors": "attractors basins Basins Attractor",
+    "studies.regimes.settling": "Observation",
+    "studies.regimes.classification": "starts",
+    "studies.regimes.lyapunov": "largest_lyapunov lyapunov_spectrum",
+    "studies.absorbers.references": "Tuning tuned",
+    "studies.absorbers.tuning": "best_tuning textbook_tuning",
+    "studies.absorbers.decay": "decay_time",
+    "studies.one_machine": "design Design",
+    "exact.engine.simulation": "simulate simulate_many Run",
+    "exact.lanes.ensemble": "ensemble OUTCOME STATUSES",
+    "exact.engine.energy": "Energy ENERGY",
+    "exact.engine.certificate": "Certificate",
+    "system.state": "EVENT KINDS IMPACT STICK RELEASE",
 }
-"""Python module of each public name; `__init__.pyi` lists the same names for type checkers."""
+"""Public names in each module of the package; `__init__.pyi` lists the same names for type checkers."""
+_PUBLIC = {name: f"vibroimpact.{module}" for module, names in _NAMES.items() for name in names.split()}
 __all__ = [*_PUBLIC, "__version__"]
 
 
@@ -81,7 +59,7 @@ def __getattr__(name: str):
     except ModuleNotFoundError as error:
         if error.name != "vibroimpact.studies":
             raise
-        missing = f"vibroimpact.{name} belongs to the studies, the folder vibroimpact/studies, which is missing here"
+        missing = f"vibroimpact.{name} needs the studies, the folder vibroimpact/studies, which is not installed"
         raise ModuleNotFoundError(missing, name=error.name) from None
     globals()[name] = value
     return value

@@ -49,7 +49,9 @@ def to_frame(result: Any) -> "pandas.DataFrame":
         return _pandas().DataFrame(result.rows())
     if isinstance(result, np.ndarray) and result.dtype.names:
         return _pandas().DataFrame(_columns(result.ravel()))
-    if isinstance(result, list | tuple) and all(map(_has_rows, result)):
+    if isinstance(result, list | tuple) and all(
+        isinstance(one, dict) or hasattr(one, "rows") or hasattr(one, "row") for one in result
+    ):
         rows = [row for number, one in enumerate(result) for row in _rows(one, number)]
         return _pandas().DataFrame(rows, columns=None if rows else getattr(result, "columns", None))
     kind = type(result).__name__
@@ -139,10 +141,6 @@ def plot(system, times, samples):
         axes.legend(loc="upper right", ncols=2)
     axes.set_xlabel("forcing periods")
     return figure
-
-
-def _has_rows(one):
-    return isinstance(one, dict) or hasattr(one, "rows") or hasattr(one, "row")
 
 
 def _rows(one, number):

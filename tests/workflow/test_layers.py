@@ -89,11 +89,11 @@ def test_without_the_studies_the_chapter_is_built_and_checked_and_its_tests_are_
     listed = subprocess.run(["make", "-n", "test-quick"], cwd=chapter_alone.path, capture_output=True, text=True).stdout
     assert all((chapter_alone / path).exists() for path in re.findall(r"tests/\S+", listed))
     assert "tests/system" in listed
-    assert "vibroimpact.branches belongs to the studies" in run(chapter_alone, "-c", SAID).stdout
+    assert "vibroimpact.branches needs the studies" in run(chapter_alone, "-c", SAID).stdout
     machine = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9"
     ended = run(chapter_alone, "-m", "vibroimpact", *machine.split())
     assert ended.returncode == 2
-    assert "vibroimpact.design belongs to the studies" in ended.stderr
+    assert "vibroimpact.design needs the studies" in ended.stderr
     assert ended.stderr.count("\n") == 1
 
 

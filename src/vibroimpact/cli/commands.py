@@ -11,7 +11,7 @@ import numpy as np
 import vibroimpact
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits.search import orbits
-from vibroimpact.system import PhysicalSystem, System
+from vibroimpact.system import PhysicalSystem
 from vibroimpact.system.arguments import real, whole
 from vibroimpact.system.chapter import CASES, PARAMETERS
 from vibroimpact.system.extras import need
@@ -61,8 +61,8 @@ class Command(NamedTuple):
     """Description of a command: its help text, its options and the function that computes its table."""
 
     help: str
-    add_options: Callable
     compute: Callable[..., Table]
+    add_options: Callable = lambda parser: None
     of_system: bool = True
     """True if the command takes the dimensionless parameters besides its own options."""
 
@@ -77,22 +77,6 @@ def add_system_options(parser) -> None:
         usual = "that of the case" if value is None else value
         spellings = dict.fromkeys((f"--{name.replace('_', '-')}", f"--{name}"))
         group.add_argument(*spellings, type=float, metavar="X", help=f"default: {usual}")
-
-
-def system_of(options) -> System:
-    """Return the system that the options describe.
-
-    Raises
-    ------
-    ValueError
-        If a parameter is not admissible (see System).
-    """
-    given = {name: value for name in NAMES if (value := getattr(options, name)) is not None}
-    return System(**{**PARAMETERS, **CASES[options.case], **given})
-
-
-def _no_options(parser):
-    """Add no options besides those of the system."""
 
 
 def _fixed_points(system, options):
@@ -165,21 +149,21 @@ def _range(text) -> tuple[float, ...]:
     try:
         return tuple(float(word) for word in text.split("..", maxsplit=1))
     except ValueError:
-        raise ArgumentTypeError(f"{text!r} is neither a number [kg] nor a range such as 0..40") from None
+        raise ArgumentTypeError(f"{text!r} should be a number [kg] or a range such as 0..40") from None
 
 
 def _design(options):
     """Return one row per frequency; the summary is the text of the `Design`."""
-    if options.plot is not None and options.plot.suffix not in PICTURES:
-        raise ValueError(f"plot: {options.plot} does not end in {', '.join(PICTURES)}")
     if options.plot is not None:
+        if options.plot.suffix not in PICTURES:
+            raise ValueError(f"plot: {options.plot} should end in {', '.join(PICTURES)}")
         need("figures", "matplotlib", "pandas")
     low, high = real("from", options.low), real("to", options.high)
     if not 0 < low < high:
-        raise ValueError(f"from, to: {low} and {high} Hz; needs 0 < from < to")
+        raise ValueError(f"from, to: {low:g} and {high:g} Hz; expected 0 < from < to")
     least, most = options.m[0], options.m[-1]
     if len(options.m) > 1 and not 0 <= least < most:
-        raise ValueError(f"m: {least:g}..{most:g}; needs 0 <= A < B [kg]")
+        raise ValueError(f"m: {least:g}..{most:g}; expected a range A..B with 0 <= A < B [kg]")
     masses = None if len(options.m) == 1 else [m for m in np.linspace(least, most, MASS_STEPS + 1) if m > 0]
     machine = PhysicalSystem.single(**{name: getattr(options, name) for name in MACHINE} | {"m": most})
     choices = {"restitutions": options.restitution} if options.restitution else {}
@@ -189,22 +173,18 @@ def _design(options):
 
 COMMANDS = {
     "fixed-points": Command(
-        "list all fixed points of the slow flow with the verdict of each stability criterion",
-        _no_options,
-        _fixed_points,
+        "list all fixed points of the slow flow with the verdict of each stability criterion", _fixed_points
     ),
-    "orbits": Command(
-        "list all periodic responses of the exact system with two impacts per cycle and module", _no_options, _orbits
-    ),
+    "orbits": Command("list all periodic responses of the exact system with two impacts per cycle and module", _orbits),
     "simulate": Command(
         "integrate the exact system from an initial state, with impacts, chatter and sticking",
-        _simulate_options,
         _simulate,
+        _simulate_options,
     ),
     "design": Command(
         "choose clearance and restitution of the ball for one machine, in SI units, and report their effect",
-        _design_options,
         _design,
+        _design_options,
         of_system=False,
     ),
 }

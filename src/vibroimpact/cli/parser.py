@@ -9,7 +9,9 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import vibroimpact
-from vibroimpact.cli.commands import COMMANDS, Table, add_system_options, system_of
+from vibroimpact.cli.commands import COMMANDS, NAMES, Table, add_system_options
+from vibroimpact.system import System
+from vibroimpact.system.chapter import CASES, PARAMETERS
 
 
 class _Parser(argparse.ArgumentParser):
@@ -29,7 +31,8 @@ def main(arguments: list[str] | None = None) -> int:
     The process exits with status 2 for invalid arguments, and with status 1 for a failed computation.
     """
     options = parser().parse_args(arguments)
-    return options.run(options)
+    options.run(options)
+    return 0
 
 
 def parser() -> argparse.ArgumentParser:
@@ -49,21 +52,20 @@ def parser() -> argparse.ArgumentParser:
             add_system_options(own)
         own.set_defaults(run=_run, command=name, parser=own)
     words = "compile the simulation code in advance, once per machine"
-    commands.add_parser("compile", help=words, description=words).set_defaults(run=_compile)
+    compiling = commands.add_parser("compile", help=words, description=words)
+    compiling.set_defaults(run=lambda options: import_module("vibroimpact.compile").main())
     return top
 
 
-def _compile(options) -> int:
-    import_module("vibroimpact.compile").main()
-    return 0
-
-
-def _run(options) -> int:
-    """Compute the table of a command, save or print the result, and save its plot if one is asked for; return 0."""
+def _run(options):
+    """Compute the table of a command, save or print the result, and save its plot if one is requested."""
     try:
         _check_folders(options)
-        command = COMMANDS[options.command]
-        table = command.compute(*([system_of(options)] if command.of_system else []), options)
+        command, systems = COMMANDS[options.command], []
+        if command.of_system:
+            given = {name: value for name in NAMES if (value := getattr(options, name)) is not None}
+            systems = [System(**PARAMETERS | CASES[options.case] | given)]
+        table = command.compute(*systems, options)
         _put(table, options.output)
         if getattr(options, "plot", None):
             _draw(table, options)
@@ -71,18 +73,19 @@ def _run(options) -> int:
         options.parser.error(str(error))
     except (ArithmeticError, OSError) as error:
         options.parser.exit(1, f"{options.parser.prog}: {error}\n")
-    return 0
 
 
 def _check_folders(options):
     """Raise ValueError if an output file cannot be written, before anything is computed."""
     for name in ("output", "plot"):
         path = getattr(options, name, None)
-        if path is not None and not path.parent.is_dir():
+        if path is None:
+            continue
+        if not path.parent.is_dir():
             raise ValueError(f"{name}: folder {path.parent} does not exist")
-        if path is not None and path.is_dir():
-            raise ValueError(f"{name}: {path} is a folder")
-        if path is not None and not os.access(path if path.exists() else path.parent, os.W_OK):
+        if path.is_dir():
+            raise ValueError(f"{name}: {path} is a folder, expected the name of a file")
+        if not os.access(path if path.exists() else path.parent, os.W_OK):
             raise ValueError(f"{name}: {path} is not writable")
 
 
@@ -97,7 +100,7 @@ def _put(table: Table, output: Path | None):
             with open(output, "w", encoding="utf-8", newline="") as file:
                 table.write(file)
     except OSError as error:
-        failed = OSError(f"output: {output} cannot be written, so the table is printed: {error.strerror}")
+        failed = OSError(f"output: {output} cannot be written ({error.strerror}), so the table was printed instead")
     try:
         if table.answer:
             print(table.answer, flush=True)
