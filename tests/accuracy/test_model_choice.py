@@ -82,8 +82,8 @@ def test_a_point_without_an_exact_orbit_and_other_models_are_refused_in_one_line
     table = fixed_point_table("weak", system).assign(C1=9.0)
     assert motion(system, table, "a", "slow_flow").point.C[0] == 9.0
     for label, model, said in (
-        ("a", "exact_orbit", r"\Amodel: no exact orbit lies next to fixed point 'a'"),
-        ("a", "float64", r"\Amodel: 'float64' is not slow_flow, exact_orbit or second_term\Z"),
+        ("a", "exact_orbit", r"\Amodel: exact_orbit has no orbit next to fixed point 'a'"),
+        ("a", "float64", r"\Amodel: 'float64' should be slow_flow, exact_orbit or second_term\Z"),
         ("z", "exact_orbit", r"\Afixed_point: "),
     ):
         with pytest.raises(ValueError, match=said):

@@ -87,7 +87,7 @@ def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
         roots = symmetric_solutions(system)
         found = zip(points, partners([point.C for point in points], roots[:, 2:]), strict=True)
         return [_exact(system, point, roots[k]) for point, k in found if k is not None]
-    raise ValueError(f"model: {model!r} is not slow_flow, exact_orbit or second_term")
+    raise ValueError(f"model: {model!r} should be slow_flow, exact_orbit or second_term")
 
 
 def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
@@ -101,7 +101,7 @@ def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
     labelled_point(points, label)
     found = {one.point.label: one for one in motions(system, labelled_points(points), model)}
     if label not in found:
-        raise ValueError(f"model: no exact orbit lies next to fixed point {label!r}; use slow_flow")
+        raise ValueError(f"model: exact_orbit has no orbit next to fixed point {label!r}; use slow_flow")
     return found[label]
 
 

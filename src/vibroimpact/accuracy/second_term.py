@@ -58,7 +58,8 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
     start = np.nan_to_num(np.concatenate([impact_times(here, point), point.C]))
     roots = newton(SymmetricConditions(here), start[None])
     if not len(roots):
-        raise NoOrbit("system: Newton's method reaches no symmetric 1:1 orbit from the fixed point")
+        where = f"next to fixed point {point.label!r} at epsilon = {epsilon:g}"
+        raise NoOrbit(f"model: second_term needs a symmetric 1:1 orbit {where}, and Newton's method found none")
     return here, roots[0]
 
 
