@@ -24,38 +24,22 @@ class GitRefused(ValueError):
     """Raised if git refuses to read a repository, for example because another user owns its directory."""
 
 
-def call(*arguments, root=".", **variables) -> subprocess.CompletedProcess:
-    """Run git in a directory, with English output and without variables that could select another repository.
+def output(*arguments, root=".") -> bytes:
+    """Return the output of a git command in a repository.
 
-    Parameters
-    ----------
-    arguments
-        Arguments of git.
-    root
-        Directory in which git runs.
-    variables
-        Further environment variables.
+    The output is in English. Environment variables that could select another repository are ignored.
 
     Raises
     ------
     OSError
         If git is not installed.
-    """
-    kept = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
-    neutral = [word for setting in SETTINGS.items() for word in ("-c", "=".join(setting))]
-    environment = kept | {"LC_ALL": "C", "GIT_ATTR_NOSYSTEM": "1"} | variables
-    return subprocess.run(["git", *neutral, *arguments], cwd=root, env=environment, capture_output=True)
-
-
-def output(*arguments, root=".") -> bytes:
-    """Return the output of a git command in a repository.
-
-    Raises
-    ------
     GitRefused
         If the command fails; the message contains the error of git on one line.
     """
-    run = call(*arguments, root=root)
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
+    neutral = [word for setting in SETTINGS.items() for word in ("-c", "=".join(setting))]
+    environment = kept | {"LC_ALL": "C", "GIT_ATTR_NOSYSTEM": "1"}
+    run = subprocess.run(["git", *neutral, *arguments], cwd=root, env=environment, capture_output=True)
     if run.returncode:
         raise GitRefused(f"git failed: {' '.join(run.stderr.decode('utf-8', 'replace').split())}")
     return run.stdout
@@ -112,7 +96,6 @@ def committed(root) -> str:
         raise ValueError("the pipeline is not a git checkout, or git is not installed; an archive needs a commit")
     if changed:
         more = f" and {len(changed) - MAX_PATHS} more" if len(changed) > MAX_PATHS else ""
-        raise ValueError(
-            f"uncommitted changes in {', '.join(changed[:MAX_PATHS])}{more}; commit, ignore or remove them first"
-        )
+        shown = ", ".join(changed[:MAX_PATHS])
+        raise ValueError(f"uncommitted changes in {shown}{more}; commit, ignore or remove them first")
     return commit

@@ -2,11 +2,11 @@
 
 import os
 import shutil
+import subprocess
 import tarfile
 from pathlib import Path
 
 from pipeline_trees import Tree
-from vibroimpact_pipeline.git import call
 
 COMMITTED = "2020-02-03T04:05:06+00:00"
 IDENTITY = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
@@ -14,7 +14,9 @@ IDENTITY = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
 
 def git(root: Path, *arguments, **variables) -> str:
     """Run a git command without user settings, check that it succeeds, and return its output."""
-    run = call(*IDENTITY, *arguments, root=root, GIT_CONFIG_GLOBAL=os.devnull, **variables)
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
+    kept |= {"LC_ALL": "C", "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"} | variables
+    run = subprocess.run(["git", *IDENTITY, *arguments], cwd=root, env=kept, capture_output=True, check=False)
     assert run.returncode == 0, run.stderr
     return run.stdout.decode().strip()
 
