@@ -8,10 +8,8 @@ from collections import Counter
 from itertools import groupby
 from pathlib import Path
 
-from jinja2 import Environment
-
 from vibroimpact_pipeline.html.mathematics import STYLE
-from vibroimpact_pipeline.html.policy import guarded
+from vibroimpact_pipeline.html.policy import rendered
 
 TEMPLATE = Path(__file__).with_name("results_page.html.j2")
 EXACT = re.compile(r"<p>(<strong>The exact system:</strong>.*?)</p>", re.DOTALL)
@@ -36,13 +34,8 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
     verdicts = [claim["verdict"] for claim in json.loads(claims.read_text("utf-8"))] if claims.is_file() else []
     counts = sorted(Counter(verdicts).most_common(), key=lambda one: one[0] == "misprint")  # misprints come last
     tables = sorted(str(path.relative_to(results)) for pattern in TABLES for path in results.glob(pattern))
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
-    return guarded(
-        template.render(
-            style=STYLE, counts=counts, tables=tables, groups=listed, large=WIDE_HEADING, chosen=_choices(results)
-        )
-    )
+    shown = {"groups": listed, "counts": counts, "tables": tables, "chosen": _choices(results)}
+    return rendered(TEMPLATE, style=STYLE, large=WIDE_HEADING, **shown)
 
 
 def _choices(results) -> list[list[str]]:
@@ -72,6 +65,5 @@ def _listed(results, titles) -> list[dict]:
         exact = EXACT.search((results / written).read_text(encoding="utf-8")) if explained else None
         if links:
             picture = next((path for kind, path in links if kind == "SVG"), None)
-            figure = {"title": title, "links": links, "exact": exact and exact[1], "picture": picture}
-            found.append(figure)
+            found.append({"title": title, "links": links, "exact": exact and exact[1], "picture": picture})
     return found

@@ -5,12 +5,11 @@ import io
 from contextlib import suppress
 from pathlib import Path
 
-from jinja2 import Environment
 from PIL import ImageChops, ImageFilter
 
 from vibroimpact_pipeline.figure_check import check, pictures
 from vibroimpact_pipeline.figure_check.table_distances import KINDS
-from vibroimpact_pipeline.html.policy import guarded
+from vibroimpact_pipeline.html.policy import rendered
 
 TEMPLATE = Path(__file__).with_name("page.html.j2")
 SPREAD = 7
@@ -19,10 +18,8 @@ SPREAD = 7
 
 def page(verdicts: list[dict], reference, build) -> str:
     """Return the page for the verdicts; `reference` and `build` are folders as in `check.check`."""
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    template = environment.from_string(TEMPLATE.read_text(encoding="utf-8"))
     shown = {verdict["figure"]: _pictures(verdict, reference, build) for verdict in verdicts}
-    return guarded(template.render(verdicts=check.ordered(verdicts), shown=shown, check=check, kinds=KINDS))
+    return rendered(TEMPLATE, verdicts=check.ordered(verdicts), shown=shown, check=check, kinds=KINDS)
 
 
 def _pictures(verdict, reference, build):

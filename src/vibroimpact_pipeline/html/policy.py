@@ -6,6 +6,9 @@ Texts from the config and from results are already escaped when a page is made. 
 import base64
 import hashlib
 import re
+from pathlib import Path
+
+from jinja2 import Environment
 
 FILES = "'self' file:"
 """Allowed sources: the site itself, and local files because some browsers assign no origin to a local page."""
@@ -38,3 +41,9 @@ def guarded(page: str) -> str:
     if not found:
         raise ValueError("page: has no <head>, expected one for the content security policy")
     return page
+
+
+def rendered(template: Path, **values) -> str:
+    """Return the page of a Jinja template with escaped values and a policy that allows no script."""
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    return guarded(environment.from_string(template.read_text(encoding="utf-8")).render(values))
