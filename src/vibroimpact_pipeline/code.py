@@ -40,7 +40,8 @@ def code_files(*roots: str) -> list[Path]:
             continue
         found.add(path)
         if path.suffix in (".py", ".ipynb"):
-            pending += [file for module in _imported(path) for file in module_files(module)]
+            _, imported = _parsed(path, path.stat().st_ctime_ns)
+            pending += [file for module in imported for file in module_files(module)]
     return sorted(found)
 
 
@@ -48,7 +49,10 @@ def fingerprint(*roots: str) -> str:
     """Return the fingerprint of the files of `code_files`; for folders, the fingerprint covers every byte."""
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
     for name, path in sorted((_name(path), path) for path in code_files(*roots)):
-        content = path.read_bytes() if path in listed else _content(path)
+        if path in listed or path.suffix != ".py":
+            content = path.read_bytes()
+        else:
+            content = _parsed(path, path.stat().st_ctime_ns)[0].encode()
         digest.update(f"{name}\n".encode() + content)
     return digest.hexdigest()[:16]
 
@@ -70,7 +74,7 @@ def _paths(root: str) -> list[Path]:
         return module_files(root)
     top = ROOT / root
     if not top.exists():
-        raise FileNotFoundError(f"{root}: expected a module of this project, or a file or folder of the checkout")
+        raise FileNotFoundError(f"{root}: not found, expected a module of this project or a file of the checkout")
     found = [top] if top.is_file() else (path for path in top.rglob("*") if is_source(path.relative_to(top)))
     return [
         path for path in found if path.is_file() and (not path.is_relative_to(PACKAGED) or top.is_relative_to(PACKAGED))
@@ -85,14 +89,12 @@ def is_source(path: Path) -> bool:
 @cache
 def modules() -> dict[str, Path]:
     """Return the file of each module of this project by the name of the module."""
-    found = [
-        path for package in PACKAGES for path in (SOURCES / package).rglob("*.py") if not path.is_relative_to(PACKAGED)
-    ]
-    files = [path.relative_to(SOURCES) for path in found]
+    files = [path for package in PACKAGES for path in (SOURCES / package).rglob("*.py")]
+    names = {path: path.relative_to(SOURCES) for path in files if not path.is_relative_to(PACKAGED)}
     return {
-        ".".join(path.with_suffix("").parts).removesuffix(".__init__"): SOURCES / path
-        for path in files
-        if is_source(path)
+        ".".join(name.with_suffix("").parts).removesuffix(".__init__"): path
+        for path, name in names.items()
+        if is_source(name)
     }
 
 
@@ -107,14 +109,12 @@ def module_files(name: str) -> list[Path]:
     return [*around, *(path for path in beside if is_source(path.relative_to(SOURCES)))]
 
 
-def _imported(path: Path) -> set[str]:
-    """Return the names of the modules of this project that a file imports, including imports in functions."""
-    return _parsed(path, path.stat().st_ctime_ns)[1]
-
-
 @cache
 def _parsed(path: Path, time: int) -> tuple[str, set[str]]:
-    """For a module, script or notebook, return its code without comments and docstrings, and its imported modules."""
+    """Return the code of a file without comments and docstrings, and the modules of this project that it imports.
+
+    The file is a module, script or notebook. Imports in functions are included. `time` is the ctime of the file.
+    """
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".ipynb":
         cells = json.loads(text)["cells"]
@@ -128,11 +128,6 @@ def _parsed(path: Path, time: int) -> tuple[str, set[str]]:
         elif isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
             del node.body[0]
     return ast.dump(tree), names & modules().keys()
-
-
-def _content(path: Path) -> bytes:
-    """Return the content that the fingerprint covers: the parsed code of a module, all bytes of any other file."""
-    return _parsed(path, path.stat().st_ctime_ns)[0].encode() if path.suffix == ".py" else path.read_bytes()
 
 
 def changed(code: dict) -> bool:

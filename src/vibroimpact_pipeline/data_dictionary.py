@@ -79,14 +79,12 @@ def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
     It describes the tables of figures if `of_figures` is True, all other files if it is False, and all files if it is
     None.
     """
-    parts = [
-        "## Units",
-        _table(["unit", "meaning"], data["units"].items()),
-        "## Columns with the same meaning in every file",
-        _columns(each(data["shared"])),
-    ]
+    parts = []
+    if not of_figures:
+        parts += ["## Units", _table(["unit", "meaning"], data["units"].items())]
+        parts += ["## Columns with the same meaning in every file", _columns(each(data["shared"]))]
     listed = [file for file in files(known, data) if of_figures in (None, file.paths[0].startswith(DRAWN))]
-    parts = [*([] if of_figures else parts), "## Files", *(part for file in listed for part in _section(file))]
+    parts += ["## Files", *(part for file in listed for part in _section(file))]
     return "\n\n".join(parts) + "\n"
 
 
@@ -108,14 +106,13 @@ def _section(file):
 
 
 def _columns(listed):
-    rows = ((f"`{name}`", _meaning(entry), entry["unit"]) for name, entry in listed.items())
+    rows = []
+    for name, entry in listed.items():
+        meaning, values = entry["meaning"], entry.get("values", [])
+        if not all(value in meaning for value in values):
+            meaning += f": {'; '.join(values)}"
+        rows.append((f"`{name}`", meaning, entry["unit"]))
     return _table(["column", "meaning", "unit"], rows)
-
-
-def _meaning(entry):
-    """Return the meaning of a column, followed by its allowed values unless the meaning already contains them."""
-    meaning, values = entry["meaning"], entry.get("values", [])
-    return meaning if all(value in meaning for value in values) else f"{meaning}: {'; '.join(values)}"
 
 
 def _table(heads, rows):

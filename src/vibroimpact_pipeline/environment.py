@@ -44,8 +44,5 @@ def set_environment(checkout: Path | None) -> None:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     try:
         getpass.getuser()
-    except (
-        KeyError,
-        OSError,
-    ):  # there is no user name, as in some containers, where Snakemake would fail with a traceback
+    except (KeyError, OSError):  # some containers have no user name, where Snakemake fails with a traceback
         os.environ["LOGNAME"] = str(os.getuid())

@@ -34,7 +34,8 @@ def running(job) -> Iterator[SimpleNamespace]:
     code differs from `params.code` (see `code.code_of`), if an input differs from its record, or if either changes
     while the job runs, the job fails with one line and replaces no output. An invalid config value also gives one line.
     """
-    end_with_parent()
+    if sys.platform == "linux":  # make the kernel terminate this process when its parent ends
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
     with ExitStack() as stack:
         if job.log:
             stack.enter_context(logging_to(job.log[0]))
@@ -99,9 +100,3 @@ def logging_to(path) -> Iterator[None]:
             message = str(error) if isinstance(error, SystemExit) else f"{type(error).__name__}: {error}"
             os.write(terminal, f"{message}\nFull log: {path}\n".encode())
             raise
-
-
-def end_with_parent() -> None:
-    """Make the kernel terminate this process when its parent ends (Linux only)."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)

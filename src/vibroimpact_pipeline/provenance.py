@@ -58,7 +58,7 @@ def read(path) -> dict:
     try:
         return json.loads(path.with_name(path.name.split(".")[0] + ".provenance.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
-        raise ValueError(f"{path}: no provenance record found") from None
+        raise ValueError(f"{path}: no readable provenance record next to this file") from None
 
 
 def differences(path, record: dict, config: dict) -> Iterator[str]:
@@ -80,11 +80,11 @@ def differences(path, record: dict, config: dict) -> Iterator[str]:
     if (then := tuple(record["versions"]["python"].split(".")[:2])) != python:
         yield f"Python: was {'.'.join(then)}, is now {'.'.join(python)}; code cannot be compared across versions"
     elif code.changed(record["code"]):
-        yield f"code of {', '.join(record['code']['of'])}: has changed since"
+        yield f"code of {', '.join(record['code']['of'])}: has changed since the figure was made"
     for name, digest in {**record["inputs"], **record["files"]}.items():
         file = Path(os.path.normpath(Path(path).parent / name))
         if not file.is_file() or digest_of(file) != digest:
-            yield f"{file}: has changed since"
+            yield f"{file}: missing or changed since the figure was made"
 
 
 def _at(config, place):
@@ -120,12 +120,8 @@ def main() -> int:
         return 2
     found = list(differences(file, record, config))
     commit, tree = record.get("commit") or "unknown", record.get("tree") or "without git"
-    print(f"{file}: {record['figure']}, made from commit {commit} ({tree})")
-    print(
-        *found,
-        f"{len(found)} difference(s)." if found else "No differences: this checkout makes the same figure.",
-        sep="\n",
-    )
+    summary = f"{len(found)} difference(s)." if found else "No differences: this checkout makes the same figure."
+    print(f"{file}: {record['figure']}, made from commit {commit} ({tree})", *found, summary, sep="\n")
     return int(bool(found))
 
 

@@ -44,16 +44,15 @@ def specs(root=None) -> dict[str, dict]:
                 found[path.stem] = ast.literal_eval(node.value)
     complete = {}
     for figure, spec in found.items():
-        shared = {
-            name: found[spec[name]][name] if isinstance(spec.get(name), str) else spec.get(name) for name in SHARED
-        }
+        others = {name: spec[name] for name in SHARED if isinstance(spec.get(name), str)}
+        shared = {name: found[others[name]][name] if name in others else spec.get(name) for name in SHARED}
         file = spec.get("file", f"results/figures/{figure}.csv")
         plotted = {"file": file, "about": f"{spec['title']}.", "columns": shared.pop("columns")}
         if "on_demand" in spec:
             plotted["on_demand"] = {file: spec["on_demand"]}
         tables = ({"csv": plotted} if plotted["columns"] else {}) | spec.get("tables", {})
         entries = {name: entry for name, entry in spec.items() if name not in ("columns", "file")}
-        entries["shares"] = sorted({spec[name] for name in SHARED if isinstance(spec.get(name), str)})
+        entries["shares"] = sorted({*others.values()})
         complete[figure] = entries | {name: entry or {} for name, entry in shared.items()} | {"tables": tables}
     return complete
 

@@ -94,5 +94,5 @@ def test_rules_of_another_commit_than_the_installed_package_are_refused(tree, ou
     status, said = outer("--dry-run", f"chapter_{FIGURE}")
     assert status == 1
     assert said.splitlines()[-1] == (
-        "workflow/scripts/notebook.py: differs from the installed vibroimpact. Install the commit of these rules."
+        "workflow/scripts/notebook.py: differs from the installed vibroimpact. Install vibroimpact of the same commit."
     ), said

@@ -236,10 +236,10 @@ def test_a_figure_tells_where_it_comes_from(rebuilt):
     status, said = origin(rebuilt.path, figure)
     assert status == 1
     assert "0.97" in said
-    assert f"{FIXED_POINTS}: has changed since" in said
+    assert f"{FIXED_POINTS}: missing or changed since" in said
     shutil.copy(rebuilt / figure, rebuilt / "alone.png")
     for file in ("alone.png", "figures/CHANGES.md"):
-        assert origin(rebuilt.path, file) == (2, f"{file}: no provenance record found\n")
+        assert origin(rebuilt.path, file) == (2, f"{file}: no readable provenance record next to this file\n")
 
 
 @pytest.mark.parametrize("name", [f"{FIGURE}.png", f"{FIGURE}.csv"])
@@ -251,4 +251,7 @@ def test_a_figure_that_was_built_elsewhere_tells_where_it_comes_from(rebuilt, tm
     with open(figure, "a") as file:
         file.write("\n")
     status, said = origin(rebuilt.path, figure)
-    assert (status, said.splitlines()[1:]) == (1, [f"{figure}: has changed since", "1 difference(s)."])
+    assert (status, said.splitlines()[1:]) == (
+        1,
+        [f"{figure}: missing or changed since the figure was made", "1 difference(s)."],
+    )

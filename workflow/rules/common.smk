@@ -49,7 +49,7 @@ from vibroimpact_pipeline.result_records import PARTIAL, distrust, is_result
 for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/**/*.*")):
     name = path.relative_to(ROOT / "workflow").as_posix()
     if path.read_text("utf-8").rstrip() != Path(workflow.source_path(f"../{name}")).read_text("utf-8").rstrip():
-        refuse(f"workflow/{name}: differs from the installed vibroimpact. Install the commit of these rules.")
+        refuse(f"workflow/{name}: differs from the installed vibroimpact. Install vibroimpact of the same commit.")
 
 if not os.access(".", os.W_OK):
     refuse(f"{os.getcwd()}: not writable. Select another working directory with --directory.")

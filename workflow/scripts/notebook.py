@@ -55,16 +55,10 @@ def execute(notebook, executed, parameters: dict):
         If a cell fails.
     """
     if unknown := sorted(parameters.keys() - papermill.inspect_notebook(str(notebook)).keys()):
-        raise ValueError(f"notebook: {notebook} lacks the parameters {', '.join(unknown)}")
+        raise ValueError(f"notebook: {notebook} should define the parameters {', '.join(unknown)}")
+    settings = {"engine_name": "in_process", "kernel_name": "python3", "progress_bar": False}
     try:
-        return papermill.execute_notebook(
-            str(notebook),
-            str(executed),
-            parameters,
-            engine_name="in_process",
-            kernel_name="python3",
-            progress_bar=False,
-        )
+        return papermill.execute_notebook(str(notebook), str(executed), parameters, **settings)
     except papermill.PapermillExecutionError as error:
         raise ValueError(error.evalue) if error.ename == "ValueError" else error from None
 

@@ -39,11 +39,6 @@ with running(snakemake) as out:
     simulated = window(System(**parameters), settings)
     for name in ("samples", "events", "strobe"):
         tables.write(getattr(simulated, name), getattr(out, name))
-    summary = {
-        "case": case,
-        "system": parameters,
-        "settings": settings,
-        **summarise(simulated, settings),
-        "trust": simulated.trust,
-    }
+    summary = {"case": case, "system": parameters, "settings": settings}
+    summary |= summarise(simulated, settings) | {"trust": simulated.trust}
     Path(out.summary).write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")

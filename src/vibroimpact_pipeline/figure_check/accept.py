@@ -50,7 +50,8 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
     reason, reference, build = " ".join(reason.split()), Path(reference), Path(build)
     if not reason:
         raise ValueError('reason: empty, expected why the reference set changes, for example REASON="longer axis"')
-    new = [verdict["figure"] for verdict in verdicts if _is_new(verdict, reference)]
+    built = [verdict["figure"] for verdict in verdicts if verdict["module"]]
+    new = [figure for figure in built if not (reference / f"{figure}.png").exists()]
     if new and pictures_only:
         raise ValueError(f"{', '.join(new)}: no reference tables to draw from; accept without PICTURES=1")
     sums = reference_sums(reference)
@@ -72,18 +73,11 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
     changes = reference / "CHANGES.md"
     earlier = changes.read_text(encoding="utf-8").removeprefix(f"{HEADING}\n") if changes.exists() else ""
     named = ", ".join(f"new {name}" if name in new else name for name in (one["figure"] for one in verdicts))
-    built = "".join(sorted({_built_from(one, build) for one in verdicts}))
-    changes.write_text(f"{HEADING}\n- {date:%Y-%m-%d}: {reason} ({named}).{built}\n{earlier}", encoding="utf-8")
-
-
-def _is_new(verdict, reference):
-    return verdict["module"] and not (reference / f"{verdict['figure']}.png").exists()
-
-
-def _built_from(verdict, build):
-    path = build / f"{verdict['stem']}.provenance.json"
-    record = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    return f" Built from {record['commit'][:10]} ({record['tree']} tree)." if record.get("commit") else ""
+    paths = [build / f"{verdict['stem']}.provenance.json" for verdict in verdicts]
+    records = [json.loads(path.read_text(encoding="utf-8")) for path in paths if path.is_file()]
+    commits = {f" Built from {one['commit'][:10]} ({one['tree']} tree)." for one in records if one.get("commit")}
+    entry = f"- {date:%Y-%m-%d}: {reason} ({named}).{''.join(sorted(commits))}"
+    changes.write_text(f"{HEADING}\n{entry}\n{earlier}", encoding="utf-8")
 
 
 def main(arguments=None) -> int:

@@ -68,16 +68,8 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
         the file name in the reference set and the path in the build); status; reasons (one line each); distance (the
         largest; 1 is the limit); tables (distances from `table_differences`, each with the name of the table).
     """
-    verdict = {
-        "figure": figure,
-        "stem": f"results/figures/{figure}",
-        "module": None,
-        "files": {},
-        "status": FAILED,
-        "reasons": [],
-        "distance": 0.0,
-        "tables": [],
-    }
+    verdict = {"figure": figure, "stem": f"results/figures/{figure}", "module": None, "files": {}}
+    verdict |= {"status": FAILED, "reasons": [], "distance": 0.0, "tables": []}
     if spec is None:
         return verdict | {"reasons": ["not built: the config has no figure of this name"]}
     reference, build, reasons, files = Path(reference), Path(build), verdict["reasons"], compared_files(figure, spec)
@@ -91,33 +83,20 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
             reasons.append(f"{reason}: {', '.join(missing)}")
     if reasons:
         return verdict
-    old, new = _compare_tables(verdict, spec, reference, build)
-    _compare_with_print(verdict, reference / f"published/{figure}.csv", new)
+    old, new = {}, {}
+    for name, (file, path) in files.items():
+        with _errors_as_reasons(reasons, f"{file}: unreadable"):
+            old[name], new[name] = read(reference / file), read(build / path)
+            _add(verdict, file, table_differences(old[name], new[name], each(spec["tables"][name]["columns"])))
+    printed = f"published/{figure}.csv"  # points that were read from the printed figure
+    if (reference / printed).is_file():
+        with _errors_as_reasons(reasons, f"{printed}: unreadable"):
+            _add(verdict, printed, printed_distances(read(reference / printed), new["csv"]))
     others = []
-    with _errors_as_reasons(reasons, "picture: unreadable or not drawable"):
+    with _errors_as_reasons(reasons, "picture: cannot be read or drawn"):
         others = _other_pictures(verdict, reference, built, old, new)
     far = max((one["distance"] for one in verdict["tables"]), default=0.0)
     return verdict | {"status": FAILED if reasons else NOT_COMPARABLE if others else PASSED, "distance": far}
-
-
-def _compare_tables(verdict, spec, reference, build) -> tuple[dict, dict]:
-    """Add the differences between all tables to a verdict; return the reference tables and the tables in the build."""
-    old, new = {}, {}
-    for name, (file, path) in verdict["files"].items():
-        with _errors_as_reasons(verdict["reasons"], f"{file}: unreadable"):
-            old[name], new[name] = read(reference / file), read(build / path)
-            _add(verdict, file, table_differences(old[name], new[name], each(spec["tables"][name]["columns"])))
-    return old, new
-
-
-def _compare_with_print(verdict, printed, new):
-    """Add to a verdict the distance of the curves in `new` from the points in the file `printed`, if this file exists.
-
-    The points were read from the printed figure.
-    """
-    if printed.is_file():
-        with _errors_as_reasons(verdict["reasons"], f"published/{printed.name}: unreadable"):
-            _add(verdict, f"published/{printed.name}", printed_distances(read(printed), new["csv"]))
 
 
 def _add(verdict, file, differences):
@@ -138,7 +117,7 @@ def _other_pictures(verdict, reference, built, old, new) -> list[str]:
     known = reference_sums(reference).get(verdict["figure"], {})
     before = known | pictures.sums({"png": reference / f"{verdict['figure']}.png"})
     others = [kind for kind in pictures.KINDS if today[kind] != before.get(kind)]
-    if pictures.is_blank(built["png"]):
+    if all(low == high for low, high in pictures.load_png(built["png"].read_bytes()).getextrema()):
         verdict["reasons"].append("picture: blank")
     if others and known.get("drawn with") == drawing_versions():
         differ = f"picture: {', '.join(others)} drawn from the reference tables differs from the reference"

@@ -46,11 +46,6 @@ def small(content: bytes) -> bytes:
     return smaller.getvalue()
 
 
-def is_blank(path) -> bool:
-    """Return True if all pixels of a PNG file have the same colour."""
-    return all(low == high for low, high in load_png(path.read_bytes()).getextrema())
-
-
 def sums(files: dict[str, Path]) -> dict[str, str]:
     """Return the SHA-256 of the content of each file, without metadata and compression, by kind."""
     return {kind: hashlib.sha256(COMPARED_CONTENT[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
@@ -72,15 +67,13 @@ def _pdf(content):
     """Return the decompressed objects of a PDF, without document information, stream lengths and cross references."""
     objects = dict(re.findall(rb"(?ms)^(\d+) 0 obj\s(.*?)\sendobj$", content))
     (info,) = re.findall(rb"/Info (\d+) 0 R", content)
-    shown = [body for number, body in objects.items() if number != info and not body.strip().isdigit()]
-    return b"\n".join(_unpacked(body) for body in shown)
-
-
-def _unpacked(body):
-    head, opened, stream = body.partition(b"stream\n")
-    if opened and b"/FlateDecode" in head:
-        stream = zlib.decompressobj().decompress(stream)
-    return head + opened + _rounded(stream)
+    parts = []
+    for body in (body for number, body in objects.items() if number != info and not body.strip().isdigit()):
+        head, opened, stream = body.partition(b"stream\n")
+        if opened and b"/FlateDecode" in head:
+            stream = zlib.decompressobj().decompress(stream)
+        parts.append(head + opened + _rounded(stream))
+    return b"\n".join(parts)
 
 
 def _rounded(content):

@@ -58,8 +58,9 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
         given = _given(a)
         kinds = {name: kind for name in old if (kind := _kind(columns, name, series)) and given[name].any()}
         words = [name for name in _words(old) if name not in kinds]
-        if not _same(a[words], b[words]):
-            reasons.append(f"{', '.join(series)}: rows differ, {len(b)} instead of {len(a)}")
+        if not a[words].reset_index(drop=True).equals(b[words].reset_index(drop=True)):
+            differ = f"texts differ in {', '.join(words)}" if len(a) == len(b) else f"{len(b)} rows instead of {len(a)}"
+            reasons.append(f"{', '.join(series)}: {differ}")
             continue
         others = (given.to_numpy() != _given(b).to_numpy()).any(axis=0)
         for name in (name for name in old if name not in words):
@@ -112,10 +113,6 @@ def _words(table):
     return list(table.select_dtypes(exclude="number"))
 
 
-def _same(old, new):
-    return old.reset_index(drop=True).equals(new.reset_index(drop=True))
-
-
 def _given(values):
     return values.notna() & (values != "")
 
@@ -133,14 +130,8 @@ def _distance(old, new, name, kind, measure):
         row, values, place = 0, (np.nanmedian(before), np.nanmedian(after)), "median"
     where = ", ".join([*map(str, old[_words(old)].iloc[row].dropna()), place])
     old_value, new_value = (value if isinstance(value, str) else f"{value:.9g}" for value in values)
-    found = {
-        "column": name,
-        "kind": kind,
-        "measure": measure,
-        "distance": min(float(far), MAX_DISTANCE),
-        "where": where,
-    }
-    return found | {"reference": old_value, "new": new_value}
+    found = {"column": name, "kind": kind, "measure": measure, "distance": min(float(far), MAX_DISTANCE)}
+    return found | {"where": where, "reference": old_value, "new": new_value}
 
 
 def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[str], list[dict]]:
@@ -167,7 +158,7 @@ def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[s
         where = ", ".join([*map(str, point[words]), f"row {number + 1}"])
         curve = table.loc[(table[words] == point[words]).all(axis=1), axes].dropna()
         if curve.empty or "panel" not in point or not point.get("tolerance", 0) > 0:
-            reasons.append(f"point needs an existing curve, a panel and a tolerance above 0 ({where})")
+            reasons.append(f"the point should name a panel, an existing curve and a tolerance above 0 ({where})")
             continue
         panel = table.loc[table["panel"] == point["panel"], axes]
         extent = (panel.max() - panel.min()).replace(0.0, 1.0)

@@ -29,8 +29,7 @@ class MathMLRenderer(markdown_mistune.IPythonRenderer):
         return mathml(body, display=True)
 
     def latex_environment(self, name, body):
-        formula = rf"\begin{{{name}}}{body}\end{{{name}}}"
-        return mathml(formula, display=True)
+        return mathml(rf"\begin{{{name}}}{body}\end{{{name}}}", display=True)
 
 
 class OfflineExporter(HTMLExporter):

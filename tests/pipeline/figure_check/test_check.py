@@ -75,7 +75,7 @@ def test_a_change_of_the_drawing_code_is_noticed_where_a_number_differs_within_i
     monkeypatch.setitem(style.UNSTABLE, "linestyle", "-")
     assert tree.verdict("fig10_04")["reasons"][-1] == ANOTHER.format("png, pdf, svg")
     monkeypatch.setattr(fig10_04, "draw_branches", endless)
-    assert "unreadable or not drawable" in tree.verdict("fig10_04")["reasons"][0]
+    assert "cannot be read or drawn" in tree.verdict("fig10_04")["reasons"][0]
 
 
 @pytest.mark.parametrize("kind", ["pdf", "svg"])
@@ -163,7 +163,7 @@ def test_a_built_file_that_shows_something_else_fails(tree, kind, spoil):
     spoil(path)
     verdict = tree.verdict("fig10_04")
     assert verdict["status"] == "failed"
-    assert verdict["reasons"] == [ANOTHER.format(kind)] or "unreadable or not drawable" in verdict["reasons"][0]
+    assert verdict["reasons"] == [ANOTHER.format(kind)] or "cannot be read or drawn" in verdict["reasons"][0]
 
 
 @pytest.mark.parametrize(("by", "status"), [(0.001, "failed"), (1e-7, "passed")])
@@ -241,7 +241,7 @@ def test_points_of_the_printed_book_lie_on_the_curve_that_is_built(tree):
 @pytest.mark.parametrize(
     ("columns", "said"),
     [
-        ({"series": ["SIM stable", "B_min", "B_max"]}, "point needs an existing curve"),
+        ({"series": ["SIM stable", "B_min", "B_max"]}, "the point should name a panel, an existing curve"),
         ({"panel": ""}, "a panel"),
         ({"tolerance": [0.01, np.nan, 0.01]}, "a tolerance above 0"),
         ({"tolerance": 0.0}, "a tolerance above 0"),

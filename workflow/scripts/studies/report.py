@@ -57,13 +57,10 @@ def groups(figures: list[str], charts: list[str], config: dict) -> dict[str, lis
 
 
 with running(snakemake) as out:
-    params, folder = snakemake.params, Path(out.site)
-    claims = json.loads((Path(snakemake.output.site).parent / "claims.json").read_text(encoding="utf-8"))
-    judged = all(claim["verdict"] != NOT_JUDGED for claim in claims)
-    results, shown = (
-        Results(Path(snakemake.output.site).parent, judged),
-        groups(params.figures, params.charts, params.config),
-    )
+    params, folder, root = snakemake.params, Path(out.site), Path(snakemake.output.site).parent
+    claims = json.loads((root / "claims.json").read_text(encoding="utf-8"))
+    results = Results(root, judged=all(claim["verdict"] != NOT_JUDGED for claim in claims))
+    shown = groups(params.figures, params.charts, params.config)
     tables = [*("results/fixed_points.csv", "results/orbits.csv", "results/claims.json"), *params.tables]
     pages = Pages(ROOT, results, params.config, shown, [Path(table).name for table in tables])
     collect(results, pages.pictures, tables, folder)

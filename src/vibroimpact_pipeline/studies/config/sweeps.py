@@ -16,10 +16,7 @@ from vibroimpact_pipeline.studies.config.regimes import Along
 MAX_POINTS = 4_000_000
 """Maximum number of points of a sweep, since one job keeps the whole table in memory."""
 SIMULATED = ("starts", "seed", "cycles", "settle")
-NEEDED = dict.fromkeys(RUNS, SIMULATED) | {
-    "regimes": ("starts", "seed"),
-    "peaks": (*SIMULATED, "band"),
-}
+NEEDED = dict.fromkeys(RUNS, SIMULATED) | {"regimes": ("starts", "seed"), "peaks": (*SIMULATED, "band")}
 """Keys of a sweep that each observation requires."""
 OBSERVATIONS = Literal["regimes", "amplitudes", "envelopes", "peaks", "energy", "fixed_points", "orbits"]
 FORMS = [{"range", "values"}, {"range", "values", "scale"}, {"range", "cells"}, {"listed"}, {"tuples"}]
@@ -110,12 +107,8 @@ class Sweep(Section):
                 even = all(axis.range and axis.scale != "logarithmic" for axis in self.axes)
                 if [axis.along for axis in self.axes] != drawn["along"] or (drawn.get("evenly") and not even):
                     how = ", evenly spaced" if drawn.get("evenly") else ""
-                    yield (
-                        ("axes",),
-                        f"should be {drawn['along']}{how}, as {figure} draws this sweep; or rename the sweep",
-                    )
+                    what = f"should be {drawn['along']}{how}, as {figure} draws this sweep; or rename the sweep"
+                    yield ("axes",), what
                 if missing := [wanted for wanted in drawn["observe"] if wanted not in self.observe]:
-                    yield (
-                        ("observe",),
-                        f"should contain {' and '.join(missing)}, which {figure} draws; or rename the sweep",
-                    )
+                    what = f"should contain {' and '.join(missing)}, which {figure} draws; or rename the sweep"
+                    yield ("observe",), what

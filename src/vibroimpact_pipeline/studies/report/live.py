@@ -103,9 +103,7 @@ def verdict_data(results, config: dict) -> str:
     data list the points that the criterion classifies as stable, each as [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
-    by_epsilon = [
-        (value, table[table["epsilon"] == value]) for value in sorted(table["epsilon"].unique(), reverse=True)
-    ]
+    by_epsilon = list(table.groupby("epsilon"))[::-1]
     points = {
         criterion: [
             rows.loc[rows[criterion] == STABLE, ["f10_hat", "f20_hat", "exact"]].round(6).to_numpy().tolist()

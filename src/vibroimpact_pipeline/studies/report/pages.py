@@ -152,10 +152,10 @@ class Pages:
             page = "data_figures" if files["csv"].parent.name == "figures" else "data"
             links.append(f"[meaning of the columns]({page}.md)")
         origin = [plain(about["method"])] if "method" in about else []
-        origin += (
-            [f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)"] if record.get("commit") else []
-        )
-        origin += [f"config {', '.join(map(code, record['config']))}"] if record.get("config") else []
+        if record.get("commit"):
+            origin.append(f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)")
+        if record.get("config"):
+            origin.append(f"config {', '.join(map(code, record['config']))}")
         origin += [f"{plain(part)} {plain(number)}" for part, number in record.get("versions", {}).items()]
         return "\n\n".join(
             [

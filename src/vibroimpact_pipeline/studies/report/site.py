@@ -182,19 +182,14 @@ def write_article(folder: Path, root: Path, pages, built: str, notice: str = "")
 
 def setup(app) -> dict:
     """Set up this module as a Sphinx extension: MathML formulas, vertical bars in docstrings, the security policy."""
-    app.add_html_math_renderer("mathml", (_inline, None), (_display, None))
+    app.add_html_math_renderer("mathml", (_formula, None), (_formula, None))
     app.connect("autodoc-process-docstring", _with_bars)
     app.connect("html-page-context", _with_policy)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
-def _inline(writer, node):
-    writer.body.append(mathml(node.astext(), display=False))
-    raise nodes.SkipNode
-
-
-def _display(writer, node):
-    writer.body.append(mathml(node.astext(), display=True))
+def _formula(writer, node):
+    writer.body.append(mathml(node.astext(), display=isinstance(node, nodes.math_block)))
     raise nodes.SkipNode
 
 
