@@ -120,8 +120,9 @@ def test_an_output_that_was_not_written_fails_the_job(job):
 
 def test_a_job_ends_with_the_process_that_started_it():
     """The parent is killed by SIGKILL, so that it cannot stop the job itself, which inherits its output."""
-    child = "import time; from vibroimpact_pipeline.jobs import end_with_parent; end_with_parent();"
-    child += "print('started', flush=True); time.sleep(600)"
+    child = "import time, types; from vibroimpact_pipeline.jobs import running\n"
+    child += "job = types.SimpleNamespace(log=[], params={}, input=[], output={}, rule='any', wildcards={})\n"
+    child += "with running(job): print('started', flush=True); time.sleep(600)"
     parent = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {child!r}])"
     process = subprocess.Popen([sys.executable, "-c", parent], stdout=subprocess.PIPE)
     assert process.stdout.readline() == b"started\n"
