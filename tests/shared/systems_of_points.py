@@ -4,7 +4,6 @@ import numpy as np
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.theory.fixed_points.symmetric_points import search
 
 CHAPTER = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
 IDENTICAL = {"sigma20_hat": 0.0}
@@ -26,11 +25,6 @@ NEARLY_ELASTIC = {
 
 def build(changes=None):
     return vi.System(**(CHAPTER | (changes or {})))
-
-
-def everything(system):
-    found = search(system)
-    return found.points + found.outside
 
 
 def single_module(e, force, kappa):

@@ -5,7 +5,6 @@ import pytest
 
 import vibroimpact as vi
 from single_machines import FIRST, MACHINE, MACHINES, SECOND, company, holds, partner, same_numbers
-from systems_of_points import everything
 from vibroimpact.exact.orbits.search import half_period_multipliers
 from vibroimpact.studies.completeness import orbits as certify
 from vibroimpact.studies.completeness import points as completeness_proof
@@ -13,6 +12,7 @@ from vibroimpact.studies.regimes.branches import Path, branches
 from vibroimpact.studies.regimes.continuation import Lost
 from vibroimpact.studies.regimes.families import AsymmetricOrbits, FixedPoints, SymmetricOrbits
 from vibroimpact.studies.theory import asymmetric_points
+from vibroimpact.theory.fixed_points.symmetric_points import search
 from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 
@@ -46,7 +46,7 @@ def test_lists_of_fixed_points_are_proved_complete(machine):
     proof, skewed = completeness_proof.certify(machine), completeness_proof.certify_asymmetric(machine)
     assert proof.complete
     assert skewed.complete
-    listed = sorted(point.C[module - 1] for point in everything(machine))
+    listed = sorted(point.C[module - 1] for point in search(machine))
     assert len(proof.isolated) == len(listed)
     assert all(low < C < high for ((low, high),), C in zip(proof.isolated, listed, strict=True))
     assert proof.motions == sum(C > 0 for C in listed)

@@ -6,11 +6,11 @@ import itertools
 import numpy as np
 import pytest
 
-from systems_of_points import FOLD, NEARLY_ELASTIC, UNCOUPLED, UNDAMPED, build, everything, single_module
+from systems_of_points import FOLD, NEARLY_ELASTIC, UNCOUPLED, UNDAMPED, build, single_module
 from vibroimpact.studies.completeness import points as module
 from vibroimpact.studies.completeness.points import certify
 from vibroimpact.theory import manifold
-from vibroimpact.theory.fixed_points.symmetric_points import FixedPointSearch, search
+from vibroimpact.theory.fixed_points.symmetric_points import search
 
 EMPTY = -0.4 + 0.2j, 0.1 + 0.2j  # impedances of the boxes without balls
 
@@ -46,9 +46,8 @@ def test_a_point_on_the_edge_of_charts_is_counted_once():
 
 def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
     listed = search(build())
-    elsewhere = dataclasses.replace(listed.points[0], C=listed.points[0].C + 1)
-    for points in (listed.points[1:], [*listed.points, listed.points[0]], [*listed.points, elsewhere]):
-        spoilt = FixedPointSearch(points, listed.outside)
+    elsewhere = dataclasses.replace(listed[-1], C=listed[-1].C + 1)
+    for spoilt in (listed[:-1], [*listed, listed[-1]], [*listed, elsewhere]):
         monkeypatch.setattr(module, "search", lambda system, spoilt=spoilt: spoilt)
         assert not certify(build()).complete
 
@@ -79,7 +78,7 @@ def test_no_fixed_point_is_a_result(f10, f20, changes):
 def test_nearly_elastic_systems_are_proved_or_left_open(name):
     """Where Delta, n_1 and n_2 all but vanish rounding leaves zeros of the squares open that phases decide."""
     system = build({"gamma12_hat": 0.0} | NEARLY_ELASTIC[name])
-    found = everything(system)
+    found = search(system)
     proof = certify(system)
     # The squares leave the place open, and there twins of one C, too.
     assert proof.complete == (len(proof.isolated) == len(found) and not proof.undecided)

@@ -80,7 +80,7 @@ def certify(system) -> Proof:
         if not any(_same(zero, known) for known in isolated):  # a zero on the edge between two charts is found twice
             isolated.append(zero)
     open_boxes = [_in_amplitudes(pair, box) for pair, box in undecided]
-    points = [_active(system, point.C) for point in listed.points + listed.outside]
+    points = [_active(system, point.C) for point in listed]
     return _proof(isolated, open_boxes, isolated, _matched(isolated, points))
 
 

@@ -26,10 +26,10 @@ from vibroimpact.studies.regimes.continuation import Lost
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
 from vibroimpact.system.state import MODULES
 from vibroimpact.theory import slow_flow
-from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint, search
-from vibroimpact.theory.manifold import B_of_C, C_min, rho, slope
+from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint, fixed_points
+from vibroimpact.theory.manifold import C_min, rho, slope
 from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
-from vibroimpact.theory.slow_flow import linearisation, slow_eigenvalues
+from vibroimpact.theory.slow_flow import linearisation
 
 FOLD, BRANCH_POINT, LOST = "fold", "branch point", "lost"
 SYMMETRY_BREAKING, PERIOD_DOUBLING = "symmetry breaking", "period doubling"
@@ -257,7 +257,7 @@ class FixedPoints(_OwnImage):
     @classmethod
     def roots(cls, system) -> np.ndarray:
         """Return all fixed points with C_1, C_2 >= 0, shape (n, 4)."""
-        found = [np.stack([p.C, p.psi], axis=1).ravel() for p in search(system).points]
+        found = [np.stack([p.C, p.psi], axis=1).ravel() for p in fixed_points(system)]
         return np.where(_inactive(cls, system), cls.rest, np.reshape(found, (-1, 4)))
 
     @classmethod
@@ -288,8 +288,7 @@ class FixedPoints(_OwnImage):
     def member(system, x):
         """Return the FixedPoint of a root."""
         C, psi = _of_modules(system, x[0::2]), _of_modules(system, x[1::2])
-        values = slow_eigenvalues(system, psi, C)
-        return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, values, multiple=False)
+        return FixedPoint.of(system, C, psi, multiple=False)
 
     @staticmethod
     def tests(system, point) -> dict[str, float]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.studies.regimes.families import FixedPoints, SymmetricOrbits
-from vibroimpact.theory.fixed_points.symmetric_points import search
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.response import leading_order, mean_power
 
 SAMPLES = 512
@@ -36,7 +36,7 @@ def by_theory(system) -> list[Amounts]:
             mean_power(system, point).impact_share,
             FixedPoints.stable(system, point),
         )
-        for point in search(system).points
+        for point in fixed_points(system)
     ]
 
 

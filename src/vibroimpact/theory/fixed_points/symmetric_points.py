@@ -9,7 +9,6 @@ amplitudes that are equal within rounding; only their phases distinguish them.
 
 from dataclasses import dataclass, replace
 from string import ascii_lowercase
-from typing import NamedTuple
 
 import numpy as np
 
@@ -72,6 +71,11 @@ class FixedPoint(Representation):
     multiple: bool
     label: str = ""
 
+    @classmethod
+    def of(cls, system: System, C: np.ndarray, psi: np.ndarray, multiple: bool) -> "FixedPoint":
+        """Return the fixed point with the saw-tooth amplitudes `C` and the phases `psi`."""
+        return cls(system, C, B_of_C(C, rho(system.kappa)), psi, slow_eigenvalues(system, psi, C), multiple)
+
     @property
     def stability(self) -> Stability:
         """Verdicts of the theory: fast (Masri's analysis), slow (the slow flow) and theory (both together)."""
@@ -90,16 +94,6 @@ class FixedPoint(Representation):
         numbers = {name: brief(getattr(self, name)) for name in ("C", "B", "psi")}
         growth = f"real parts up to {brief(self.slow_eigenvalues.real.max())}"
         return {"label": self.label, "stability": str(self.stability), **numbers, "slow_eigenvalues": growth}
-
-
-class FixedPointSearch(NamedTuple):
-    """All fixed points of a system, including inadmissible ones.
-
-    points: fixed points with C_1, C_2 >= 0. outside: fixed points with some C_i < 0. Both are sorted by C_1.
-    """
-
-    points: list[FixedPoint]
-    outside: list[FixedPoint]
 
 
 def fixed_points(system: System) -> list[FixedPoint]:
@@ -125,11 +119,13 @@ def fixed_points(system: System) -> list[FixedPoint]:
     --------
     >>> [point.label for point in vi.fixed_points(system)]  # doctest: +SKIP
     """
-    return Found(search(system).points, COLUMNS)
+    inside = [point for point in search(system) if not (point.C < 0).any()]
+    named = (replace(point, label=label) for point, label in zip(inside, labels(system, inside), strict=True))
+    return Found(named, COLUMNS)
 
 
-def search(system: System) -> FixedPointSearch:
-    """Return all fixed points, admissible or not.
+def search(system: System) -> list[FixedPoint]:
+    """Return all fixed points in ascending order of C_1, without labels, also those with some C_i < 0.
 
     Raises
     ------
@@ -144,12 +140,8 @@ def search(system: System) -> FixedPointSearch:
         solutions = _solutions(system, balance, zeros, multiple)
     else:  # without a force there is no fixed point, since the ball dissipates energy
         solutions = [solution for module in system.modules for solution in _of_one_module(balance, module - 1)]
-    points = [_fixed_point(system, *solution) for solution in solutions]
-    points.sort(key=lambda point: tuple(np.nan_to_num(point.C)))
-    outside = [point for point in points if (point.C < 0).any()]
-    inside = [point for point in points if not (point.C < 0).any()]
-    named = [replace(point, label=label) for point, label in zip(inside, labels(system, inside), strict=True)]
-    return FixedPointSearch(named, outside)
+    points = [FixedPoint.of(system, *solution) for solution in solutions]
+    return sorted(points, key=lambda point: tuple(np.nan_to_num(point.C)))
 
 
 def search_radius(system) -> float:
@@ -193,13 +185,10 @@ def refuse_free_motion(system) -> None:
     scale = own + abs(balance.K)
     if abs(denominator) <= 1e-12 * scale * own and np.abs(numerators).max() <= 1e-12 * scale * force:
         raise ValueError(
-            f"sigma_e_hat: {system.sigma_e_hat} drives the undamped slow flow at a resonance that the forces do not "
-            "excite, so that fixed points need not be isolated; add damping or change the frequency"
+            f"sigma_e_hat: at {system.sigma_e_hat} the forcing frequency is a resonance of the undamped boxes that the "
+            "forces do not excite; the boxes could move freely with any phase, so that the fixed points cannot be "
+            "listed; add damping or change the frequency"
         )
-
-
-def _fixed_point(system, C, psi, multiple):
-    return FixedPoint(system, C, B_of_C(C, rho(system.kappa)), psi, slow_eigenvalues(system, psi, C), multiple)
 
 
 def _of_one_module(balance, i):
