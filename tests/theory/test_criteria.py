@@ -1,5 +1,7 @@
 """Verdicts of the theory's criteria on fixed points and orbits."""
 
+from types import SimpleNamespace
+
 import mpmath as mp
 import numpy as np
 import pytest
@@ -7,11 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
+from amplitude_rates import jacobian
 from chapter import FORCES, PARAMETERS
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory import criteria as verdicts
 from vibroimpact.theory.manifold import B_of_C, rho
-from vibroimpact.theory.slow_flow import jacobian, rates
+from vibroimpact.theory.slow_flow import rates
 
 PRINTED, FOLD, BREAKING = 3.3 / 3.65, 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)
 
@@ -58,8 +61,13 @@ def true_fixed_point(system, point):
     ],
 )
 def test_both_modules_must_satisfy_the_limits(C, printed, derived):
-    assert verdicts.printed_10_26(C, 0.65) == verdicts.printed_10_26(C[::-1], 0.65) == printed
-    assert verdicts.masri_derived(C, 0.65) == verdicts.masri_derived(C[::-1], 0.65) == derived
+    for amplitudes in (C, C[::-1]):
+        motion = SimpleNamespace(
+            system=case("equal"), impact_phases=np.full((2, 2), [0, 0.5]), C=np.array(amplitudes),
+            multipliers=np.zeros(8), residual=0.0,
+        )  # fmt: skip
+        found = verdicts.of_orbit(motion)
+        assert (found["printed_10_26"], found["fast"]) == (printed, derived)
 
 
 @pytest.mark.parametrize("name", FORCES)

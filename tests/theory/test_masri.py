@@ -11,7 +11,7 @@ import vibroimpact as vi
 from chapter import FORCES, PARAMETERS
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory import masri
-from vibroimpact.theory.masri import limit_with_squares, printed_limit
+from vibroimpact.theory.masri import printed_limit
 
 kappas = st.floats(0.05, 0.95)
 FOLD, BREAKING = 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)
@@ -99,7 +99,6 @@ def test_both_readings_of_10_26_lie_below_the_fold(kappa):
     rho = 2 * (1 - kappa) / (np.pi * (1 + kappa))
     printed, squared = 2 * (1 + kappa) / (3 + kappa), (1 + kappa) ** 2 / (2 * (1 + kappa**2))
     assert printed_limit(rho) == pytest.approx(printed, rel=1e-14)
-    assert limit_with_squares(rho) == pytest.approx(squared, rel=1e-13)
     for limit in (printed, squared):
         assert limit < masri.lower_limit(kappa)
         assert np.abs(masri.impact_multipliers(limit, kappa)).max() > 1

@@ -15,7 +15,7 @@ from scipy.linalg import eig
 from vibroimpact.system.verdict import all_stable, verdict
 from vibroimpact.theory import masri
 from vibroimpact.theory.manifold import impact_phase, rho
-from vibroimpact.theory.masri import printed_limit
+from vibroimpact.theory.masri import ROUNDING, printed_limit
 from vibroimpact.theory.slow_flow import MODULES, equations, linearisation
 
 FAST, SLOW, THEORY, EXACT = "fast", "slow", "theory", "exact"
@@ -23,7 +23,6 @@ PRINTED = "printed_10_26"
 CRITERIA = (PRINTED, FAST, SLOW, THEORY)
 """Names of the verdicts of the theory, in the order of table columns."""
 _STEP = 1e-6
-_ULPS = 16 * np.finfo(float).eps
 
 
 class Stability(NamedTuple):
@@ -45,35 +44,6 @@ class Stability(NamedTuple):
         return f"{self.theory} (fast {self.fast}, slow {self.slow})"
 
 
-def printed_10_26(C, kappa: float, error: float = 0.0) -> str:
-    """Return the verdict of the printed condition (10.26) on a motion with the saw-tooth amplitudes C, shape (2,).
-
-    error: bound on the errors of C.
-    """
-    limit = printed_limit(rho(kappa))
-    return all_stable(verdict(c - limit, error + _ULPS * max(1.0, abs(c))) for c in C if not np.isnan(c))
-
-
-def masri_derived(C, kappa: float, error: float = 0.0) -> str:
-    """Return the verdict of Masri's analysis (docs/stability.md) on a motion with saw-tooth amplitudes C, (2,).
-
-    error: bound on the errors of C.
-    """
-    return all_stable(masri.stable(c, kappa, error) for c in C if not np.isnan(c))
-
-
-def slow_flow(system, psi, C, error: float = 0.0) -> str:
-    """Return the verdict from the real parts of the eigenvalues of the slow flow.
-
-    psi, C: phases [rad] and saw-tooth amplitudes, each (2,). error: bound on the errors of psi and C.
-
-    The errors of the eigenvalues due to rounding and to `error` are estimated to first order, with the left and right
-    eigenvectors. At the fold of the manifold, where an eigenvalue is infinite, the verdict is "undecided".
-    """
-    values, errors = _eigenvalues(system, np.asarray(psi, dtype=float), np.asarray(C, dtype=float), error)
-    return all_stable(verdict(-value.real, bound) for value, bound in zip(values, errors, strict=True))
-
-
 def of_fixed_point(system, point) -> dict[str, str]:
     """Return, by name, the verdict of each criterion in CRITERIA on a fixed point of the slow flow."""
     return _of(system, point.psi, point.C, fixed_point_error(system, point))
@@ -87,7 +57,7 @@ def of_orbit(orbit) -> dict[str, str]:
     The criteria assume a symmetric motion. An asymmetric orbit is described by psi and C from `slow_variables`.
     """
     psi, C = slow_variables(orbit)
-    error = (orbit.residual + _ULPS) / np.min(np.abs(orbit.multipliers - 1))
+    error = (orbit.residual + ROUNDING) / np.min(np.abs(orbit.multipliers - 1))
     return _of(orbit.system, psi, C, error)
 
 
@@ -114,17 +84,28 @@ def fixed_point_error(system, point) -> float:
     residual, J = equations(system, point.psi, point.C)
     unknowns = np.column_stack([point.C, point.psi]).ravel()
     size = np.abs(unknowns[np.isin(MODULES, system.modules)])
-    noise = _ULPS * (np.abs(J).sum(axis=1) + np.abs(np.diag(J)) * size)
+    noise = ROUNDING * (np.abs(J).sum(axis=1) + np.abs(np.diag(J)) * size)
     return float((np.abs(np.linalg.inv(J)) @ (np.abs(residual) + noise)).max())
 
 
 def _of(system, psi, C, error):
-    both = Stability(masri_derived(C, system.kappa, error), slow_flow(system, psi, C, error))
-    return {PRINTED: printed_10_26(C, system.kappa, error), FAST: both.fast, SLOW: both.slow, THEORY: both.theory}
+    """Return the verdicts in CRITERIA on a motion; error: bound on the errors of psi and C, each (2,).
+
+    At the fold of the manifold, where an eigenvalue of the slow flow is infinite, the slow verdict is "undecided".
+    """
+    limit, active = printed_limit(rho(system.kappa)), C[~np.isnan(C)]
+    printed = all_stable(verdict(c - limit, error + ROUNDING * max(1.0, abs(c))) for c in active)
+    fast = all_stable(masri.stable(c, system.kappa, error) for c in active)
+    eigenvalues = zip(*_eigenvalues(system, psi, C, error), strict=True)
+    both = Stability(fast, slow=all_stable(verdict(-value.real, bound) for value, bound in eigenvalues))
+    return {PRINTED: printed, FAST: both.fast, SLOW: both.slow, THEORY: both.theory}
 
 
 def _eigenvalues(system, psi, C, error):
-    """Return the eigenvalues of the slow flow and their estimated errors, each (4,), or (2,) for a single machine."""
+    """Return the eigenvalues of the slow flow and their estimated errors, each (4,), or (2,) for a single machine.
+
+    The errors due to rounding and to `error` are estimated to first order, with the left and right eigenvectors.
+    """
     J, M = linearisation(system, psi, C)
     values, left, right = eig(J, M, left=True, right=True)
     if not np.isfinite(values).all() or not np.isfinite(error):
@@ -133,7 +114,7 @@ def _eigenvalues(system, psi, C, error):
     ahead, behind = (linearisation(system, psi + s[..., 1], C + s[..., 0]) for s in (shifts, -shifts))
     moved = [np.linalg.norm(a - b, axis=(-2, -1)).sum() for a, b in zip(ahead, behind, strict=True)]
     dJ, dM = (
-        _ULPS * np.linalg.norm(of) + error / (2 * _STEP) * change for of, change in zip((J, M), moved, strict=True)
+        ROUNDING * np.linalg.norm(of) + error / (2 * _STEP) * change for of, change in zip((J, M), moved, strict=True)
     )
     lengths = np.linalg.norm(left, axis=0) * np.linalg.norm(right, axis=0)
     return values, lengths * (dJ + np.abs(values) * dM) / np.abs(np.einsum("ij,ij->j", left.conj(), M @ right))

@@ -91,11 +91,3 @@ def printed_limit(rho):
     The value is 4 / (4 + pi rho), in the shape of rho.
     """
     return 4 / (4 + np.pi * rho)
-
-
-def limit_with_squares(rho):
-    """Return the limit of C by (10.26) with the squares of pi and rho, which may have been lost in print.
-
-    The value is 4 / (4 + pi^2 rho^2) = (1 + kappa)^2 / (2 (1 + kappa^2)), in the shape of rho.
-    """
-    return 4 / (4 + (np.pi * rho) ** 2)

@@ -9,7 +9,7 @@ from vibroimpact.studies.claims.finding import Finding
 from vibroimpact.studies.claims.point_checks import CAPTIONS
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, impact_phase, largest_C, rho, sawtooth
-from vibroimpact.theory.masri import impact_multipliers, limit_with_squares, lower_limit, printed_limit, upper_limit
+from vibroimpact.theory.masri import impact_multipliers, lower_limit, printed_limit, upper_limit
 
 KAPPAS = np.linspace(0.01, 0.99, 99)
 EXPONENTS = range(4)
@@ -57,7 +57,7 @@ def printed_condition(evidence):
     interval of lower limits of C for which all captions hold, and the exponents p, q whose limit lies in this interval.
     """
     kappa = evidence.system.kappa
-    limit, squared = printed_limit(rho(kappa)), limit_with_squares(rho(kappa))
+    limit, squared = printed_limit(rho(kappa)), 4 / (4 + (np.pi * rho(kappa)) ** 2)
     at_limit, at_squared = (_largest_multiplier(C, kappa) for C in (limit, squared))
     stable, below = _stable_above(limit, kappa), _stable(np.linspace(0.0, limit, 200)[1:], kappa)
     parts = {

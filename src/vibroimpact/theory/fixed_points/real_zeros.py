@@ -69,8 +69,11 @@ def _starts(pair, size):
     """
     resultant, bound = _resultant(*pair.transpose(0, 2, 1)), _resultant(*np.abs(pair).transpose(0, 2, 1), sign=1)
     if (np.abs(resultant) <= _ROUNDING * bound).all():
-        raise ArithmeticError("the polynomials have no isolated zeros")
-    x = _roots(resultant)
+        raise ArithmeticError("the fixed points are not isolated, so that they cannot be listed")
+    nonzero = np.flatnonzero(np.abs(resultant) > np.finfo(float).tiny)
+    roots = poly.polyroots(resultant[: nonzero[-1] + 1])
+    roots = roots[np.abs(roots.imag) <= _NEARLY_REAL * np.abs(roots) + _RESOLUTION]
+    x = roots.real + roots.imag  # a + b and a - b for a nearly real pair a +- b i
     y = np.concatenate([_quadratic(one, x) for one in pair])
     points = np.column_stack([np.tile(x, 4), y])
     points = points[(np.abs(points) < 2).all(axis=1)]
@@ -89,14 +92,6 @@ def _resultant(one, other, sign=-1):
         return np.convolve(one[j], other[k]) + sign * np.convolve(one[k], other[j])
 
     return np.convolve(minor(2, 0), minor(2, 0)) + sign * np.convolve(minor(2, 1), minor(1, 0))
-
-
-def _roots(coefficients):
-    """Return the nearly real roots of a polynomial as real numbers: a + b and a - b for a nearly real pair a +- b i."""
-    nonzero = np.flatnonzero(np.abs(coefficients) > np.finfo(float).tiny)
-    roots = poly.polyroots(coefficients[: nonzero[-1] + 1])
-    roots = roots[np.abs(roots.imag) <= _NEARLY_REAL * np.abs(roots) + _RESOLUTION]
-    return roots.real + roots.imag
 
 
 def _quadratic(polynomial, x):

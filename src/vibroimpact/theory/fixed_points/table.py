@@ -6,7 +6,7 @@ import numpy as np
 
 from vibroimpact.system.extras import need
 from vibroimpact.system.verdict import all_stable
-from vibroimpact.theory.fixed_points.symmetric_points import fixed_points, labels
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import C_min, overshoot, rho
 from vibroimpact.theory.masri import printed_limit
 
@@ -36,11 +36,7 @@ def fixed_point_table(case: str, system) -> pd.DataFrame:
 
     The columns are COLUMNS; the first column contains the name `case`.
     """
-    points = fixed_points(system)
-    rows = [
-        [case, label, *point.C, *point.B, *point.psi, point.multiple]
-        for label, point in zip(labels(system, points), points, strict=True)
-    ]
+    rows = [[case, p.label, *p.C, *p.B, *p.psi, p.multiple] for p in fixed_points(system)]
     return pd.DataFrame(rows, columns=COLUMNS).sort_values("label", ignore_index=True)
 
 
@@ -68,7 +64,7 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
     if label not in points:
         case = f" {table['case'].iloc[0]!r}" if "case" in table and len(table) else ""
         known = ", ".join(points) or "none"
-        raise ValueError(f"fixed_point: the case{case} has no fixed point {label!r}; it has {known}")
+        raise ValueError(f"fixed_point: the case{case} has no fixed point {label!r}; its labels are: {known}")
     return points[label]
 
 
