@@ -1,7 +1,5 @@
 """Compute the stored (kinetic and elastic) energy of the system (10.2), in units of M L^2 omega_10^2."""
 
-from vibroimpact.system.state import BALLS, BOXES
-
 
 def stored(stiffness2, alpha12, epsilon, boxes, balls):
     """Return the kinetic energy of boxes and balls plus the energy of the springs.
@@ -16,15 +14,3 @@ def stored(stiffness2, alpha12, epsilon, boxes, balls):
     x1, x2, v1, v2 = boxes
     kinetic = v1 * v1 + v2 * v2 + epsilon * (balls[2] * balls[2] + balls[3] * balls[3])
     return 0.5 * (kinetic + x1 * x1 + stiffness2 * x2 * x2 + alpha12 * (x1 - x2) * (x1 - x2))
-
-
-def stored_energy(system, states):
-    """Return the stored energy for states (..., 8), shape (...)."""
-    boxes, balls = states[..., BOXES], states[..., BALLS]
-    return stored(
-        system.stiffness2,
-        system.alpha12,
-        system.epsilon,
-        tuple(boxes[..., k] for k in range(4)),
-        tuple(balls[..., k] for k in range(4)),
-    )

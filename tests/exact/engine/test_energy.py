@@ -5,8 +5,8 @@ import pytest
 
 import vibroimpact as vi
 from hard_starts import example
+from stored_energy import stored_energy
 from vibroimpact.system.state import IMPACT
-from vibroimpact.system.stored_energy import stored_energy
 
 PARTS = ("ground", "coupling", "impacts", "stored")
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(24)

@@ -8,10 +8,10 @@ from scipy.linalg import expm
 
 import vibroimpact as vi
 from chapter import PARAMETERS
+from stored_energy import stored_energy
 from vibroimpact.studies.absorbers.decay import decay_time, quickest_decay
 from vibroimpact.studies.absorbers.references import fixed_balls, tuned, without_balls
 from vibroimpact.studies.absorbers.tuning import textbook_tuning
-from vibroimpact.system.stored_energy import stored_energy
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 FREE = SYSTEM.with_(f10_hat=0.0, f20_hat=0.0)
