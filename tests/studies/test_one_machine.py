@@ -157,8 +157,8 @@ def test_a_transient_is_told_as_one(found, monkeypatch):
 def test_what_to_know_before_it_is_built_is_told(found):
     softest = [*found.candidates, found.candidates[0] | {"restitution": 0.5}]
     told = {
-        "The clearance is the greatest of those tried": {},
-        "The restitution is the least of those tried": {"candidates": softest},
+        "The clearance is the largest of those tried": {},
+        "The restitution is the smallest of those tried": {"candidates": softest},
         "Fragile: with clearances within 2% of it the peak is up to 20%": {"near": (found.peak, 1.2 * found.peak)},
         "No resonance without ball lies in the band from 7.4 to 8.4 Hz.": {"natural": 8.5},
         "The ball of 121 kg is heavier than its machine of 120 kg.": {"machine": replace(found.machine, m=121.0)},

@@ -199,8 +199,8 @@ class Design:
         for name, value in (("restitution", machine.kappa), ("clearance_m", machine.L)):
             tried = sorted({row[name] for row in self.candidates})
             if len(tried) > 1 and value in (tried[0], tried[-1]):
-                end = "least" if value == tried[0] else "greatest"
-                yield f"The {name.removesuffix('_m')} is the {end} of those tried; a value beyond it may be better."
+                end, better = ("smallest", "smaller") if value == tried[0] else ("largest", "larger")
+                yield f"The {name.removesuffix('_m')} is the {end} of those tried; a {better} one may be better."
         worst = max(self.response, key=lambda row: row["with_m"])
         if not self._settled(worst):
             later = f"{_mm(worst['later_m'])} in the {LATER} periods that follow"
@@ -265,7 +265,14 @@ def design(
     masses = [machine.m] if masses is None else _choices("masses", masses, math.inf)
     found = [_designed(_Study(replace(machine, m=m), band), clearances, restitutions, progress) for m in masses]
     chosen = min(found, key=lambda one: (one.near[1], one.peak))
-    return replace(chosen, masses=[_of_mass(one) for one in found]) if len(found) > 1 else chosen
+    rows = [
+        {
+            "mass_kg": one.machine.m, "clearance_m": one.machine.L, "restitution": one.machine.kappa,
+            "peak_m": one.peak, "near_m": one.near[1], "absorber_m": one.absorber,
+        }
+        for one in found
+    ]  # fmt: skip
+    return replace(chosen, masses=rows) if len(found) > 1 else chosen
 
 
 def _choices(name, values, end) -> list[float]:
@@ -279,17 +286,8 @@ def _choices(name, values, end) -> list[float]:
     given = np.unique(reals(name, values)).tolist()
     if not given or not 0 < given[0] <= given[-1] < end:
         upper = f" and below {end:g}" if end < math.inf else ""
-        raise ValueError(f"{name}: {given}; needs one or more numbers above 0{upper}")
+        raise ValueError(f"{name}: got {given}, expected one or more numbers above 0{upper}")
     return given
-
-
-def _of_mass(found) -> dict:
-    """Return the row of `Design.masses` for a design."""
-    machine = found.machine
-    return {
-        "mass_kg": machine.m, "clearance_m": machine.L, "restitution": machine.kappa, "peak_m": found.peak,
-        "near_m": found.near[1], "absorber_m": found.absorber,
-    }  # fmt: skip
 
 
 def _designed(study, clearances, restitutions, progress) -> Design:
@@ -309,7 +307,7 @@ def _designed(study, clearances, restitutions, progress) -> Design:
     else:
         rows = study.tried([(L, kappa) for kappa in restitutions for L in clearances], progress)
     finalists = []
-    for row in track(_best(rows), "design: measured again", progress):
+    for row in track(_best(rows), "design: best candidates, measured again", progress):
         machine = replace(study.machine, L=row["clearance_m"], kappa=row["restitution"])
         measured, *beside = (study.measured(machine, factor) for factor in (1.0, 1 - NEAR, 1 + NEAR))
         peaks = [measured.peak, *(one.peak for one in beside)]
@@ -374,7 +372,10 @@ class _Study:
     def __init__(self, machine, band):
         low, high = checked_band(band)
         if not machine.c1 or not machine.F10:
-            raise ValueError("machine: needs a damper c above 0 and a force F, base or unbalance other than 0")
+            raise ValueError(
+                f"machine: got c = {machine.c1} and the force {machine.F10}; expected a damping c above 0, and "
+                "a force F, base or unbalance other than 0"
+            )
         natural = {"omega1": machine.omega10, "omega2": machine.omega10}
         # Only |F| is used: with -F, the same results would need mirrored initial states.
         self.given, self.machine = machine, replace(machine, F10=abs(machine.F10), L=1.0, **natural)
@@ -382,7 +383,7 @@ class _Study:
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
         if self.system.modules != (1,):
             raise ValueError(
-                "machine: needs a single machine, without coupling and without second force; see PhysicalSystem.single"
+                "machine: got two machines, coupled or both with a force; expected one, see PhysicalSystem.single"
             )
         ratio = machine.c1 / (2 * machine.M * machine.omega10)
         width = 2 * ratio * self.hertz
@@ -401,7 +402,7 @@ class _Study:
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
         """Return a row per pair of clearance and restitution, with the peak from a few initial states."""
         rows, states = [], self._starts(FEW_STARTS, 1)
-        for L, kappa in track(pairs, "design: tried", progress):
+        for L, kappa in track(pairs, "design: candidates tried", progress):
             systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]
             runs = finished(ensemble(np.array(systems)[:, None], states, self.settle + SHORT, settle=self.settle))
             height = L * float(runs["largest"][..., 0].max())

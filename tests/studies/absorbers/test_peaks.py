@@ -67,5 +67,5 @@ def test_runs_that_cannot_be_finished_are_counted_and_left_out():
     assert np.isnan(peak_of(by_cycle(BAND, states[2:], 12, 8).largest)).all()
     with pytest.raises(ArithmeticError, match="4 runs"):
         peak(BAND, states, 12, 8)
-    with pytest.raises(ValueError, match=r"^cycles: 8 should exceed settle = 8"):
+    with pytest.raises(ValueError, match=r"^cycles: 8 is not above settle = 8"):
         peak(BAND, states[:2], 8, 8)

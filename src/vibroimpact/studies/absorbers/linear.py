@@ -59,7 +59,7 @@ class Linear:
             If the system is driven at an undamped resonance.
         """
         if len(self.force) != 4:
-            raise ValueError(f"strokes: needs two boxes with an absorber each, got {len(self.force)} coordinates")
+            raise ValueError("strokes: the system has no absorbers; see `tuned`")
         responses = self._responses(Omega)
         return np.abs(responses[..., :2] - responses[..., 2:])
 
@@ -97,7 +97,7 @@ class Linear:
         measure: the method `amplitudes` or `strokes`.
         """
         low, high = checked_band(band)
-        resonances = np.abs(self.poles.imag)
+        resonances = np.abs(eigvals(self.rate).imag)
         inside = resonances[(resonances > low) & (resonances < high)]
         grid = np.unique([*np.linspace(low, high, POINTS), *inside])
         try:
@@ -114,11 +114,6 @@ class Linear:
         n = len(self.force)
         upper = np.hstack([np.zeros((n, n)), np.eye(n)])
         return np.vstack([upper, -np.linalg.solve(self.mass, np.hstack([self.stiffness, self.damping]))])
-
-    @property
-    def poles(self) -> np.ndarray:
-        """Eigenvalues of the rate matrix, complex, shape (2n,)."""
-        return eigvals(self.rate)
 
     def decay_time(self, module: int = 1, fraction: float = 0.1) -> float:
         """Return the time tau from an impulse on a box at rest until only a fraction of its energy is left.
@@ -168,7 +163,7 @@ def checked_band(band) -> tuple[float, float]:
     """
     low, high = pair("band", band)
     if not 0 < low < high:
-        raise ValueError(f"band: needs 0 < low < high, got ({low}, {high})")
+        raise ValueError(f"band: got ({low}, {high}), expected (low, high) with 0 < low < high")
     return low, high
 
 

@@ -67,7 +67,7 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
     """
     runs = by_cycle(systems, states, cycles, settle)
     if runs.unfinished:
-        raise ArithmeticError(f"a peak cannot be measured: {runs.unfinished} runs could not be finished")
+        raise ArithmeticError(f"the peak is unknown, since {runs.unfinished} runs could not be finished")
     heights = peak_of(runs.largest)
     at = int(heights.argmax())
     return Peak(float(heights[at]), standard_error(runs.largest), float(runs.largest.max()), at)
@@ -84,7 +84,7 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
         If no cycle would be observed, or as for `ensemble`.
     """
     if not cycles > settle:
-        raise ValueError(f"cycles: {cycles} should exceed settle = {settle}, so that a cycle is left to observe")
+        raise ValueError(f"cycles: {cycles} is not above settle = {settle}, so that no cycle is left to observe")
     systems, states = np.array(systems, dtype=object), np.array([inactive_at_rest(one, states) for one in systems])
     runs = ensemble(systems[:, None], states, cycles, settle=settle, by_cycle=True)
     largest, final, squares = runs["largest"].max(axis=-1), runs["final"][..., -1, :], runs["mean_square"].sum(axis=-2)
@@ -128,5 +128,5 @@ def finished(runs: np.ndarray) -> np.ndarray:
     """
     failed = runs["status"][runs["status"] != FINISHED]
     if len(failed):
-        raise ArithmeticError(f"a peak cannot be measured: {STATUSES[int(failed[0])]}")
+        raise ArithmeticError(f"the peak is unknown, since a run failed: {STATUSES[int(failed[0])]}")
     return runs

@@ -1,12 +1,11 @@
 """Linear systems for comparison: without balls, with fixed balls, with linear absorbers as heavy as the balls."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from vibroimpact.studies.absorbers.linear import Linear
-from vibroimpact.system.arguments import reals
+from vibroimpact.system.arguments import pair
 from vibroimpact.system.matrices import damping_matrix, masses, stiffness_matrix
 
 
@@ -37,8 +36,7 @@ def without_balls(system, scale=np.ones_like) -> Linear:
 
 def fixed_balls(system, scale=np.ones_like) -> Linear:
     """Return the linear system of the boxes, each of mass 1 + epsilon with its fixed ball; `scale` as in `Linear`."""
-    stuck = np.diag(masses(system, (True, True)))
-    return Linear(stuck, damping_matrix(system), stiffness_matrix(system), system.forcing, scale)
+    return replace(without_balls(system, scale), mass=np.diag(masses(system, (True, True))))
 
 
 def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
@@ -70,9 +68,9 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
     >>> linear = vi.tuned(system, vi.textbook_tuning(system))
     >>> linear.peak((0.9, 1.1))  # doctest: +SKIP
     """
-    frequency, damping = _pair("frequency", tuning.frequency), _pair("damping", tuning.damping)
+    frequency, damping = (np.array(pair(name, getattr(tuning, name))) for name in ("frequency", "damping"))
     if not (frequency > 0).all() or not (damping >= 0).all():
-        raise ValueError(f"tuning: {tuning} needs frequencies above 0 and damping ratios of at least 0")
+        raise ValueError(f"tuning: got {tuning}, expected frequencies above 0 and damping ratios of at least 0")
     spring, damper = system.epsilon * frequency**2, 2 * system.epsilon * frequency * damping
     return Linear(
         np.diag([1.0, 1.0, system.epsilon, system.epsilon]),
@@ -91,10 +89,3 @@ def _attached(matrix, links):
     """
     link = np.diag(links)
     return np.block([[matrix + link, -link], [-link, link]])
-
-
-def _pair(name, values: ArrayLike):
-    pair = reals(name, values)
-    if pair.shape != (2,) or not np.isfinite(pair).all():
-        raise ValueError(f"{name}: needs two finite numbers, one for each box, got {values}")
-    return pair

@@ -54,7 +54,7 @@ def textbook_tuning(system: System) -> Tuning:
     ratio = instance("system", system, System).epsilon
     host = np.sqrt([1.0, system.stiffness2])
     damping = float(np.sqrt(3 * ratio / (8 * (1 + ratio))))
-    return Tuning(tuple(float(value) for value in host / (1 + ratio)), (damping, damping))
+    return Tuning(tuple((host / (1 + ratio)).tolist()), (damping, damping))
 
 
 def best_tuning(system: System, band: tuple[float, float], scale=np.ones_like) -> Tuning:
@@ -92,7 +92,7 @@ def best_tuning(system: System, band: tuple[float, float], scale=np.ones_like) -
     book = textbook_tuning(system)
     frequencies = np.linspace(*checked_band(band), POINTS)
     if not system.forcing.any():
-        raise ValueError("system: no force acts, so there is no response to reduce")
+        raise ValueError("system: both forces are 0, so that there is no response to reduce")
     textbook = np.log([*book.frequency, *book.damping])
     found = []
     for factors in STARTS:
@@ -114,7 +114,8 @@ def best_tuning(system: System, band: tuple[float, float], scale=np.ones_like) -
         if result.success:
             found.append(_tuning(result.x[:4]))
     if not found:
-        raise ArithmeticError(f"the optimisation failed in the band ({frequencies[0]}, {frequencies[-1]})")
+        ends = f"({frequencies[0]}, {frequencies[-1]})"
+        raise ArithmeticError(f"the tuning of the absorbers for the band {ends} did not converge from any start")
     return min(found, key=lambda tuning: tuned(system, tuning, scale).peak(band))
 
 
@@ -145,5 +146,4 @@ def _levels(logarithms, system, frequencies, scale):
 
 
 def _tuning(logarithms):
-    values = [float(value) for value in np.exp(logarithms)]
-    return Tuning((values[0], values[1]), (values[2], values[3]))
+    return Tuning(*map(tuple, np.exp(logarithms).reshape(2, 2).tolist()))

@@ -88,7 +88,8 @@ def branches(
     (3, 'fixed point')
     """
     names = (along,) if isinstance(along, str) else tuple(along)
-    path = Path(_checked_system(system, names), names)
+    check_parameters(system, names)
+    path = Path(system, names)
     low, high = _range("between", between)
     values = np.linspace(low, high, whole("seeds", seeds, 1, _MOST_SEEDS))
     for end in (low, high):
@@ -100,7 +101,7 @@ def branches(
     if isinstance(of, PeriodicOrbit):
         families, values = (PeriodicOrbits(of),), [getattr(of.system, names[0])]
         if path(values[0]) != of.system:
-            raise ValueError(f"of: the motion belongs to a system that differs in more than {' = '.join(names)}")
+            raise ValueError(f"of: the system of the motion and `system` differ in more than {' = '.join(names)}")
         if not low <= values[0] <= high:
             raise ValueError(
                 f"of: the motion is at {' = '.join(names)} = {values[0]}, which is outside the range ({low}, {high}) "
@@ -160,12 +161,12 @@ def bifurcation_curves(
     """
     names = (along,) if isinstance(along, str) else tuple(along)
     if len(names) != 2 or len(set(names)) != 2:
-        raise ValueError(f"along: {along!r}; needs two parameters")
-    _checked_system(system, names)
+        raise ValueError(f"along: got {along!r}, expected the names of two parameters")
+    check_parameters(system, names)
     try:
         first, second = between
     except (TypeError, ValueError):
-        raise ValueError(f"between: {between!r}; needs a range of each parameter, ((low, high), (low, high))") from None
+        raise ValueError(f"between: got {between!r}, expected ((low, high), (low, high))") from None
     limits = np.array([_range(f"between, {name}", one) for name, one in zip(names, (first, second), strict=True)])
     plane = Plane(system, names, limits)
     for corner in ((p, q) for p in limits[0] for q in limits[1]):
@@ -183,7 +184,7 @@ def bifurcation_curves(
             try:
                 path = Path(system.with_(**{names[1]: q}), names[:1])
             except ValueError as error:
-                warnings.warn(f"no search for {family.name} at {names[1]} = {q:.6g}: {error}", stacklevel=2)
+                warnings.warn(f"{family.name}: skipped the search at {names[1]} = {q:.6g}: {error}", stacklevel=2)
                 continue
             values = np.linspace(low, high, count + 2)
             started += [
@@ -196,36 +197,24 @@ def bifurcation_curves(
     return Found(found, ("family", "curve", "special", *names, "C1", "C2"))
 
 
-def with_parameters(known, names) -> tuple[str, ...]:
-    """Return `names` as a tuple if all are in `known`, the parameters of System.
-
-    Raises
-    ------
-    ValueError
-        If a name is not a parameter.
-    """
+def check_parameters(system, names) -> None:
+    """Raise ValueError unless `system` is a System and all `names` are parameters of System."""
+    known = asdict(instance("system", system, System))
     for name in names:
         if name not in known:
             raise ValueError(f"{name}: not a parameter of System; expected one of {', '.join(known)}")
-    return tuple(names)
-
-
-def _checked_system(system, names) -> System:
-    """Return `system` if it is a System and all `names` are parameters of System, else raise ValueError."""
-    with_parameters(asdict(instance("system", system, System)), names)
-    return system
 
 
 def _range(name, values):
     low, high = pair(name, values)
     if not low < high:
-        raise ValueError(f"{name}: {high} is not above {low}, where the path begins")
+        raise ValueError(f"{name}: got ({low}, {high}), expected (low, high) with low < high")
     return low, high
 
 
 def _families(of):
     if of not in tuple(FAMILIES):
-        raise ValueError(f"of: {of!r} is none of {', '.join(FAMILIES)}")
+        raise ValueError(f"of: got {of!r}, expected one of {', '.join(FAMILIES)}")
     return FAMILIES[of]
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 
 from vibroimpact.exact.engine.simulation import MOST_CYCLES
-from vibroimpact.studies.public.continuation import with_parameters
+from vibroimpact.studies.public.continuation import check_parameters
 from vibroimpact.studies.regimes.settling import Observation
 from vibroimpact.studies.sweeps.grid import Axis, Grid
 from vibroimpact.studies.sweeps.observations import OBSERVATIONS
@@ -15,7 +15,6 @@ from vibroimpact.system.arguments import MOST_SEED, instance, reals, whole
 from vibroimpact.system.progress import track
 
 _MOST_STARTS = 10_000
-_AXES = (1, 2)
 
 
 def sweep(
@@ -81,16 +80,15 @@ def sweep(
     >>> [row["fixed_points"] for row in rows]
     [1, 3]
     """
-    known = asdict(instance("system", system, System))
-    grid = Grid(system, _axes("axes", axes, known))
-    if len(grid.axes) not in _AXES:
-        raise ValueError(f"axes: {len(grid.axes)} parameters; needs one or two")
+    grid = Grid(system, _axes("axes", axes, system))
+    if not 1 <= len(grid.axes) <= 2:
+        raise ValueError(f"axes: got {len(grid.axes)} parameters, expected one or two")
     observe = tuple(observe) if not isinstance(observe, str) else (observe,)
     for name in observe:
         if name not in OBSERVATIONS:
-            raise ValueError(f"observe: {name!r} is none of {', '.join(OBSERVATIONS)}")
+            raise ValueError(f"observe: got {name!r}, expected one of {', '.join(OBSERVATIONS)}")
     if not observe:
-        raise ValueError(f"observe: nothing; choose from {', '.join(OBSERVATIONS)}")
+        raise ValueError(f"observe: got no name, expected some of {', '.join(OBSERVATIONS)}")
     cycles = whole("cycles", cycles, 1, MOST_CYCLES)
     spec = Spec(
         observe=observe,
@@ -98,7 +96,7 @@ def sweep(
         seed=whole("seed", seed, 0, MOST_SEED),
         cycles=cycles,
         settle=whole("settle", settle, 0, cycles - 1),
-        band=_band(band, known, axes) if "peaks" in observe or band is not None else None,
+        band=_band(band, system, axes) if "peaks" in observe or band is not None else None,
         observation=asdict(instance("observation", observation or Observation(), Observation)),
     )
     for number in range(len(grid)):  # raise before any computation if a point has no valid system
@@ -106,25 +104,25 @@ def sweep(
     return list(rows(grid, spec, track(range(len(grid)), "sweep: point", progress)))
 
 
-def _axes(name, given, known) -> list[Axis]:
+def _axes(name, given, system) -> list[Axis]:
     """Return one Axis per parameter, from the values of each parameter by name."""
     if not isinstance(given, Mapping):
-        raise ValueError(f"{name}: needs values by parameter, such as {{'f20_hat': [0.8, 1.0]}}")
-    with_parameters(known, given)
+        raise ValueError(f"{name}: expected values by parameter, such as {{'f20_hat': [0.8, 1.0]}}")
+    check_parameters(system, given)
     found = {key: reals(f"{name}[{key!r}]", list(values)).ravel().tolist() for key, values in given.items()}
     for key, values in found.items():
         if not values:
-            raise ValueError(f"{name}[{key!r}]: has no value")
+            raise ValueError(f"{name}[{key!r}]: got no value")
     return [Axis((key,), tuple(values)) for key, values in found.items()]
 
 
-def _band(given, known, axes) -> dict:
+def _band(given, system, axes) -> dict:
     """Return the arguments of `grid.axis` for the band along which peaks are searched."""
     if given is None:
         raise ValueError("band: missing; 'peaks' requires a band, such as band={'sigma_e_hat': [-1.0, 0.0, 1.0]}")
-    found = _axes("band", given, known)
+    found = _axes("band", given, system)
     if len(found) != 1:
-        raise ValueError(f"band: {len(found)} parameters; needs one")
+        raise ValueError(f"band: got {len(found)} parameters, expected one")
     if found[0].along[0] in axes:
-        raise ValueError(f"band: {found[0].along[0]} varies along the axes already")
+        raise ValueError(f"band: {found[0].along[0]} is already one of the axes")
     return {"along": found[0].along, "listed": found[0].values}

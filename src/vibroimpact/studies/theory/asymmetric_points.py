@@ -18,7 +18,7 @@ from scipy.linalg import eigvals
 
 from vibroimpact.exact.orbits.newton import newton
 from vibroimpact.studies.theory import branch
-from vibroimpact.studies.theory.branch import ASYMMETRIC, LARGE, SMALL, Chart, charts
+from vibroimpact.studies.theory.branch import ASYMMETRIC, LARGE, SMALL, charts
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance
 from vibroimpact.system.representation import Representation, brief
@@ -117,7 +117,8 @@ class AsymmetricPoint(Representation):
 class Balance:
     """The two conditions for a fixed point on (x_1, x_2) in one pair of charts; x_i = 0 if module i is inactive."""
 
-    def __init__(self, system, one: Chart, two: Chart):
+    def __init__(self, system: System, pair: tuple[str, str]):
+        one, two = (charts(system.kappa)[name] for name in pair)
         self._idle = ~np.isin([1, 2], system.modules)
         e, self.K = impedances(system)
         f1, f2, total = system.f10_hat, system.f20_hat, (system.f10_hat + system.f20_hat) * self.K
@@ -183,7 +184,7 @@ def search(system: System) -> list[AsymmetricPoint]:
         As for `fixed_points`.
     """
     refuse_free_motion(instance("system", system, System))
-    found = [_point(system, pair, x) for pair in pairs_of(system, PAIRS) for x in _zeros(balance(system, pair))]
+    found = [_point(system, pair, x) for pair in pairs_of(system, PAIRS) for x in _zeros(Balance(system, pair))]
     return sorted(found, key=lambda point: tuple(np.nan_to_num(point.C)))
 
 
@@ -194,12 +195,6 @@ def pairs_of(system, pairs) -> list[tuple[str, str]]:
     """
     idle = {1, 2} - set(system.modules)
     return [pair for pair in pairs if system.modules and all(pair[module - 1] == SMALL for module in idle)]
-
-
-def balance(system, pair) -> Balance:
-    """Return the Balance of a system on a pair of charts, given by name."""
-    known = charts(system.kappa)
-    return Balance(system, known[pair[0]], known[pair[1]])
 
 
 def _zeros(conditions):
@@ -214,9 +209,8 @@ def _zeros(conditions):
 
 
 def _point(system, pair, x):
-    known = charts(system.kappa)
-    places = [(known[name], value) for name, value in zip(pair, x, strict=True)]
-    psi = -np.angle(balance(system, pair).phasors(x))
+    places = [(charts(system.kappa)[name], value) for name, value in zip(pair, x, strict=True)]
+    psi = -np.angle(Balance(system, pair).phasors(x))
     alone = np.where(np.isin([1, 2], system.modules), 1.0, np.nan)
     C = np.array([chart.amplitudes(value)[0] for chart, value in places])
     B, ball, B_x, ball_x = np.transpose([chart.ball(value) for chart, value in places])

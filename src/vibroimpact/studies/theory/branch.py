@@ -89,11 +89,6 @@ def impact_phases(v, kappa):
     return middle - half, middle + half
 
 
-def slope_change(v, kappa):
-    """Return the change of the slope of Z at an impact, 4 C / (pi (1 - v^2)): (1 + kappa) times the impact speed."""
-    return 4 * amplitudes(np.square(v), kappa)[0] / (np.pi * (1 - np.square(v)))
-
-
 def trace(squared, kappa):
     """Return the trace of the linear map of perturbations over one cycle, on the asymmetric branch at v^2 = `squared`.
 
@@ -135,11 +130,11 @@ def overshoot(v: float, kappa: float) -> float:
 
     If the ball does not stay between the walls, |W_0| is largest at a turning point of a flight, where W_0' = 0.
     """
-    _, B = amplitudes(v**2, kappa)
+    C, B = amplitudes(v**2, kappa)
     a, b = impact_phases(v, kappa)
-    excess = 0.0
+    change, excess = 4 * C / (np.pi * (1 - v**2)), 0.0  # of the slope of Z at an impact
     for wall, start, fraction in ((1, a, (1 - v) / 2), (-1, b, (1 + v) / 2)):
-        slope = -wall * slope_change(v, kappa) * (1 - fraction)
+        slope = -wall * change * (1 - fraction)
         turn = np.arccos(np.clip(-slope / B, -1, 1))
         since = np.remainder(np.array([turn, -turn]) - start, 2 * np.pi)
         W = wall + B * (np.sin(start + since) - np.sin(start)) + slope * since

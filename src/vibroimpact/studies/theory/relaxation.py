@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from vibroimpact.exact.orbits.newton import follow, newton
-from vibroimpact.studies.theory.asymmetric_points import balance
+from vibroimpact.studies.theory.asymmetric_points import Balance
 from vibroimpact.studies.theory.branch import ASYMMETRIC, charts
 from vibroimpact.theory.manifold import B_min, C_min, C_of_B, rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances
@@ -113,7 +113,7 @@ def lost_at(system, point) -> float:
     fold, chart = C_min(rho(system.kappa)), charts(system.kappa)[point.charts[symmetric]]
 
     def conditions(factor):
-        return balance(system.with_(f10_hat=factor * system.f10_hat, f20_hat=factor * system.f20_hat), point.charts)
+        return Balance(system.with_(f10_hat=factor * system.f10_hat, f20_hat=factor * system.f20_hat), point.charts)
 
     def beyond(x):
         return chart.amplitudes(x[symmetric])[0] - fold
