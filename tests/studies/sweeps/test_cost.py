@@ -4,7 +4,7 @@ import pytest
 
 from chapter import PARAMETERS
 from vibroimpact.studies.sweeps.cost import core_seconds, points, tiles
-from vibroimpact.studies.sweeps.request import parsed
+from vibroimpact.studies.sweeps.spec import parsed
 
 SYSTEM = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
 SPEC = {"observe": ["amplitudes"], "starts": 2, "seed": 1, "cycles": 4000, "settle": 10}

@@ -25,7 +25,7 @@ def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()
 
 
 def sweep_request(sweep):
-    """Return all settings that affect the numbers of a sweep, in the form of vibroimpact.studies.sweeps.request."""
+    """Return all settings that affect the numbers of a sweep, in the form of vibroimpact.studies.sweeps.spec.parsed."""
     spec = {name: sweep[name] for name in ("observe", "starts", "seed", "cycles", "settle", "band") if name in sweep}
     if "regimes" in sweep["observe"]:
         spec["observation"] = config["regimes"]["observation"]

@@ -6,8 +6,8 @@ import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.exact.engine.all_cores import at_most
-from vibroimpact.studies.sweeps.request import parsed
 from vibroimpact.studies.sweeps.rows import columns, rows
+from vibroimpact.studies.sweeps.spec import parsed
 
 with running(snakemake) as out, at_most(snakemake.threads):
     grid, spec = parsed(snakemake.params.request)

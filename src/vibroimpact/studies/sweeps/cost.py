@@ -26,7 +26,7 @@ def core_seconds(request: Mapping) -> float:
     Parameters
     ----------
     request : Mapping
-        "axes" and "spec" as for `vibroimpact.studies.sweeps.request.parsed`.
+        "axes" and "spec" as for `vibroimpact.studies.sweeps.spec.parsed`.
     """
     spec, observation = request["spec"], request["spec"].get("observation")
     starts, cycles = spec.get("starts", 0), spec.get("cycles", 0)

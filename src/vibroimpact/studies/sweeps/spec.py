@@ -1,9 +1,11 @@
-"""Names and settings of the observations of a sweep; importing this module does not load the engine."""
+"""Settings of a sweep, also as plain data (a request); importing this module does not load the engine."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from vibroimpact.studies.sweeps.cost import RUNS
-from vibroimpact.studies.sweeps.grid import axis
+from vibroimpact.studies.sweeps.grid import Grid, axis
+from vibroimpact.system import System
 
 POINT, FAILED = "point", "failed"
 """First and last column of the table of a sweep: number of the point, and why an observation failed there, or ""."""
@@ -31,3 +33,20 @@ class Spec:
         """Number of runs that all observations together need at a point."""
         along_band = len(axis(**self.band).values) if "peaks" in self.observe else 0
         return self.starts * (along_band + sum(name in ("regimes", *RUNS) for name in self.observe))
+
+
+def parsed(request: Mapping) -> tuple[Grid, Spec]:
+    """Return the grid of a request, and the Spec of its observations.
+
+    Parameters
+    ----------
+    request : Mapping
+        "system": parameters of System; "axes": a list of arguments of `grid.axis`; "spec": arguments of `Spec`.
+
+    Raises
+    ------
+    ValueError
+        If the parameters do not give a valid system.
+    """
+    grid = Grid(System(**request["system"]), [axis(**one) for one in request["axes"]])
+    return grid, Spec(**request["spec"])
