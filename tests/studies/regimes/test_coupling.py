@@ -18,21 +18,54 @@ from vibroimpact.studies.regimes.coupling import (
     coupled,
     flight_asymmetry,
     impact_power,
-    mirrored,
     pattern,
     patterns,
-    splitting,
     stable_ranges,
 )
-from vibroimpact.studies.regimes.families import FOLD, NEIMARK_SACKER, PERIOD_DOUBLING, AsymmetricOrbits
+from vibroimpact.studies.regimes.families import (
+    FOLD,
+    NEIMARK_SACKER,
+    PERIOD_DOUBLING,
+    AsymmetricOrbits,
+    flight_fractions,
+)
 
 TUNED_ALIKE = vi.System(**PARAMETERS | ALIKE)
 SMALL = (0.02, 0.01, 0.005)
+HARMONICS = 2 * np.arange(1, 200)
 
 
 @pytest.fixture(scope="module", params=sorted({*WATCHED, *SOUGHT}))
 def asymmetric(request):
     return asymmetric_orbits(coupled(TUNED_ALIKE, request.param))
+
+
+def splitting(system, root):
+    """Return `root` (6,) minus the `mirrored` root of the other pattern, to leading order.
+
+    If one module is mirrored, one pattern turns into the other, except that the even harmonics that act through the
+    coupling change their sign. The result is therefore -2 times the inverse Jacobian of the exact conditions times the
+    contribution of these even harmonics to the conditions.
+    """
+    conditions = AsymmetricConditions(system)
+    times, strengths = root[:4].reshape(2, 2), root[4:]
+    u = flight_fractions(system, root)
+    middle = times[:, 0] + u * system.period / 2
+    n = HARMONICS * system.Omega
+    link = system.alpha12 + 1j * n * system.gamma12
+    through = link / ((n**2 - 1) * (n**2 - 1 - 2 * link))
+    defect = np.zeros(6)
+    for i, j in ((0, 1), (1, 0)):
+        kicks = 4 * system.epsilon * strengths[j] / system.period * np.sin(n * u[j] * system.period / 2)
+        waves = -1j * kicks * through * np.exp(1j * n * (times[i][:, None] - middle[j]))
+        place, speed = waves.sum(axis=1).real, (1j * n * waves).sum(axis=1).real
+        defect[2 * i : 2 * i + 2], defect[4 + i] = (1 + system.kappa) * speed, place[0] - place[1]
+    return -2 * np.linalg.solve(conditions(root[None])[1][0], defect)
+
+
+def mirrored(system, root):
+    """Return the root (6,) that has the mirrored motion of ball 2: its walls are exchanged half a period later."""
+    return root[[0, 1, 3, 2, 4, 5]] + np.array([0, 0, 1, 1, 0, 0]) * system.period / 2
 
 
 def apart(system):

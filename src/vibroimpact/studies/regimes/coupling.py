@@ -29,7 +29,6 @@ LEAST_ASYMMETRY = 0.05
 """Smallest |v| at which the flights of a ball count as asymmetric."""
 STEP, SHARP = 0.1, 3e-5
 """Longest and shortest step in the logarithm of the coupling."""
-_HARMONICS = 2 * np.arange(1, 200)
 _NEAR = 0.01
 _SAME_BRANCH, _AT_THE_END = 0.1, 5e-3
 
@@ -130,34 +129,6 @@ def _end(orbit):
     if abs(mu.imag) > _AT_THE_END:
         return NEIMARK_SACKER
     return FOLD if mu.real > 0 else PERIOD_DOUBLING
-
-
-def splitting(system, root) -> np.ndarray:
-    """Return `root` (6,) minus the `mirrored` root of the other pattern, to leading order.
-
-    If one module is mirrored, one pattern turns into the other, except that the even harmonics that act through the
-    coupling change their sign. The result is therefore -2 times the inverse Jacobian of the exact conditions times the
-    contribution of these even harmonics to the conditions.
-    """
-    conditions = AsymmetricConditions(system)
-    times, strengths = root[:4].reshape(2, 2), root[4:]
-    u = flight_fractions(system, root)
-    middle = times[:, 0] + u * system.period / 2
-    n = _HARMONICS * system.Omega
-    link = system.alpha12 + 1j * n * system.gamma12
-    through = link / ((n**2 - 1) * (n**2 - 1 - 2 * link))
-    defect = np.zeros(6)
-    for i, j in ((0, 1), (1, 0)):
-        kicks = 4 * system.epsilon * strengths[j] / system.period * np.sin(n * u[j] * system.period / 2)
-        waves = -1j * kicks * through * np.exp(1j * n * (times[i][:, None] - middle[j]))
-        place, speed = waves.sum(axis=1).real, (1j * n * waves).sum(axis=1).real
-        defect[2 * i : 2 * i + 2], defect[4 + i] = (1 + system.kappa) * speed, place[0] - place[1]
-    return -2 * np.linalg.solve(conditions(root[None])[1][0], defect)
-
-
-def mirrored(system, root) -> np.ndarray:
-    """Return the root (6,) that has the mirrored motion of ball 2: its walls are exchanged half a period later."""
-    return root[[0, 1, 3, 2, 4, 5]] + np.array([0, 0, 1, 1, 0, 0]) * system.period / 2
 
 
 def asymmetric_orbits(system, both: bool = True) -> list:
