@@ -46,6 +46,20 @@ def real(name: str, value) -> float:
     return number
 
 
+def positive(name: str, value) -> float:
+    """Return a finite real number above 0 as a float.
+
+    Raises
+    ------
+    ValueError
+        If the value is not such a number.
+    """
+    number = real(name, value)
+    if number <= 0:
+        raise ValueError(f"{name}: {number} is not above 0")
+    return number
+
+
 def pair(name: str, values) -> tuple[float, float]:
     """Return two finite real numbers from a list, a tuple or an array as floats.
 

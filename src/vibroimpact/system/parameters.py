@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from vibroimpact.system.arguments import real
+from vibroimpact.system.arguments import positive, real
 from vibroimpact.system.matrices import dynamic_stiffness
 
 LARGEST = 1e15
@@ -69,17 +69,16 @@ class System:
             if abs(number) > LARGEST:
                 raise ValueError(f"{field.name}: {number} exceeds {LARGEST:g} in magnitude")
             object.__setattr__(self, field.name, number)
-        if self.epsilon <= 0:
-            raise ValueError(f"epsilon: {self.epsilon} is not above 0")
+        positive("epsilon", self.epsilon)
         if not 0 < self.kappa < 1:
             raise ValueError(f"kappa: {self.kappa} is not between 0 and 1 (both excluded)")
         for name in ("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat"):
             if getattr(self, name) < 0:
                 raise ValueError(f"{name}: {getattr(self, name)} is below 0")
         if self.stiffness2 <= 0:
-            raise ValueError(f"sigma20_hat: 1 + epsilon sigma20_hat = {self.stiffness2} is not above 0")
+            raise ValueError(f"sigma20_hat: the stiffness 1 + epsilon sigma20_hat = {self.stiffness2} is not above 0")
         if self.Omega <= 0:
-            raise ValueError(f"sigma_e_hat: 1 + epsilon sigma_e_hat = {self.Omega} is not above 0")
+            raise ValueError(f"sigma_e_hat: the frequency 1 + epsilon sigma_e_hat = {self.Omega} is not above 0")
         if self._resonates():
             raise ValueError(
                 f"sigma_e_hat: {self.sigma_e_hat} drives the undamped boxes at their resonance "

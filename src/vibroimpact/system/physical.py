@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from vibroimpact.system.arguments import real
+from vibroimpact.system.arguments import positive, real
 from vibroimpact.system.parameters import System
 
 
@@ -73,8 +73,7 @@ class PhysicalSystem:
         for field in fields(self):
             object.__setattr__(self, field.name, real(field.name, getattr(self, field.name)))
         for name in ("M", "m", "k1", "k2", "omega1", "omega2", "L"):
-            if getattr(self, name) <= 0:
-                raise ValueError(f"{name}: {getattr(self, name)} is not above 0")
+            positive(name, getattr(self, name))
         for name in ("k12", "c1", "c2", "c12", "base", "unbalance"):
             if getattr(self, name) < 0:
                 raise ValueError(f"{name}: {getattr(self, name)} is below 0")
@@ -147,9 +146,7 @@ class PhysicalSystem:
         drives = {name: real(name, value) for name, value in (("F", F), ("base", base), ("unbalance", unbalance))}
         if len(given := {name: value for name, value in drives.items() if value}) > 1:
             raise ValueError(f"{', '.join(given)}: got {' and '.join(map(str, given.values()))}; give one of them")
-        k, M = real("k", k), real("M", M)
-        if min(k, M) <= 0:
-            raise ValueError(f"{'k' if k <= 0 else 'M'}: {min(k, M)} is not above 0")
+        k, M = positive("k", k), positive("M", M)
         omega = math.sqrt(k / M) if omega is None else omega
         return cls(
             M=M,
@@ -190,7 +187,7 @@ class PhysicalSystem:
             not admissible (see System).
         """
         if self.omega1 != self.omega2:
-            raise ValueError(f"omega2: {self.omega2} differs from omega1 = {self.omega1}; (10.5) needs one frequency")
+            raise ValueError(f"omega2: {self.omega2} differs from omega1 = {self.omega1}; both should be equal, (10.5)")
         epsilon = self.m / self.M
         force = self.M * self.L * self.omega10**2 * epsilon
         damping = self.M * self.omega10 * epsilon
@@ -229,8 +226,7 @@ class PhysicalSystem:
             If M, k1 or L is not a number above 0.
         """
         for name, value in (("M", M), ("k1", k1), ("L", L)):
-            if real(name, value) <= 0:
-                raise ValueError(f"{name}: {value} is not above 0")
+            positive(name, value)
         omega10 = math.sqrt(k1 / M)
         damping = M * omega10
         force = M * L * omega10**2

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from vibroimpact.studies.regimes import aperiodic
 from vibroimpact.studies.regimes import classification as names
 from vibroimpact.studies.regimes.classification import classify_after, starts
 from vibroimpact.studies.regimes.lyapunov import Measured
-from vibroimpact.studies.regimes.midpoint_grid import plane_of_forces
+from vibroimpact.studies.regimes.midpoint_grid import centres
 from vibroimpact.studies.regimes.settling import settle
 
 ENDS = {*names.PERIODIC, names.IDLE, names.NO_IMPACTS}
@@ -31,9 +32,7 @@ ENDS = {*names.PERIODIC, names.IDLE, names.NO_IMPACTS}
     ],
 )
 def test_the_sign_of_an_exponent_is_said_where_its_error_allows(mean, error, expected):
-    found = Measured(mean, error)
-    found.scatter = error
-    assert aperiodic.sign(found) == expected
+    assert aperiodic.sign(Measured(mean, error, scatter=error)) == expected
 
 
 def test_growth_with_time_is_neither_chaos_nor_quasi_periodic(chapter):
@@ -109,7 +108,7 @@ def names_now_and_later(system, states, observation, times):
 def test_names_last_fifty_times_as_long(chapter, observation):
     """The label stability of docs/studies/regimes.md, on a smaller map."""
     counts = Counter()
-    for f10, f20 in plane_of_forces((0.0, 1.6), (0.0, 1.6), 4):
+    for f10, f20 in product(centres((0.0, 1.6), 4), repeat=2):
         counts += names_now_and_later(chapter(f10, f20), starts(4, seed=4), observation, times=50)
     assert counts.total() == 64
     settled = {(name, later): n for (name, later), n in counts.items() if name != names.UNSETTLED}

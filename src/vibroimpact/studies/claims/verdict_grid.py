@@ -1,12 +1,14 @@
 """Tabulate verdicts on fixed points over a grid of forces: by the theory, and by exact orbits at several epsilon."""
 
+from itertools import product
+
 import pandas as pd
 
 from vibroimpact.accuracy.verdict_table import NO_ORBIT, partners
 from vibroimpact.exact.orbits.floquet import floquet
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions, symmetric_solutions_under
-from vibroimpact.studies.regimes.midpoint_grid import plane_of_forces
+from vibroimpact.studies.regimes.midpoint_grid import centres
 from vibroimpact.theory import criteria
 from vibroimpact.theory.criteria import EXACT
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
@@ -21,19 +23,18 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
     C1 and C2 are those of the fixed point and do not depend on epsilon. admissible is True if the exact orbit of the
     point stays between the walls. exact is the verdict on this orbit, or "no orbit" (see `verdict_table.partners`).
     """
-    forces = plane_of_forces(f10_range, f20_range, points)
+    forces = list(product(centres(f10_range, points), centres(f20_range, points)))
     plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
     theory = [[(point, criteria.of_fixed_point(here, point)) for point in fixed_points(here)] for here in plane]
     rows = []
     for value in epsilon:
         roots = symmetric_solutions_under(system.with_(epsilon=value), forces)
         for here, judged, there in zip(plane, theory, roots, strict=True):
-            exact = exact_verdicts(here.with_(epsilon=value), [point.C for point, _ in judged], there)
+            orbits = exact_orbits(here.with_(epsilon=value), [point.C for point, _ in judged], there)
             place = {"epsilon": value, "f10_hat": here.f10_hat, "f20_hat": here.f20_hat}
-            rows += [
-                {**place, "C1": point.C[0], "C2": point.C[1], **verdicts, **found}
-                for (point, verdicts), found in zip(judged, exact, strict=True)
-            ]
+            for (point, verdicts), orbit in zip(judged, orbits, strict=True):
+                exact = NO_MOTION if orbit is None else {"admissible": orbit.admissible, EXACT: floquet(orbit)}
+                rows.append({**place, "C1": point.C[0], "C2": point.C[1], **verdicts, **exact})
     columns = ["epsilon", "f10_hat", "f20_hat", "C1", "C2", *criteria.CRITERIA, *NO_MOTION]
     return pd.DataFrame(rows, columns=columns).sort_values(columns[:5], ignore_index=True)
 
@@ -51,9 +52,8 @@ def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
         orbits = exact_orbits(here, [point.C for point in points], symmetric_solutions(here))
         for point, orbit in zip(points, orbits, strict=True):
             place = {"epsilon": value, "label": point.label, "C1": point.C[0], "C2": point.C[1]}
-            exact = {EXACT: NO_ORBIT} if orbit is None else {EXACT: floquet(orbit)}
-            largest = None if orbit is None else abs(orbit.multipliers[0])
-            rows.append(place | criteria.of_fixed_point(system, point) | exact | {"multiplier": largest})
+            exact, largest = (NO_ORBIT, None) if orbit is None else (floquet(orbit), abs(orbit.multipliers[0]))
+            rows.append(place | criteria.of_fixed_point(system, point) | {EXACT: exact, "multiplier": largest})
     columns = ["epsilon", "label", "C1", "C2", *criteria.CRITERIA, EXACT, "multiplier"]
     return pd.DataFrame(rows, columns=columns)
 
@@ -65,12 +65,3 @@ def exact_orbits(system, points, roots):
     """
     for partner in partners(points, roots[:, 2:]):
         yield None if partner is None else symmetric_orbit(system, roots[partner])
-
-
-def exact_verdicts(system, points, roots):
-    """For each fixed point, yield a dictionary with the values of the columns "admissible" and "exact" of `compute`.
-
-    points, roots: as for `exact_orbits`.
-    """
-    for orbit in exact_orbits(system, points, roots):
-        yield NO_MOTION if orbit is None else {"admissible": orbit.admissible, EXACT: floquet(orbit)}

@@ -20,7 +20,7 @@ from vibroimpact.studies.regimes.classification import (
     Regime,
     classify_after,
 )
-from vibroimpact.system.arguments import real, whole
+from vibroimpact.system.arguments import positive, whole
 from vibroimpact.system.progress import track
 from vibroimpact.system.state import inactive_at_rest
 
@@ -65,8 +65,7 @@ class Observation:
     def __post_init__(self):
         for name, least in {"cycles": 1, "rounds": 1, "window": 4, "blocks": 2, "block": 1, "retest": 1}.items():
             whole(name, getattr(self, name), least, MOST_CYCLES)
-        if real("nearness", self.nearness) <= 0:
-            raise ValueError(f"nearness: {self.nearness} is not above 0")
+        positive("nearness", self.nearness)
 
 
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
@@ -95,7 +94,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
         now = first if name in CHAOS else regimes  # `regimes` includes motions that the test of chaos renamed
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
-            _test_classification(system, regimes, members, observation, progress)
+            _test_classification(regimes, members, observation, progress)
     return regimes
 
 
@@ -109,15 +108,17 @@ def _rounds(system, states, observation, progress):
     waiting, now = np.arange(len(states)), states
     for number in range(1, observation.rounds):
         now = finals(system, now, observation.cycles)
-        for place, state in track([*zip(waiting, now, strict=True)], f"starts: round {number},", progress):
+        for place, state in track([*zip(waiting, now, strict=True)], f"initial states, round {number}:", progress):
             found[place] = classify_after(system, state, observation.window, observation.nearness)
-        passing = [_passing(found[place]) for place in waiting]
-        waiting, now = waiting[passing], now[passing]
+        # a motion may still end in another regime if it is unsettled, or if it does not repeat and a ball is idle
+        regimes = [found[place] for place in waiting]
+        open_ones = [one.name == UNSETTLED or (one.name == IDLE and one.repeats is None) for one in regimes]
+        waiting, now = waiting[open_ones], now[open_ones]
     # the last round also keeps the events, which are needed for the classification
-    for place, state in track([*zip(waiting, now, strict=True)], "starts: last round,", progress):
+    for place, state in track([*zip(waiting, now, strict=True)], "initial states, last round:", progress):
         found[place] = named(simulate(system, state, observation.cycles), observation)
         if found[place].name == UNSETTLED:
-            found[place] = _continued(system, found[place], observation)
+            found[place] = _continued(found[place], observation)
     return found
 
 
@@ -129,34 +130,29 @@ def named(run, observation: Observation) -> Regime:
     return regime
 
 
-def _passing(regime):
-    """Return True if a motion may end in another regime: if unsettled, or if not repeating and with an idle ball."""
-    return regime.name == UNSETTLED or (regime.name == IDLE and regime.repeats is None)
+def _continued(regime, observation):
+    return named(simulate(regime.run.system, regime.run.final, observation.retest), observation)
 
 
-def _continued(system, regime, observation):
-    return named(simulate(system, regime.run.final, observation.retest), observation)
-
-
-def _test_classification(system, regimes, members, observation, progress):
+def _test_classification(regimes, members, observation, progress):
     """Test the regime of the motions with indices `members` by longer runs; update `regimes` in place, see `settle`."""
     before = regimes[members[-1]].name
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
-    _continue(system, regimes, witnesses, observation, progress)
+    _continue(regimes, witnesses, observation, progress)
     if all(_same_kind(before, regimes[k].name) for k in witnesses):
         for k in set(members) - set(witnesses):
             regimes[k] = replace(regimes[k], name=regimes[members[-1]].name)
         return
-    _continue(system, regimes, set(members) - set(witnesses), observation, progress)
+    _continue(regimes, set(members) - set(witnesses), observation, progress)
     for k in members:
         if _same_kind(before, regimes[k].name):
             regimes[k] = replace(regimes[k], name=UNSETTLED)
 
 
-def _continue(system, regimes, places, observation, progress):
-    for k in track([*places], f"starts: longer run, {observation.retest} cycles,", progress):
-        regimes[k] = _continued(system, regimes[k], observation)
+def _continue(regimes, places, observation, progress):
+    for k in track([*places], f"initial states, longer runs of {observation.retest} cycles:", progress):
+        regimes[k] = _continued(regimes[k], observation)
 
 
 def _same_kind(before, after):
