@@ -42,7 +42,7 @@ def test_every_number_that_is_accepted_builds_the_sweeps(config):
         axes = [axis(**entry) for entry in [*sweep["axes"], *([sweep["band"]] if "band" in sweep else [])]]
         if all(len(set(entry.values)) == len(entry.values) for entry in axes) and len(axes) < 3:
             grid = Grid(systems[sweep["case"]], axes)
-            assert all(isinstance(grid.system(number), System) for number in grid.spread(20))
+            assert all(isinstance(grid.system(number), System) for number in range(0, len(grid), 1 + len(grid) // 20))
 
 
 def test_every_rule_of_the_workflow_is_a_name_that_figures_cannot_have(tmp_path):

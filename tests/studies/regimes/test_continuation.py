@@ -109,7 +109,7 @@ def test_points_are_roots_with_tangents_along_the_curve_up_to_the_first_outside(
 
 def test_zeros_are_as_sharp_as_the_function_also_at_a_fold():
     curve = Curve(circle)
-    places = list(curve.trace(curve.place(np.array([1.0, 0.0]), np.eye(2)[1]), 0.1, anywhere, 40))
+    places = list(curve.trace(curve.place(np.array([1.0, 0.0]), np.eye(2)[1]), 0.1, anywhere))
     before, after = next((a, b) for a, b in pairwise(places) if a.z[0] > 0 > b.z[0])
     zero = curve.zero(lambda z: z[0], before, after.z)
     np.testing.assert_allclose(zero, [0.0, 1.0], atol=1e-14)

@@ -221,7 +221,7 @@ def test_the_bootstrap_knows_that_cycles_hang_together():
     for n in range(1, cycles):
         growth[n] = memory * growth[n - 1] + noise[n]
     centres = np.array([4.0, 1.0, 0.0, -1.0, -2.0, -6.0, -7.0, -8.0])
-    errors, of_dimension = Spectrum(growth + centres, np.zeros(cycles), np.zeros(cycles)).errors(100, resamples=400)
+    errors, of_dimension = Spectrum(growth + centres, np.zeros(cycles), np.zeros(cycles)).errors(100)
     expected = 1 / (1 - memory) / np.sqrt(cycles)
     np.testing.assert_allclose(errors, expected, rtol=0.2)
     # D = 5 + (sum of five) / -lambda_6: five errors, and D - 5 = 1/3 of that of the sixth, over 6.

@@ -25,7 +25,9 @@ def test_parameters_move_together_and_the_others_stay():
 def test_a_point_without_a_system_is_named():
     grid = Grid(BASE, [axis(["sigma_e_hat"], [-20, 0], 2), axis(["epsilon"], listed=[0.01, 0.1])])
     assert grid.system(0).Omega == pytest.approx(0.8)
-    with pytest.raises(ValueError, match=r"at sigma_e_hat = -20, epsilon = 0.1: sigma_e_hat: 1 \+ epsilon"):
+    with pytest.raises(
+        ValueError, match=r"at sigma_e_hat = -20, epsilon = 0.1: sigma_e_hat: the frequency 1 \+ epsilon"
+    ):
         grid.system(1)
 
 
@@ -35,14 +37,3 @@ def test_tiles_have_every_point_once_and_are_of_a_size(tiles):
     parts = [list(grid.tile(number, tiles)) for number in range(1, tiles + 1)]
     assert sorted(point for part in parts for point in part) == list(range(6))
     assert max(map(len, parts)) - min(map(len, parts)) <= 1
-
-
-@pytest.mark.parametrize("axes", [[axis(["kappa"], [0.2, 0.8], 60)], [axis(["kappa"], [0.2, 0.8], 60), TOGETHER]])
-def test_a_few_points_are_spread_over_all_axes(axes):
-    grid = Grid(BASE, axes)
-    places = [grid.place(number) for number in grid.spread(6)]
-    kappas = sorted(place["kappa"] for place in places)
-    assert len(places) == 6
-    assert max(b - a for a, b in zip([0.2, *kappas], [*kappas, 0.8], strict=True)) < 0.25
-    if len(axes) == 2:
-        assert {place["f10_hat"] for place in places} == {0.5, 0.8}

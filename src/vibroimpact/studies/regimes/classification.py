@@ -10,7 +10,7 @@ from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.exact.measures.periodicity import mirror_distance, repeats_after
 from vibroimpact.exact.periodic import refined
 from vibroimpact.system.amplitude import sawtooth_amplitude
-from vibroimpact.system.arguments import MOST_SEED, real, whole
+from vibroimpact.system.arguments import MOST_SEED, whole
 from vibroimpact.system.state import IMPACT, active_mask, inactive_at_rest
 
 SYMMETRIC, ASYMMETRIC, OTHER = "symmetric", "asymmetric", "other periodic"
@@ -57,8 +57,11 @@ class Regime:
 
         On a 1:1 response, C_i is the amplitude of the saw-tooth.
         """
-        path = np.array([self._path(ball) for ball in (1, 3)])
-        return sawtooth_amplitude(self.run.system.epsilon, path / (2 * self.run.cycles))
+        run, paths = self.run, []
+        for module, ball in ((1, 1), (2, 3)):
+            turns = run.events[run.events["module"] == module]["state"][:, ball]
+            paths.append(np.abs(np.diff([run.samples[0, ball], *turns, run.final[ball]])).sum())
+        return sawtooth_amplitude(run.system.epsilon, np.array(paths) / (2 * run.cycles))
 
     @property
     def flight_asymmetry(self) -> float:
@@ -72,11 +75,6 @@ class Regime:
             flights, walls = np.diff(mine["tau"]), mine["wall"][:-1]
             total -= np.sum(flights * walls) / (self.run.cycles * self.run.system.period)
         return float(total)
-
-    def _path(self, ball):
-        run = self.run
-        turns = run.events[run.events["module"] == (ball + 1) // 2]["state"][:, ball]
-        return np.abs(np.diff([run.samples[0, ball], *turns, run.final[ball]])).sum()
 
 
 def classify_after(system, state, window: int, nearness: float) -> Regime:
@@ -156,7 +154,11 @@ def classify(run: Run) -> tuple[str, int | None]:
         return IDLE, repeats
     if repeats is None:
         return UNSETTLED, None
-    if repeats > 1 or not _two_impacts(run):
+    impacts = run.events[run.events["kind"] == IMPACT]
+    counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
+    # An impact may be at an end of the window, so that the number of impacts at a wall differs by one.
+    once = len(impacts) == len(run.events) and np.all(np.abs(np.array(counts) - run.cycles) <= 1)
+    if repeats > 1 or not once:
         return OTHER, repeats
     mirrored = mirror_distance(displacements, _PER_CYCLE) <= _MIRRORED
     return (SYMMETRIC if mirrored else ASYMMETRIC), repeats
@@ -173,10 +175,10 @@ def _at_rest(run):
     return ~run.samples[:, speeds[active_mask(run.system)[speeds]]].any(axis=0)
 
 
-def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
+def starts(count: int, seed: int = 1) -> np.ndarray:
     """Return initial states evenly spread over positions and velocities, the first at rest.
 
-    The others are scrambled Halton points with |X_i|, |X_i'|, |Y_i'| <= reach and |W_i| < 1.
+    The others are scrambled Halton points with |X_i|, |X_i'|, |Y_i'| and |W_i| below 1.
 
     Parameters
     ----------
@@ -184,8 +186,6 @@ def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
         Number of initial states, at least 1.
     seed : int, default 1
         Seed of the scrambling.
-    reach : float, default 1.0
-        Largest displacement and velocity of the boxes, and velocity of the balls, dimensionless.
 
     Returns
     -------
@@ -204,19 +204,7 @@ def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
     """
     from scipy.stats import qmc  # takes a second to load, and is rarely needed
 
-    count, seed, reach = whole("count", count, 1, _MOST_STARTS), whole("seed", seed, 0, MOST_SEED), real("reach", reach)
-    unit = 2 * qmc.Halton(8, rng=seed).random(count - 1) - 1
-    states = reach * unit
-    states[:, [1, 3]] = states[:, [0, 2]] - unit[:, [1, 3]]
+    count, seed = whole("count", count, 1, _MOST_STARTS), whole("seed", seed, 0, MOST_SEED)
+    states = 2 * qmc.Halton(8, rng=seed).random(count - 1) - 1
+    states[:, [1, 3]] = states[:, [0, 2]] - states[:, [1, 3]]  # Y_i = X_i - W_i
     return np.vstack([np.zeros(8), states])
-
-
-def _two_impacts(run):
-    """Return True if all events are impacts, one per cycle at each wall.
-
-    The number of impacts at a wall may differ by one from the number of cycles, since an impact may be at an end of the
-    window.
-    """
-    impacts = run.events[run.events["kind"] == IMPACT]
-    counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
-    return len(impacts) == len(run.events) and bool(np.all(np.abs(np.array(counts) - run.cycles) <= 1))

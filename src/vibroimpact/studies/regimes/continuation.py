@@ -20,8 +20,11 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from vibroimpact.system.representation import brief
+
 _DIFFERENCE = 1e-6  # step in p, relative to 1 + |p|; dF/dp is then accurate to about 1e-10
 _STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
+_MOST_STEPS = 2000
 _STEPS, _FEET = 12, 4
 # Relative sizes of the Newton step that ends the iteration. The second size applies if steps no longer shrink, because
 # of rounding or a singular Jacobian.
@@ -105,13 +108,13 @@ class Curve:
             last, size = size, np.abs(change).max() / (1 + np.abs(z).max())
             if size <= _SETTLED or last / 2 < size <= _STALLED:
                 return z
-        raise Lost(f"no root of the equations near {guess}")
+        raise Lost(f"Newton's method found no point of the branch near {brief(guess)}")
 
-    def trace(self, start: Place, longest: float, inside: Callable, points: int = 2000) -> Iterator[Place]:
+    def trace(self, start: Place, longest: float, inside: Callable) -> Iterator[Place]:
         """Yield the places along the curve from `start`, including branch points.
 
         The last place is the first one for which inside(z) is False. The curve ends earlier where it closes, where it
-        is lost, or after `points` steps.
+        is lost, or after _MOST_STEPS steps.
 
         Parameters
         ----------
@@ -120,7 +123,7 @@ class Curve:
         """
         place, length = start, longest / 4
         yield place
-        for _ in range(points):
+        for _ in range(_MOST_STEPS):
             while not (ahead := self._ahead(place, length)) and length > _SHORTEST:
                 length /= 2
             ahead = ahead or ([] if self.singular(place.z) else self._past_corner(place))
@@ -315,4 +318,4 @@ def _solve(blocks, right):
     try:
         return np.linalg.solve(np.vstack([np.hstack(row) for row in blocks]), right)
     except np.linalg.LinAlgError:
-        raise Lost("the bordered matrix is singular") from None
+        raise Lost("the equations of the branch are singular") from None

@@ -19,34 +19,30 @@ from vibroimpact.exact.engine.simulation import checked_state, simulate
 from vibroimpact.exact.engine.variation import growth
 from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.system import System
-from vibroimpact.system.arguments import MOST_SEED, instance, whole
+from vibroimpact.system.arguments import instance, whole
 from vibroimpact.system.matrices import damping_matrix
 from vibroimpact.system.state import active_mask, inactive_at_rest
 
 BOTH = 2
 CYCLES_PER_RUN = 1000
 """Number of forcing cycles that are simulated in one run."""
-_OTHERS = np.random.default_rng(1).normal(size=(8, 7))  # random, since a regular frame may miss a direction
-_VECTORS = np.column_stack([np.ones(8), _OTHERS])
+# All vectors except the first are random, since a regular frame may miss a direction.
+_VECTORS = np.column_stack([np.ones(8), np.random.default_rng(1).normal(size=(8, 7))])
 _MOST = 10_000_000
-_MOST_RESAMPLES = 1_000_000
+_RESAMPLES = 200  # number of draws of the bootstrap
 
 
-class Exponent(NamedTuple):
-    """Mean growth rate of a perturbation per forcing period, in nats, and its error.
+class Measured(NamedTuple):
+    """Mean growth rate of a perturbation per forcing period, in nats, its error, and the scatter of the block means.
 
-    The error is the root of the sum of squares of two errors: the standard error from block means, and ln(t1 / t0) /
-    (t1 - t0), where the blocks last from the time t0 to t1. The second error is the rate that a perturbation which
-    grows linearly in time, as that of a ball at rest does, shows over the blocks. Its true exponent is 0.
+    The error is the root of the sum of squares of two errors: `scatter`, the standard error from block means, and
+    ln(t1 / t0) / (t1 - t0), where the blocks last from the time t0 to t1. The second error is the rate that a
+    perturbation which grows linearly in time, as that of a ball at rest does, shows over the blocks. Its true exponent
+    is 0.
     """
 
     mean: float
     error: float
-
-
-class Measured(Exponent):
-    """An exponent with its `scatter`, the standard error from block means alone."""
-
     scatter: float
 
 
@@ -101,18 +97,16 @@ def largest_lyapunov(
     blocks = whole("blocks", blocks, 2, _MOST)
     cycles = whole("cycles", cycles, blocks, _MOST)
     if cycles % blocks:
-        raise ValueError(f"cycles: {cycles} is not a multiple of the {blocks} blocks")
+        raise ValueError(f"cycles: {cycles} is not a multiple of blocks = {blocks}")
     block, state = cycles // blocks, _settled(system, state, settle)
     factors = np.array([grown.factors for grown in _frame_growth(system, state, [block] * (discarded + blocks), 1)])
     if not factors.all():
-        raise ArithmeticError("the perturbation vanished, so it has no growth rate")
+        raise ArithmeticError("every perturbation of the motion vanishes, so that it has no finite Lyapunov exponent")
     rates = np.log(factors[discarded:]).mean(axis=(1, 2))
     mean, scatter = rates.mean(), rates.std(ddof=1) / np.sqrt(blocks)
     first, last = max(discarded * block, 1), discarded * block + cycles
     with_time = np.log(last / first) / cycles
-    found = Measured(float(mean), float(np.hypot(scatter, with_time)))
-    found.scatter = float(scatter)
-    return found
+    return Measured(float(mean), float(np.hypot(scatter, with_time)), float(scatter))
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +153,7 @@ class Spectrum:
         """Kaplan-Yorke dimension of the attractor in the section at whole cycles, see `kaplan_yorke`."""
         return kaplan_yorke(self.exponents)
 
-    def errors(self, block: int, resamples: int = 200, seed: int = 1) -> tuple[np.ndarray, float]:
+    def errors(self, block: int) -> tuple[np.ndarray, float]:
         """Return the standard errors of the exponents (nan for -inf) and of the dimension.
 
         The circular block bootstrap (Politis and Romano 1992) resamples the n cycles in n / block stretches of `block`
@@ -169,10 +163,6 @@ class Spectrum:
         ----------
         block : int
             Cycles per stretch, from 1 to n / 2.
-        resamples : int, default 200
-            Number of draws, at least 2.
-        seed : int, default 1
-            Seed of the draws.
 
         Raises
         ------
@@ -181,13 +171,12 @@ class Spectrum:
         """
         n, forgotten = len(self.growth), np.isneginf(self.exponents)
         if n < 2:
-            raise ValueError(f"growth: errors need at least 2 cycles, got {n}")
-        block, resamples = whole("block", block, 1, n // 2), whole("resamples", resamples, 2, _MOST_RESAMPLES)
-        seed = whole("seed", seed, 0, MOST_SEED)
+            raise ValueError(f"growth: got {n} cycles, expected at least 2")
+        block = whole("block", block, 1, n // 2)
         finite = np.where(forgotten, 0.0, self.growth)
         sums = np.cumsum(np.concatenate([np.zeros_like(finite[:1]), finite, finite[: block - 1]]), axis=0)
         stretches = (sums[block:] - sums[:-block]) / block
-        drawn = stretches[np.random.default_rng(seed).integers(n, size=(resamples, n // block))].mean(axis=1)
+        drawn = stretches[np.random.default_rng(1).integers(n, size=(_RESAMPLES, n // block))].mean(axis=1)
         dimensions = [kaplan_yorke(np.where(forgotten, -np.inf, exponents)) for exponents in drawn]
         return np.where(forgotten, np.nan, drawn.std(axis=0, ddof=1)), float(np.std(dimensions, ddof=1))
 

@@ -12,8 +12,6 @@ from vibroimpact.system import System
 LINEAR, LOGARITHMIC = "linear", "logarithmic"
 SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
 """Spacing of the values of an axis, by name."""
-LOW_DISCREPANCY_STEPS = {1: (0.6180339887498949,), 2: (0.7548776662466927, 0.5698402909980532)}
-"""By dimension, the step whose multiples modulo 1 spread evenly over the unit interval or square (Roberts 2018)."""
 
 
 @dataclass(frozen=True)
@@ -22,10 +20,6 @@ class Axis:
 
     along: tuple[str, ...]
     values: tuple[float | tuple[float, ...], ...]
-
-    def place(self, value) -> dict[str, float]:
-        """Return the value of each parameter by name, at one value of the axis."""
-        return dict(zip(self.along, np.broadcast_to(value, len(self.along)).tolist(), strict=True))
 
 
 def axis(
@@ -76,9 +70,10 @@ class Grid:
 
     def place(self, number: int) -> dict[str, float]:
         """Return the value of each varied parameter by name, at a point."""
-        places = np.unravel_index(number, self.shape)
-        at = zip(self.axes, places, strict=True)
-        return {name: value for axis, k in at for name, value in axis.place(axis.values[k]).items()}
+        place = {}
+        for axis, k in zip(self.axes, np.unravel_index(number, self.shape), strict=True):
+            place |= zip(axis.along, np.broadcast_to(axis.values[k], len(axis.along)).tolist(), strict=True)
+        return place
 
     def system(self, number: int) -> System:
         """Return the system at a point.
@@ -101,8 +96,3 @@ class Grid:
         A tile has every `tiles`-th point, so that all tiles take about the same time.
         """
         return range(number - 1, len(self), tiles)
-
-    def spread(self, most: int) -> list[int]:
-        """Return at most `most` different points, evenly spread over the grid."""
-        steps = np.outer(np.arange(most) + 0.5, LOW_DISCREPANCY_STEPS[len(self.shape)]) % 1.0
-        return sorted({int(np.ravel_multi_index((step * self.shape).astype(int), self.shape)) for step in steps})
