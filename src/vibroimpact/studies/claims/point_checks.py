@@ -12,7 +12,7 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 from vibroimpact.theory.manifold import B_of_C, C_min, rho
 from vibroimpact.theory.slow_flow import rates
 
-NAMES = ("C1", "C2")
+NAMES = ["C1", "C2"]
 CAPTIONS = {
     "equal": {"a": UNSTABLE, "b": STABLE, "c": STABLE},
     "unequal": {"a": UNSTABLE, "b": UNSTABLE, "c": STABLE},
@@ -56,7 +56,7 @@ def label_of_a_point(evidence, case, label, says):
     }
     criteria = ("printed_10_26", "fast", "slow", "theory", "exact")
     numbers = {"largest multiplier of its exact orbit": orbits["modulus_1"].get(row["orbit"])}
-    return Finding(parts, numbers | {"C": row[list(NAMES)].tolist(), **{name: row[name] for name in criteria}})
+    return Finding(parts, numbers | {"C": row[NAMES].tolist(), **{name: row[name] for name in criteria}})
 
 
 def stable_points(evidence, case, number):
@@ -72,23 +72,21 @@ def stable_points(evidence, case, number):
         "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
         "by theory, fast and slow": int((points["theory"] == STABLE).sum()),
     }
-    right = {name: _captions_right(evidence.points(name)["fast"], name) for name in CAPTIONS}
+    right = {
+        name: sum(evidence.points(name)["fast"].get(label) == caption for label, caption in captions.items())
+        for name, captions in CAPTIONS.items()
+    }
     parts = {f"{number} {name}": count == number for name, count in counts.items()}
     parts["the captions by the fast criterion"] = right[case] == len(CAPTIONS[case])
     numbers = {"captions right in all cases by the fast criterion": sum(right.values())}
     return Finding(parts, counts | numbers | {"captions": sum(map(len, CAPTIONS.values()))})
 
 
-def _captions_right(verdicts, case):
-    """Return the number of captions of a case that agree with `verdicts`, which are indexed by label."""
-    return sum(verdicts.get(label) == caption for label, caption in CAPTIONS[case].items())
-
-
 def on_the_left_arm(evidence, case, label, modules):
     """Check that a fixed point is left of the fold of the manifold, in the plane of each of the given modules."""
     row, fold = evidence.points(case).loc[label], C_min(rho(evidence.systems[case].kappa))
     parts = {f"P{i}": row[f"C{i}"] < fold for i in modules}
-    return Finding(parts, {"C": row[list(NAMES)].tolist(), "C_min": fold})
+    return Finding(parts, {"C": row[NAMES].tolist(), "C_min": fold})
 
 
 def points_move_left(evidence, before, after):
@@ -96,7 +94,7 @@ def points_move_left(evidence, before, after):
 
     `numbers` also contains the result for the pairing of points in which most C_i fall.
     """
-    first, last = (evidence.points(case)[list(NAMES)] for case in (before, after))
+    first, last = (evidence.points(case)[NAMES] for case in (before, after))
     parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
     pairings = [int((last.loc[list(order)].to_numpy() < first.to_numpy()).sum()) for order in permutations(last.index)]
     moved = {"moves to the left": sum(parts.values()), "of": len(parts)}
@@ -110,7 +108,7 @@ def stable_point_moves_down_the_right_arm(evidence, before, after, label):
     forcing amplitude falls. The continuation leads to a point with another letter.
     """
     fold, r = C_min(rho(evidence.system.kappa)), rho(evidence.system.kappa)
-    first, named = (evidence.points(case).loc[label, list(NAMES)].to_numpy(float) for case in (before, after))
+    first, named = (evidence.points(case).loc[label, NAMES].to_numpy(float) for case in (before, after))
     ends = {"by its letter": named, "by continuation": _followed(evidence, before, after, first)}
     parts = {
         f"P{i + 1}, {pairing}": fold < C[i] < first[i] and B_of_C(C, r)[i] < B_of_C(first, r)[i]
@@ -139,7 +137,13 @@ def singular_and_bifurcating(evidence, case, f20_range):
     The force at which a fixed point becomes singular is compared with the force at which two fixed points merge.
     """
     system = evidence.systems[case]
-    meeting = brentq(lambda f: _determinant_on_branch(system, f), *f20_range, xtol=1e-12)
+
+    def on_branch(f20):
+        """Return the determinant of (10.24) at the fixed point with the second largest C_2."""
+        there = system.with_(f20_hat=f20)
+        return determinant(there, sorted(fixed_points(there), key=lambda point: point.C[1])[-2].C)
+
+    meeting = brentq(on_branch, *f20_range, xtol=1e-12)
     here = system.with_(f20_hat=meeting)
     point = min(fixed_points(here), key=lambda p: _nearest_singular(here, p))
     counts = [len(fixed_points(system.with_(f20_hat=meeting + shift))) for shift in (-1e-3, 0.0, 1e-3)]
@@ -147,7 +151,7 @@ def singular_and_bifurcating(evidence, case, f20_range):
     special = evidence.special_points.set_index(["path", "family", "kind"])
     fold = special.loc[[("f20_hat", "fixed point", "fold")]].iloc[0]
     at_fold = system.with_(f20_hat=fold["p"] + 1e-6)
-    merging = min(fixed_points(at_fold), key=lambda p: np.abs(p.C - fold[list(NAMES)].to_numpy(float)).max())
+    merging = min(fixed_points(at_fold), key=lambda p: np.abs(p.C - fold[NAMES].to_numpy(float)).max())
     distance = _nearest_singular(at_fold, merging)
     parts = {
         "a fixed point becomes singular": _nearest_singular(here, point) < 1e-6,
@@ -157,13 +161,6 @@ def singular_and_bifurcating(evidence, case, f20_range):
     }
     numbers = {"f20 of P1 = S1": meeting, "number of points there": counts[1], "smallest |eigenvalue|": rate}
     return Finding(parts, numbers | {"f20 of the fold": fold["p"], "nearest S at the fold": distance})
-
-
-def _determinant_on_branch(system, f20):
-    """Return the determinant of (10.24) at that fixed point under the force `f20` which has the second largest C_2."""
-    there = system.with_(f20_hat=f20)
-    points = sorted(fixed_points(there), key=lambda point: point.C[1])
-    return determinant(there, points[-2].C)
 
 
 def _nearest_singular(system, point):

@@ -189,7 +189,8 @@ def _narrowed(conditions, x, y, half):
         half = max(half, _ISOLATED_WIDTH)
         if conditions.count(x, y, half)[0] != 1:
             return None
-    return (x, y, half) if conditions.phases_follow(x, y, half) else None
+    delta = conditions.sides(x, y, _REACH * half)[0]
+    return (x, y, half) if _excludes_zero(delta) else None
 
 
 def _box(x, y, half) -> Box:
@@ -219,7 +220,7 @@ class _Conditions:
 
         Box around the zero: (x, y, half-width) if the number is 1, else None.
         """
-        delta, one, two = self._sides(x, y, half)
+        delta, one, two = self.sides(x, y, half)
         local = np.array([delta - one, delta - two])
         for i in self._idle:
             local[i] = arb(0)
@@ -244,11 +245,7 @@ class _Conditions:
         rounding = 4 * sys.float_info.epsilon * (abs(x) + abs(y) + half)
         return 1, (x + centre[0], y + centre[1], radius + rounding)
 
-    def phases_follow(self, x, y, half):
-        """Return True if Delta is not 0 in _REACH times the box about (x, y), so that m_i / Delta has unique phases."""
-        return _excludes_zero(self._sides(x, y, _REACH * half)[0])
-
-    def _sides(self, x, y, half):
+    def sides(self, x, y, half):
         """Return the local polynomials of |Delta|^2, |beta_1 m_1|^2 and |beta_2 m_2|^2."""
         (z1, q1, beta1, n2), (z2, q2, beta2, n1) = (self._chart(i, at, half) for i, at in enumerate((x, y)))
         delta = np.multiply.outer(q1, q2 + self.K * z2) + np.multiply.outer(self.K * z1, q2)
