@@ -92,7 +92,9 @@ def test_an_undamped_branch_ends_where_the_ball_has_no_speed_in_phase_with_the_f
 
 
 def test_a_path_on_which_the_other_module_is_active_says_so():
-    with pytest.warns(UserWarning, match=r"fixed point at f20_hat = 0 not followed: both modules are active"):
+    with pytest.warns(
+        UserWarning, match=r"fixed point: skipped the branch through f20_hat = 0: both modules are active"
+    ):
         found = vi.branches(MACHINE, "f20_hat", (0.0, 1.2), of="theory", seeds=2)
     assert all(np.isfinite(node.amplitudes).all() for branch in found for node in branch.nodes)
     assert found

@@ -218,7 +218,7 @@ def test_a_closed_branch_is_followed_once_round():
 def test_a_seed_at_a_resonance_is_skipped_with_its_reason(chapter):
     """Undamped boxes at their resonance, sigma_e_hat = 0, have no steady motion; the other seeds find theirs."""
     system = chapter(sigma20_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
-    told = r"^no search for fixed point at sigma_e_hat = 0: [^\n]*resonance[^\n]*$"
+    told = r"^fixed point: skipped the search at sigma_e_hat = 0: [^\n]*resonance[^\n]*$"
     with pytest.warns(UserWarning, match=told) as caught:
         found = vi.branches(system, "sigma_e_hat", (-0.1, 0.1), of="theory", seeds=3)
     assert len(caught) == 1
@@ -234,7 +234,7 @@ def test_a_slider_skips_a_resonance(chapter):
     systems = {value: chapter(sigma_e_hat=value, **undamped) for value in (-5.1, -5.0, -4.9)}
     with pytest.raises(ValueError, match="resonance"):
         vi.orbits(systems[-5.0])
-    with pytest.warns(UserWarning, match=r"^no search for asymmetric orbits: [^\n]*resonance[^\n]*$"):
+    with pytest.warns(UserWarning, match=r"^asymmetric orbit: skipped a search: [^\n]*resonance[^\n]*$"):
         assert {value for value, _ in followed(systems)} <= {-5.1, -4.9}
 
 
@@ -306,7 +306,7 @@ def test_a_motion_of_two_periods_is_followed_from_one_period_doubling_to_the_nex
     for f10_hat, periods in ((end - 0.003, 2), (end + 0.003, 4)):
         there = system.with_(f10_hat=f10_hat)
         vi.periodic_orbit(there, vi.simulate(there, np.zeros(8), 3000).final, periods)
-    with pytest.raises(ValueError, match=r"\Aof: the motion belongs to a system that differs in more than f10_hat\Z"):
+    with pytest.raises(ValueError, match=r"\Aof: the system of the motion and `system` differ in more than f10_hat\Z"):
         vi.branches(system.with_(kappa=0.5), "f10_hat", (1.78, 2.02), of=motion)
     with pytest.raises(ValueError, match=r"\Aof: the motion is at f10_hat = 1.9, .* \(1.91, 2.0\) of 'between'\Z"):
         vi.branches(system, "f10_hat", (1.91, 2.0), of=motion)

@@ -25,15 +25,8 @@ estimate is made only if the first one is not certainly positive."""
 POSITIVE, ZERO, OPEN = "positive", "zero", "open"
 NEVER, AT_TIMES, ALWAYS = "never", "at times", "always"
 
-NAMES = {
-    (POSITIVE, AT_TIMES): STRONGLY_MODULATED,
-    (POSITIVE, ALWAYS): CHAOTIC,
-    (POSITIVE, NEVER): HOPPING,
-    (ZERO, AT_TIMES): QUASI_PERIODIC,
-    (ZERO, ALWAYS): QUASI_PERIODIC,
-    (ZERO, NEVER): QUASI_PERIODIC,
-}
-"""Regime by (sign of the largest exponent, resonance); any other combination is unsettled."""
+CHAOTIC_REGIMES = {AT_TIMES: STRONGLY_MODULATED, ALWAYS: CHAOTIC, NEVER: HOPPING}
+"""Regime of a motion with a positive exponent, by its resonance."""
 
 
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
@@ -51,9 +44,12 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
     found = of_length(blocks * block)
     if found != POSITIVE:
         found = of_length(SECOND_LENGTH_FACTOR * blocks * block)
-    if found == ZERO and not recurs(run.system, run.final, SECOND_LENGTH_FACTOR * blocks * block):
+    if found == ZERO and recurs(run.system, run.final, SECOND_LENGTH_FACTOR * blocks * block):
+        return QUASI_PERIODIC
+    if found != POSITIVE:
         return UNSETTLED
-    return NAMES.get((found, resonance(resonant_shares(run))), UNSETTLED)
+    resonant = np.array([np.diff(bursts_in(run, module)).sum() for module in (1, 2)])
+    return CHAOTIC_REGIMES[resonance(resonant / (run.cycles * run.system.period))]
 
 
 def sign(exponent: Measured) -> str:
@@ -76,12 +72,6 @@ def resonance(shares) -> str:
     if ((low <= shares) & (shares <= high)).any():
         return AT_TIMES
     return ALWAYS if (shares > high).any() else NEVER
-
-
-def resonant_shares(run: Run) -> np.ndarray:
-    """Return the share of time that each module spends in bursts of resonance, shape (2,)."""
-    resonant = np.array([np.diff(bursts_in(run, module)).sum() for module in (1, 2)])
-    return resonant / (run.cycles * run.system.period)
 
 
 def recurs(system, state, cycles: int) -> bool:

@@ -90,9 +90,8 @@ def onset(stations) -> float:
     epsilons differ by a fifth.
     """
     last = stations[-_MOST_NODES:]
-    epsilon, skew = (
-        np.array(part) for part in zip(*((s.system.epsilon, s.place[2:4].max()) for s in last), strict=True)
-    )
+    epsilon = np.array([station.system.epsilon for station in last])
+    skew = np.array([station.place[2:4].max() for station in last])
     weights = [np.prod(np.delete(skew, k) / (np.delete(skew, k) - skew[k])) for k in range(len(last))]
     return max(0.0, float(epsilon @ weights))
 

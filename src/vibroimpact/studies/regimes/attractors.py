@@ -129,7 +129,7 @@ def attractors(system: System, states, observation: Observation | None = None, p
     """
     states = states_array("states", states)
     if states.ndim != 2 or states.shape[1] != 8 or not len(states):
-        raise ValueError(f"states: needs shape (n, 8), got {states.shape}")
+        raise ValueError(f"states: got shape {states.shape}, expected (n, 8)")
     return _basins(system, states, states.shape[:1], {}, observation, progress)
 
 
@@ -177,10 +177,12 @@ def basins(
     ((3, 3), 1.0)
     """
     if not isinstance(axes, Mapping) or not 1 <= len(axes) <= 2:
-        raise ValueError("axes: needs values of one or two coordinates, such as {'W1': [-0.5, 0.5], 'W2': [-0.5, 0.5]}")
+        raise ValueError(
+            "axes: expected values of one or two coordinates, such as {'W1': [-0.5, 0.5], 'X1': [0.0, 0.1]}"
+        )
     for name in axes:
         if name not in _COORDINATES:
-            raise ValueError(f"axes: {name!r} is none of {', '.join(_COORDINATES)}")
+            raise ValueError(f"axes: got {name!r}, expected one of {', '.join(_COORDINATES)}")
     if len({_COORDINATES[name][-1] for name in axes}) < len(axes):
         raise ValueError(
             f"axes: {' and '.join(axes)} both set the position of ball {_COORDINATES[name][-1] // 2 + 1}; "
@@ -189,7 +191,7 @@ def basins(
     axes = {name: reals(f"axes[{name!r}]", list(values)).ravel() for name, values in axes.items()}
     for name, values in axes.items():
         if not len(values):
-            raise ValueError(f"axes[{name!r}]: has no value")
+            raise ValueError(f"axes[{name!r}]: got no value")
     grid = np.meshgrid(*axes.values(), indexing="ij")
     states = np.tile(checked_state(state), (grid[0].size, 1))
     for name, values in sorted(zip(axes, grid, strict=True), key=lambda pair: len(_COORDINATES[pair[0]])):
@@ -205,24 +207,22 @@ def _basins(system, states, shape, axes, observation, progress):
         try:
             checked_state(state)
         except ValueError as error:
-            raise ValueError(f"start {row}: {error}") from None
+            raise ValueError(f"initial state {row}: {error}") from None
     regimes = settle(system, states, observation, progress)
-    labels, known = np.full(len(regimes), OPEN), []
+    labels, known, found = np.full(len(regimes), OPEN), [], {}
     for k, regime in enumerate(regimes):
         if regime.name == UNSETTLED:
             continue
         place = next((n for n, one in enumerate(known) if _same(one, regime)), len(known))
-        known[place:] = known[place:] or [regime]
+        if place == len(known):
+            run, repeats = regime.run, regime.repeats
+            orbit = refined(run.system, run.start, repeats) if regime.name in PERIODIC else None
+            known.append(regime)
+            found[len(known)] = Attractor(regime.name, repeats, run.samples[::2][:repeats], orbit)
         labels[k] = place + 1
     shares = {int(label): float(np.mean(labels == label)) for label in np.unique(labels)}
     shares = dict(sorted(shares.items(), key=lambda item: -item[1]))
-    return Basins(labels.reshape(shape), {n: _attractor(one) for n, one in enumerate(known, start=1)}, shares, axes)
-
-
-def _attractor(regime):
-    run, repeats = regime.run, regime.repeats
-    orbit = refined(run.system, run.start, repeats) if regime.name in PERIODIC else None
-    return Attractor(regime.name, repeats, run.samples[::2][:repeats], orbit)
+    return Basins(labels.reshape(shape), found, shares, axes)
 
 
 def _same(one, other):

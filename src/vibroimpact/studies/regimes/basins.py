@@ -1,5 +1,7 @@
 """Compute basins of coexisting regimes in the plane of both ball positions."""
 
+from itertools import product
+
 import numpy as np
 
 from vibroimpact.exact.orbits.search import orbits
@@ -26,9 +28,8 @@ def plane(state, points: int) -> np.ndarray:
     Boxes and all velocities are those of `state` (8,). W_1 = X_1 - Y_1 and W_2 = X_2 - Y_2 are the midpoints of
     `points` equal cells of (-1, 1); W_2 varies fastest.
     """
-    W1, W2 = (W.ravel() for W in np.meshgrid(*[centres((-1.0, 1.0), points)] * 2, indexing="ij"))
     states = np.tile(np.asarray(state, dtype=float), (points**2, 1))
-    states[:, 1], states[:, 3] = states[:, 0] - W1, states[:, 2] - W2
+    states[:, [1, 3]] = states[:, [0, 2]] - list(product(centres((-1.0, 1.0), points), repeat=2))
     return states
 
 

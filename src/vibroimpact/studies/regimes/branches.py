@@ -99,22 +99,13 @@ class Branch(Representation):
 
     def rows(self, number: int = 0) -> list[dict]:
         """Return one row per node of each piece; a special point has a row in both pieces that it joins."""
-        return [
-            {
-                "family": self.family.name,
-                "branch": number,
-                "piece": piece,
-                "p": node.p,
-                "C1": float(node.amplitudes[0]),
-                "C2": float(node.amplitudes[1]),
-                "stable": inner.stable,
-                "admissible": inner.admissible,
-                "special": node.kind,
-                "closed": self.closed,
-            }
-            for piece, (inner, nodes) in enumerate(self.pieces())
-            for node in nodes
-        ]
+        rows = []
+        for piece, (inner, nodes) in enumerate(self.pieces()):
+            for node in nodes:
+                place = self.family.name, number, piece, node.p, *node.amplitudes.tolist()
+                values = *place, inner.stable, inner.admissible, node.kind, self.closed
+                rows.append(dict(zip(COLUMNS, values, strict=True)))
+        return rows
 
 
 def branches(
@@ -167,8 +158,8 @@ def branches(
             try:
                 nodes, places = curve.both_ways(z, half)
             except Lost as error:  # for example, if a module is inactive here but active close by
-                at = f"{family.name} at {' = '.join(path.names)} = {z[-1]:.6g}"
-                warnings.warn(f"{at} not followed: {error}", stacklevel=3)
+                at = f"{' = '.join(path.names)} = {z[-1]:.6g}"
+                warnings.warn(f"{family.name}: skipped the branch through {at}: {error}", stacklevel=3)
                 continue
             if len(places) > 1:  # if there is one place only, the seed is a branch point
                 found.append(Branch(family, nodes, places[-1].closing, places))
@@ -209,7 +200,8 @@ def _seeds(family, path, seeds, report):
         try:
             roots = family.roots(path(p))
         except (ValueError, ArithmeticError) as error:
-            warnings.warn(f"no search for {family.name} at {' = '.join(path.names)} = {p:.6g}: {error}", stacklevel=4)
+            at = f"{' = '.join(path.names)} = {p:.6g}"
+            warnings.warn(f"{family.name}: skipped the search at {at}: {error}", stacklevel=4)
             continue
         yield from (np.append(root, p) for root in roots)
 
@@ -249,15 +241,8 @@ def _half(family, path, interval, curve, longest, report, start):
 
 def _node(family, path, z, kind="", member=None):
     system, x = path(z[-1]), z[:-1]
-    plain = member is not None
-    return Node(
-        p=float(z[-1]),
-        x=x,
-        amplitudes=family.amplitudes(system, x),
-        kind=kind,
-        stable=family.stable(system, member) if plain else None,
-        admissible=family.admissible(member) if plain else None,
-    )
+    known = (None, None) if member is None else (family.stable(system, member), family.admissible(member))
+    return Node(float(z[-1]), x, family.amplitudes(system, x), kind, *known)
 
 
 def _special(family, path, curve, before, tests, after, values):

@@ -8,7 +8,7 @@ from scipy.optimize import linear_sum_assignment
 from vibroimpact.accuracy.second_term import NoOrbit, offsets
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.theory.masri import impact_multipliers
+from vibroimpact.theory.masri import multipliers
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,9 +55,14 @@ def distance_to_orbit(system, point) -> Comparison:
     NoOrbit
         If the system has no symmetric orbit.
     """
-    root, offset = _nearest(system, point)
-    fast = np.concatenate([impact_multipliers(C, system.kappa) ** 2 for C in point.C[np.isfinite(point.C)]])
-    return paired(system, offset, symmetric_orbit(system, root).multipliers, point.slow_eigenvalues, fast)
+    roots, part = symmetric_solutions(system), np.isfinite(point.C)
+    if not len(roots):
+        raise NoOrbit("the system has no symmetric 1:1 orbit")
+    apart = offsets(system, point, roots)[..., part].reshape(len(roots), -1)
+    nearest = np.linalg.norm(apart, axis=1).argmin()
+    exact = symmetric_orbit(system, roots[nearest]).multipliers
+    fast = np.concatenate([multipliers(C, system.kappa) for C in point.C[part]])
+    return paired(system, apart[nearest], exact, point.slow_eigenvalues, fast)
 
 
 def paired(system, offset, exact, slow, fast) -> Comparison:
@@ -92,20 +97,9 @@ def order(epsilon, errors) -> tuple[float, float]:
         If there are fewer than 2 points.
     """
     if len(epsilon) < 2:
-        raise ValueError(f"epsilon: an order needs at least 2 points, got {len(epsilon)}")
+        raise ValueError(f"epsilon: got {len(epsilon)} values, expected at least 2 to fit an order")
     if len(epsilon) == 2:
         return float(np.diff(np.log(errors))[0] / np.diff(np.log(epsilon))[0]), np.nan
     fit, covariance = np.polyfit(np.log(epsilon), np.log(errors), 1, cov="unscaled")
     residual = np.log(errors) - np.polyval(fit, np.log(epsilon))
     return float(fit[0]), float(np.sqrt(covariance[0, 0] * np.sum(residual**2) / (len(epsilon) - 2)))
-
-
-def _nearest(system, point):
-    """Return the root of the symmetric orbit nearest to a fixed point, and the `offset` of `Comparison` for both."""
-    roots = symmetric_solutions(system)
-    if not len(roots):
-        raise NoOrbit("system: it has no symmetric 1:1 orbit")
-    part = np.isfinite(point.C)
-    apart = offsets(system, point, roots)[..., part].reshape(len(roots), -1)
-    nearest = np.linalg.norm(apart, axis=1).argmin()
-    return roots[nearest], apart[nearest]

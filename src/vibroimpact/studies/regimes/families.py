@@ -205,7 +205,7 @@ class PeriodicOrbits(AsymmetricOrbits):
         """
         run = self._run(system, x)
         if (determined(run) != self._determined).any():
-            raise Lost("a ball begins or ceases to impact")
+            raise Lost("a ball begins or ceases to hit its walls")
         residual = np.where(self._determined, run.final - x, x - self.orbit.run.start)
         return residual, np.where(self._determined[:, None], run.jacobian - np.eye(8), np.eye(8))
 
@@ -339,8 +339,7 @@ def flight_fractions(system, x) -> np.ndarray:
 
 def _inactive(family, system):
     """Return True for each unknown of an inactive module, shape (d,)."""
-    part = system.modules
-    return np.array([module not in part for module in family.modules])
+    return ~np.isin(family.modules, system.modules)
 
 
 def _of_modules(system, values):

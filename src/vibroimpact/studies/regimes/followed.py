@@ -49,7 +49,7 @@ def _stable(system):
     try:
         roots = AsymmetricOrbits.roots(system)
     except ValueError as error:
-        warnings.warn(f"no search for asymmetric orbits: {error}", stacklevel=3)
+        warnings.warn(f"asymmetric orbit: skipped a search: {error}", stacklevel=3)
         return []
     for x in roots:
         orbit = AsymmetricOrbits.member(system, x)

@@ -65,5 +65,6 @@ def onsets(path, values, p, names) -> list[tuple]:
     if not set(path.names) <= FORCES:
         return []
     flags = {SLOW_FLOW: predicted(path, values), SIMULATION: observed(values, p, names)}
-    common = " ".join(path.names), float(values[1] - values[0]), float((flags[SLOW_FLOW] == flags[SIMULATION]).mean())
-    return [(common[0], source, *longest_range(values, flag), *common[1:]) for source, flag in flags.items()]
+    name, agreement = " ".join(path.names), float((flags[SLOW_FLOW] == flags[SIMULATION]).mean())
+    spacing = float(values[1] - values[0])
+    return [(name, source, *longest_range(values, flag), spacing, agreement) for source, flag in flags.items()]

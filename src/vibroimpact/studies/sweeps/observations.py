@@ -14,6 +14,7 @@ from vibroimpact.studies.regimes.settling import Observation, settle
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.studies.sweeps.spec import Spec
 from vibroimpact.system.state import inactive_at_rest
+from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 FROM_REST = "from_rest"
 LOW, HIGH = 0.05, 0.95
@@ -63,7 +64,8 @@ def _peaks(system, states, spec):
     """Return the highest peak along the band, over all starts (`absorbers.peaks`), and four other values.
 
     The four others are the largest root mean square of X_1 or X_2, the value of the first parameter in `spec.band` at
-    the highest peak, the peak with one ball (`_one_ball`), and the number of unfinished runs.
+    the highest peak, the highest peak of the runs from rest if exactly one ball is idle in all of these runs (else
+    nan), and the number of unfinished runs.
     """
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
@@ -73,13 +75,9 @@ def _peaks(system, states, spec):
     peaks = peak_of(runs.largest)
     at = next(iter(band.place(int(np.nanargmax(peaks))).values()))
     both = {module for one in systems for module in one.modules} == {1, 2}
-    return np.nanmax(peaks), runs.rms, at, _one_ball(runs) if both else np.nan, runs.unfinished
-
-
-def _one_ball(runs):
-    """Return the highest peak of the runs from rest if exactly one ball is idle in all of these runs, else nan."""
-    still = [not runs.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
-    return peak_of(runs.largest[:, :1]).max() if sum(still) == 1 else np.nan
+    idle = [not runs.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
+    one_ball = peak_of(runs.largest[:, :1]).max() if both and sum(idle) == 1 else np.nan
+    return np.nanmax(peaks), runs.rms, at, one_ball, runs.unfinished
 
 
 def _energy(system, states, spec):
@@ -97,7 +95,7 @@ def _energy(system, states, spec):
 
 def fixed_point_counts(system) -> tuple[int, int]:
     """Return the number of fixed points of the slow flow, and the number of those that the theory calls stable."""
-    points = [FixedPoints.member(system, root) for root in FixedPoints.roots(system)]
+    points = fixed_points(system)
     return len(points), sum(FixedPoints.stable(system, point) for point in points)
 
 
