@@ -223,4 +223,6 @@ def test_progress_is_told_on_a_terminal_only(monkeypatch, capsys):
         return capsys.readouterr().err
 
     assert told(False) == told(True, progress=False) == ""
-    assert all(words in told(True) for words in ("things 2/2\n", "fixed point: f20_hat = ", "starts: round 1, 2/2\n"))
+    assert all(
+        words in told(True) for words in ("things 2/2\n", "fixed point: f20_hat = ", "initial states, round 1: 2/2\n")
+    )

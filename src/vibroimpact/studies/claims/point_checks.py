@@ -49,10 +49,9 @@ def label_of_a_point(evidence, case, label, says):
     """Check a caption's verdict `says` on a fixed point against the theory and against the point's exact orbit."""
     row = evidence.points(case).loc[label]
     orbits = evidence.orbits.query("case == @case").set_index("label")
-    theory = row["theory"]
+    verdicts = {"theory, fast and slow": row["theory"], "its exact orbit": row["exact"]}
     parts = {
-        f"{says} by theory, fast and slow": None if theory not in (STABLE, UNSTABLE) else theory == says,
-        f"{says} by its exact orbit": None if row["exact"] not in (STABLE, UNSTABLE) else row["exact"] == says,
+        f"{says} by {name}": found == says if found in (STABLE, UNSTABLE) else None for name, found in verdicts.items()
     }
     criteria = ("printed_10_26", "fast", "slow", "theory", "exact")
     numbers = {"largest multiplier of its exact orbit": orbits["modulus_1"].get(row["orbit"])}

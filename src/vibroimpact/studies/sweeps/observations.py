@@ -11,6 +11,7 @@ from vibroimpact.studies.regimes.classification import REGIMES
 from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.studies.regimes.families import FixedPoints
 from vibroimpact.studies.regimes.settling import Observation, settle
+from vibroimpact.studies.sweeps.cost import RUNS
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.studies.sweeps.spec import Spec
 from vibroimpact.system.state import inactive_at_rest
@@ -26,7 +27,8 @@ def observed(system, spec: Spec) -> dict:
 
     An inactive module is put at rest.
     """
-    states = inactive_at_rest(system, spread_starts(spec.starts, spec.seed)) if spec.runs else None
+    simulates = not {"peaks", "regimes", *RUNS}.isdisjoint(spec.observe)
+    states = inactive_at_rest(system, spread_starts(spec.starts, spec.seed)) if simulates else None
     row = {}
     for columns, values in map(OBSERVATIONS.get, spec.observe):
         row |= zip(columns, values(system, states, spec), strict=True)

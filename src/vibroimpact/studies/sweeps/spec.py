@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from vibroimpact.studies.sweeps.cost import RUNS
 from vibroimpact.studies.sweeps.grid import Grid, axis
 from vibroimpact.system import System
 
@@ -27,12 +26,6 @@ class Spec:
     settle: int = 0
     band: dict | None = None
     observation: dict | None = None
-
-    @property
-    def runs(self) -> int:
-        """Number of runs that all observations together need at a point."""
-        along_band = len(axis(**self.band).values) if "peaks" in self.observe else 0
-        return self.starts * (along_band + sum(name in ("regimes", *RUNS) for name in self.observe))
 
 
 def parsed(request: Mapping) -> tuple[Grid, Spec]:

@@ -49,7 +49,7 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
     zeros = _newton(scaled, size, _starts(scaled, size)) * radius
     zeros = zeros[(np.abs(zeros) <= radius * (1 + _ROUNDING)).all(axis=1)]
     multiple = ~_contract(coefficients, magnitudes, zeros)
-    points = [*_distinct(zeros[~multiple], _RESOLUTION)]
+    points = _distinct(zeros[~multiple], _RESOLUTION)
     merged = _distinct(zeros[multiple], _SAME)
     merged = [point for point in merged if not any(_near(point, known, _RESOLUTION) for known in points)]
     found = np.reshape([*points, *merged], (-1, 2))
