@@ -32,7 +32,9 @@ ENDS = {*names.PERIODIC, names.IDLE, names.NO_IMPACTS}
     ],
 )
 def test_the_sign_of_an_exponent_is_said_where_its_error_allows(mean, error, expected):
-    assert aperiodic.sign(Measured(mean, error, scatter=error)) == expected
+    found = Measured(mean, error)
+    found.scatter = error
+    assert aperiodic.sign(found) == expected
 
 
 def test_growth_with_time_is_neither_chaos_nor_quasi_periodic(chapter):

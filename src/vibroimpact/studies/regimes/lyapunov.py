@@ -32,17 +32,21 @@ _MOST = 10_000_000
 _RESAMPLES = 200  # number of draws of the bootstrap
 
 
-class Measured(NamedTuple):
-    """Mean growth rate of a perturbation per forcing period, in nats, its error, and the scatter of the block means.
+class Exponent(NamedTuple):
+    """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
-    The error is the root of the sum of squares of two errors: `scatter`, the standard error from block means, and
-    ln(t1 / t0) / (t1 - t0), where the blocks last from the time t0 to t1. The second error is the rate that a
-    perturbation which grows linearly in time, as that of a ball at rest does, shows over the blocks. Its true exponent
-    is 0.
+    The error is the root of the sum of squares of two errors: the standard error from block means, and ln(t1 / t0) /
+    (t1 - t0), where the blocks last from the time t0 to t1. The second error is the rate that a perturbation which
+    grows linearly in time, as that of a ball at rest does, shows over the blocks. Its true exponent is 0.
     """
 
     mean: float
     error: float
+
+
+class Measured(Exponent):
+    """An exponent with its `scatter`, the standard error from block means alone."""
+
     scatter: float
 
 
@@ -106,7 +110,9 @@ def largest_lyapunov(
     mean, scatter = rates.mean(), rates.std(ddof=1) / np.sqrt(blocks)
     first, last = max(discarded * block, 1), discarded * block + cycles
     with_time = np.log(last / first) / cycles
-    return Measured(float(mean), float(np.hypot(scatter, with_time)), float(scatter))
+    found = Measured(float(mean), float(np.hypot(scatter, with_time)))
+    found.scatter = float(scatter)
+    return found
 
 
 @dataclass(frozen=True, eq=False)
