@@ -141,6 +141,11 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
         heading(row[0], label, words if by_limit else "")
         for axes, module in zip(row, MODULES, strict=True):
             names |= draw_plane(axes, table, f"{label}{module}")
+            beyond = select(table, f"{label}{module}", f"S_{module} beyond")["C"]
+            outside = rf"$S_{module}$ at $C_{module} = {beyond.iloc[0]:.1f}$" if len(beyond) else ""
+            if by_limit and not len(beyond) + len(select(table, f"{label}{module}", f"S_{module}")):
+                outside = f"no $S_{module}$"
+            axes.annotate(outside, (1, 0), (-4, 5), "axes fraction", textcoords="offset points", ha="right", **NAME)
     for axes, module in zip(grid[0], MODULES, strict=True):
         axes.set_title(f"module {module}\n", pad=4)  # one line above the heading of the row
     for axes, module in zip(grid[-1], MODULES, strict=True):
@@ -188,10 +193,4 @@ def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
         lines = [(point, pane.plot(*point[1:], linestyle="none", zorder=3, **MARKERS[point[0]])) for point in shown]
         own = [one for one in lines if pane is not axes or len(panes) == 1 or one[0] not in close]
         names[pane] = [(f"${kind}_{module}$", line) for (kind, _, _), line in own]
-    beyond = select(table, panel, f"S_{module} beyond")["C"]
-    if len(beyond):
-        outside = rf"$S_{module}$ at $C_{module} = {beyond.iloc[0]:.1f}$"
-    else:
-        outside = f"no $S_{module}$" if [kind for kind, *_ in points] == ["P"] else ""
-    axes.annotate(outside, (1, 0), (-4, 5), "axes fraction", textcoords="offset points", ha="right", **NAME)
     return names
