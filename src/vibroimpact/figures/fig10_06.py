@@ -142,7 +142,7 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
         for axes, module in zip(row, MODULES, strict=True):
             names |= draw_plane(axes, table, f"{label}{module}")
             beyond = select(table, f"{label}{module}", f"S_{module} beyond")["C"]
-            outside = rf"$S_{module}$ at $C_{module} = {beyond.iloc[0]:.1f}$" if len(beyond) else ""
+            outside = rf"$S_{module}$ at $C_{module} = {beyond.iloc[0]:.1f} \rightarrow$" if len(beyond) else ""
             if by_limit and not len(beyond) + len(select(table, f"{label}{module}", f"S_{module}")):
                 outside = f"no $S_{module}$"
             axes.annotate(outside, (1, 0), (-4, 5), "axes fraction", textcoords="offset points", ha="right", **NAME)

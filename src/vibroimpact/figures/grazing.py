@@ -15,8 +15,8 @@ from vibroimpact.system import System
 SPEC = {
     "title": "Error of each method against the depth of a grazing impact",
     "caption": "Error of each method against the depth of a grazing impact, in units of half the gap: without the "
-        "wall, the ball would move beyond it by this depth. A method that misses the impact (hollow marks) has an "
-        "error proportional to the square root of the depth.",
+        "wall, the ball would move beyond it by this depth. The error of a missed impact (hollow marks) is "
+        "proportional to the square root of the depth, until other errors of the method exceed it.",
     "alt": "Error of the final state against the depth of an impact from 0.01 to 1e-14, on logarithmic axes, with a "
         "named line per method. One after the other, some methods leave the lower part for a common line with hollow "
         "marks, the line of a missed impact.",
@@ -49,7 +49,12 @@ def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`, with hollow markers for runs with missed or spurious impacts."""
     figure = new_figure(SINGLE_COLUMN, 90.0)
     axes = figure.add_subplot()
-    axes.set(xscale="log", yscale="log", xlabel="depth of the impact", ylabel="error of the final state")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="depth of the impact (shallower to the right)",
+        ylabel="error of the final state",
+    )
     shown = table[np.isfinite(table["error_state"])].assign(depth=10.0 ** -table["digits"])
     lines = [
         (method, draw_method(axes, method, rows["depth"], rows["error_state"], rows["missed"] + rows["spurious"] > 0))

@@ -17,10 +17,10 @@ from vibroimpact.system import System
 
 SPEC = {
     "title": "Error against run time of every method",
-    "caption": "Error of the final state and time per forcing cycle of eight methods, each with several settings, on "
-        "three test problems. The errors are measured against an independent reference of extended precision. Methods "
-        "nearer to the lower left are better. Dotted: errors of :math:`10^{-6}` and :math:`10^{-12}`. Hollow marks: "
-        "missed or spurious impacts. Grey lane: runs without a result; the table gives the reasons.",
+    "caption": "Error of the final state and time per forcing cycle of eight methods, each with one or more settings, "
+        "on three test problems. The errors are measured against an independent reference of extended precision. "
+        "Methods nearer to the lower left are better. Dotted: errors of :math:`10^{-6}` and :math:`10^{-12}`. Hollow "
+        "marks: missed or spurious impacts. Grey lane: runs without a result; the table gives the reasons.",
     "alt": "A panel per test problem with the error of the final state against the time per forcing cycle, both on "
         "logarithmic axes, and a named line per method. Only the line of this engine is in the lower left corner.",
     "method": "error against a reference of extended precision, run time as measured",

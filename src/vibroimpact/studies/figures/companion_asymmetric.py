@@ -331,7 +331,7 @@ def _draw_manifold(axes, pieces, modules, marks):
     axes.set(xlim=(near.min() - C_MARGIN, near.max() + C_MARGIN), xlabel="$C_i$", ylabel="$B_i$")
     seen = pd.concat([pieces["B"][pieces["C"].between(*axes.get_xlim())], modules["B"]])
     axes.set_ylim(seen.min() - 0.05, seen.max() + 0.1)
-    return [("asymmetric", lines["asymmetric, right"]), ("symmetric", lines["symmetric, right"])]
+    return [("asymmetric", lines["asymmetric, right"]), ("symmetric", lines["symmetric, stable"])]
 
 
 def _draw_case(axes, pairs, mark):

@@ -42,9 +42,10 @@ from vibroimpact.studies.regimes.settling import Observation, settle
 SPEC = {
     "title": "Branches of 1:1 responses and attractors",
     "caption": "Amplitude :math:`C_2` of 1:1 responses against the forcing, by the theory (top) and exact (bottom): "
-        "stable bold solid, unstable dashed. Left: one force varies, and the other is that of the case. Markers: "
-        "folds, ends, and points where stability changes; all other special points are in `special_points.csv`. "
-        "Vertical lines: the cases. Dots: attractors, from simulations from several starts.",
+        "stable (by the theory: in impacts and slow flow) bold solid, unstable dashed. Left: one force varies, and "
+        "the other is that of the case. Markers: folds, ends, and points where stability changes; all other special "
+        "points are in `special_points.csv`. Vertical lines: the cases. Dots: attractors, from simulations from "
+        "several starts.",
     "alt": "Curves of the saw-tooth amplitude C2 against the forcing amplitude: theory and exact branches, stable bold "
         "solid and unstable dashed, symmetric ones blue and asymmetric ones green, both labelled, with marked special "
         "points, thin vertical lines at the cases, and dots for the attractors of simulations from several starts.",

@@ -39,9 +39,9 @@ SPEC = {
     "title": "From weak to strong coupling",
     "caption": "a: largest error of :math:`C` at leading order over the fixed points of the cases equal and unequal, "
         "with the coupling damper in proportion to the spring or held; marks in the grey band: a fixed point has no "
-        "exact motion. b: mean power of the impacts over the squared force, for exact orbits and over all starts (mean "
-        "and standard deviation), at the coupling of the case equal; dotted: dampers of linear absorbers with the mass "
-        "of the balls.",
+        "exact motion, and the lines are those of the others. b: mean power of the impacts over the squared force, "
+        "for exact orbits and over all starts (mean and standard deviation), at the coupling of the case equal; "
+        "dotted: dampers of linear absorbers with the mass of the balls.",
     "alt": "Two panels. First: errors near six per cent except for couplings from 1.4 to 2, with marks of missing "
         "motions there and near 40. Second: the mean over starts falls from above the dotted level to the diamonds of "
         "the asymmetric orbit.",
@@ -376,7 +376,7 @@ def _draw_power(axes, table):
     axes.plot(rows["force"], 100 * rows["power"], **LEVEL, label="linear absorbers")
     axes.set(
         xlabel=r"force $\hat f_{10} = \hat f_{20}$",
-        ylabel=r"power over $\hat f_{10}^2$ $[10^{-2}]$",
+        ylabel=r"absorbed power over $\hat f_{10}^2$ $[10^{-2}]$",
         ylim=(0, None),
         xlim=(FORCES[0] - 0.05, FORCES[-1] + 0.05),
     )

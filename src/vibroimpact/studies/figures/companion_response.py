@@ -32,8 +32,8 @@ SPEC = {
     "title": "Displacement of the boxes with balls",
     "caption": "Displacement over static deflection, :math:`|X_i|/f`, of the box that moves more, where :math:`f` is "
         r"the larger of the forces :math:`\varepsilon\hat f_{i0}`. a to c: against the detuning, with forces on both "
-        "boxes and on one; d: against the force. Circles: largest value with balls from three starts, filled if most "
-        "of the motions repeat. Other lines: linear systems in closed form.",
+        "boxes and on one; d: against the force. Circles: largest value with balls from three starts, which may "
+        "reach different motions, filled if most of these repeat. Other lines: linear systems in closed form.",
     "alt": "Four panels. a to c: response against the detuning, with a high resonance peak without balls. With balls, "
         "circles lie below it near resonance and above it elsewhere. A flat line of the best absorbers lies below "
         "nearly all circles. d: with increasing force, the circles fall from the line without balls to a minimum "
@@ -238,7 +238,7 @@ def _draw_panel(axes, balls, linear, x):
     axes.plot(balls[x], balls["ratio"], label="balls, repeating", **CIRCLES)
     modulated = balls[~balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])]
     hollow = CIRCLES | {"linestyle": "none", "markerfacecolor": "white"}
-    axes.plot(modulated[x], modulated["ratio"], label="balls, modulated", **hollow)
+    axes.plot(modulated[x], modulated["ratio"], label="balls, not repeating", **hollow)
 
 
 def logarithmic(axes, side: str, *ends: float) -> None:
