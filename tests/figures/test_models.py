@@ -78,10 +78,10 @@ def test_all_models_are_drawn_and_named_those_in_use_filled():
     rows = [("fig10_07", "slow_flow", 4.0, 0.01, True), ("fig10_07", "exact_orbit", 0.0, 0.02, False)]
     rows += [("fig10_07", "second_term", np.inf, 0.03, False), ("mine", "float64", 1e-9, 5.0, True)]
     figure = models.draw(pd.DataFrame(rows, columns=names).assign(tolerance=10.0, compared_with="exact_orbit"))
-    first, second = figure.axes[:2]
-    marks = [line for line in first.lines if line.get_marker() == "o"]
-    places = [line.get_xydata()[0].tolist() for line in marks]
-    assert places == [[0.01, 4.0], [0.02, models.LANE_ERROR], [0.03, models.ERROR_MAX]]
-    assert [line.get_markerfacecolor() for line in marks] == ["black", "white", "white"]
-    assert [text.get_text().partition(",")[0] for text in first.texts] == ["slow flow", "exact orbit", "second term"]
-    assert [axes.get_title(loc="left").split()[-1] for axes in (first, second)] == ["10.7", "mine"]
+    errors, times = ([line for line in axes.lines if line.get_marker() == "o"] for axes in figure.axes[:2])
+    assert [line.get_xdata()[0] for line in errors] == [4.0, models.LANE_ERROR, models.ERROR_MAX, models.LANE_ERROR]
+    assert [line.get_xdata()[0] for line in times] == [0.01, 0.02, 0.03, 5.0]
+    assert [line.get_markerfacecolor() for line in errors] == ["black", "white", "white", "black"]
+    labels = [label.get_text().replace("   ", " ") for label in figure.axes[0].get_yticklabels()]
+    assert labels == ["Fig. 10.7: slow flow", "exact orbit", "second term", "mine: float64"]
+    assert [line.get_ydata()[0] for line in errors] == list(figure.axes[0].get_yticks())

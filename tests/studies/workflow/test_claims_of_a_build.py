@@ -87,7 +87,7 @@ def test_a_number_of_the_findings_is_that_of_the_results(studied, quoted, source
 
 
 def test_the_dimension_without_double_sticks_is_within_the_bounds_of_the_findings(studied):
-    bounds = re.search(r"Kaplan–Yorke dimension\s+between (\d+\.\d+) and (\d+\.\d+)", DOCUMENTS).groups()
+    bounds = re.search(r"Kaplan–Yorke\s+dimension\s+between (\d+\.\d+) and (\d+\.\d+)", DOCUMENTS).groups()
     place = "regimes/spectra.csv", 'case == "weak" and start == "spread" and quantity == "Kaplan-Yorke dimension"'
     mean, error = (
         Results(studied / "results").value(" | ".join([*place, column])) for column in ("mean", "uncertainty")

@@ -245,8 +245,8 @@ def draw(tables: dict) -> Figure:
             )
             _attractor_dots(inset, simulated)
             _branches(inset, exact)
-        varied = f"${' = '.join(SYMBOLS[name].strip('$') for name in along.split())}$"
-        grid[1, column].set_xlabel(f"force {varied}")
+        grid[1, column].set_xlabel(f"${' = '.join(SYMBOLS[name].strip('$') for name in along.split())}$")
+        varied = " = ".join(name.removesuffix("_hat") for name in along.split())
         for row, words in enumerate(("theory", "exact orbits and simulations")):
             heading(grid[row, column], ascii_lowercase[row * len(panels) + column], f"{words}, over {varied}")
     for axes in grid[:, 0]:
