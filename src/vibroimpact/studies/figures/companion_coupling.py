@@ -127,8 +127,8 @@ def compute(systems: dict) -> dict:
     equal = systems["equal"]
     strong = {case: system for case, system in systems.items() if case in STRONG}
     found = [_errors(strong, held) for held in (False, True)]
-    power, lasting = _power(equal)
-    summary = _of_errors(found) | _two_terms(equal) | _of_patterns(equal.with_(**ALIKE)) | _of_power(power) | lasting
+    power = _power(equal)
+    summary = _of_errors(found) | _two_terms(equal) | _of_patterns(equal.with_(**ALIKE)) | _of_power(power)
     tried = [coupled(system, value) for system in strong.values() for value in TRIED]
     summary |= {
         "searches at the forces of the cases": len(tried),
@@ -216,50 +216,39 @@ def _of_patterns(system):
 
 
 def _power(equal):
-    """Return the table of the powers at all FORCES, and the quantities of `_power_at` for the summary."""
-    rows, quantities = [], {}
-    for force in FORCES:
-        here, found = _power_at(equal.with_(f10_hat=force, f20_hat=force), force)
-        rows += [("power", *row) for row in here]
-        quantities |= found
+    """Return the table of the powers at all FORCES."""
+    rows = [row for force in FORCES for row in _power_at(equal.with_(f10_hat=force, f20_hat=force), force)]
     columns = ["panel", "series", "force", "power", "spread", "asymmetric_share", "stable"]
-    return pd.DataFrame(rows, columns=columns), quantities
+    return pd.DataFrame([("power", *row) for row in rows], columns=columns)
 
 
 def _power_at(system, force):
-    """Return the rows of the table of powers at one force, and quantities for the summary.
+    """Return the rows of the table of powers at one force.
 
-    If some starts have not reached the asymmetric orbit after SETTLED cycles, one quantity is the share of the starts
-    that have. If there is also a symmetric orbit, another quantity is the power of the asymmetric orbit
-    divided by that of the symmetric one.
+    Starts that have not reached the asymmetric orbit after SETTLED cycles are simulated longer.
     """
-    unit, begun, quantities = force**2, starts(STARTS, SEED), {}
+    unit, begun = force**2, starts(STARTS, SEED)
     symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
-    symmetric = [orbit for orbit in symmetric if orbit.admissible]
-    powers = [_power_on(orbit) / unit for orbit in symmetric]
     rows = [
-        (SYMMETRIC, force, power, 0.0, 0.0, bool(orbit.stable)) for orbit, power in zip(symmetric, powers, strict=True)
+        (SYMMETRIC, force, _power_on(orbit) / unit, 0.0, 0.0, bool(orbit.stable))
+        for orbit in symmetric
+        if orbit.admissible
     ]
     taken, share = impact_power(system, begun, CYCLES, SETTLED) / unit, 0.0
     for orbit in asymmetric_orbits(system, both=False)[:1]:
         alone = _power_on(orbit) / unit
         late = ~np.isclose(taken, alone, rtol=SAME_POWER)
         if late.any():
-            name = f"asymmetric share after {SETTLED} cycles, force {force:g}"
-            quantities[name] = 1 - late.mean(), late.std() / STARTS**0.5
             taken[late] = impact_power(system, begun[late], LONG, LONG - CYCLES + SETTLED) / unit
         share = np.isclose(taken, alone, rtol=SAME_POWER).mean()
         rows.append((ASYMMETRIC, force, alone, 0.0, share, True))
-        if symmetric:
-            nearest = np.argmin([np.abs(other.C - orbit.C).max() for other in symmetric])
-            quantities[f"asymmetric over symmetric, force {force:g}"] = alone / powers[nearest]
     rows.append((ALL, force, taken.mean(), taken.std(), share, False))
     # The dampers of linear absorbers with the mass of the balls and textbook tuning
     tuning = textbook_tuning(system)
     damping = 2 * system.epsilon * np.multiply(tuning.frequency, tuning.damping)
     strokes = tuned(system, tuning).strokes(system.Omega)
     rows.append((LINEAR, force, damping @ strokes**2 * system.Omega**2 / 2 / unit, 0.0, 0.0, True))
-    return rows, quantities
+    return rows
 
 
 def _power_on(orbit):
