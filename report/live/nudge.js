@@ -1,4 +1,4 @@
-// Show a predicted motion after a small perturbation. The distance from the prediction grows by the factor |multiplier|
+// Show a periodic motion after a small perturbation. The distance from it grows by the factor |multiplier|
 // in each period, until flights become asymmetric.
 "use strict";
 

@@ -1,4 +1,4 @@
-"""Perturb a predicted motion by a millionth: growth of the distance, and the motion in which it ends."""
+"""Perturb an exact periodic motion by a millionth: growth of the distance, and the motion in which it ends."""
 
 import io
 
@@ -20,10 +20,11 @@ from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 SPEC = {
     "title": "A nudge of a millionth",
-    "caption": "Exact motion that the chapter calls stable, with ball 2 moved by a millionth of the half-clearance. "
-        "(a) Distance from the predicted motion, once per forcing period; line: growth predicted by its largest "
-        "multiplier. (b) Length of each flight of ball 2 in forcing periods; the prediction is one half.",
-    "alt": "Left: the distance from the predicted motion follows a straight line on a logarithmic axis, then stays "
+    "caption": "Exact motion next to a fixed point that the chapter calls stable, with ball 2 moved by a millionth of "
+        "the clearance to each side. (a) Distance from the periodic motion, once per forcing period; line: growth by "
+        "its largest multiplier. (b) Length of each flight of ball 2 in forcing periods; the periodic motion has one "
+        "half.",
+    "alt": "Left: the distance from the periodic motion follows a straight line on a logarithmic axis, then stays "
         "large. Right: the flights, at first equal, permanently split into long and short ones.",
     "method": "exact orbit of the fixed point, and a simulation that starts next to it",
     "animated": ["gif"],
@@ -67,7 +68,7 @@ def compute(system) -> dict:
 
 
 def page_data(tables: dict[str, pd.DataFrame]) -> dict:
-    """Return the data for the first page: frames of the motion, flights, and distance from the prediction."""
+    """Return the data for the first page: frames of the motion, flights, and distance from the periodic motion."""
     rounded = {name: tables[name].astype(float).round(4) for name in ("motion", "impacts", "flights")}
     return {
         "cycles": int(tables["distance"]["t"].max()) if len(tables["distance"]) else 0,
@@ -121,7 +122,9 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
             t[1] / 2 + 1, PERTURBATION**0.5, f"times {multiplier:.2f}\nper period", ha="left", va="top", fontsize=8
         )
     left.plot(distance["t"], distance["distance"], color=BLACK, marker="o", markersize=2.5, linewidth=0)
-    left.set(yscale="log", ylim=(PERTURBATION / 3, 3), xlabel="forcing periods", ylabel="distance from the prediction")
+    left.set(
+        yscale="log", ylim=(PERTURBATION / 3, 3), xlabel="forcing periods", ylabel="distance from the periodic motion"
+    )
     right.axhline(0.5, color=GREY, linewidth=1.0)
     right.plot(flights["t"], flights["length"], color=BLACK, marker="o", markersize=2.5, linewidth=0)
     right.set(ylim=(0.2, 0.8), xlabel="forcing periods", ylabel="flights of ball 2, in periods")
