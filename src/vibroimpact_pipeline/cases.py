@@ -15,8 +15,8 @@ def with_cases(config: dict) -> dict:
     """Return a copy of a config in which every entry that needs a case names its case.
 
     An entry without a case gets `default_case`, or the first case if the config sets no default. The chapter's figures
-    must name their case. If a case of the chapter is missing, all figures and animations of this case are removed, and
-    also `regimes.epsilon.mixed` if it names this case. Other entries that name the missing case get the default case.
+    must name their case. If the config omits a case of the chapter (`CHAPTER`), the figures and animations that name it
+    are removed, and also `regimes.epsilon.mixed` if it names it. Other entries that name it get the default case.
     Malformed entries are left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)

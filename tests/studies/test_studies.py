@@ -143,7 +143,7 @@ SPECTRUM, SINGLE_CYCLE = (Spectrum(np.zeros((n, 8)), np.zeros(n), np.zeros(n)) f
         (lambda: vi.largest_lyapunov(SYSTEM, REST, 39), "cycles"), (lambda: SPECTRUM.errors(0), "block"),
         (lambda: SPECTRUM.errors(6), "block"), (lambda: SINGLE_CYCLE.errors(1), "growth"),
         (lambda: vi.starts(0, 1), "count"), (lambda: vi.starts(2, -1), "seed"),
-        (lambda: vi.basins(SYSTEM, {"Y1": []}), r"axes\['Y1'\]"),
+        (lambda: vi.starts(2, 1, np.nan), "reach"), (lambda: vi.basins(SYSTEM, {"Y1": []}), r"axes\['Y1'\]"),
         (lambda: vi.basins(SYSTEM, {"Y1": [0.0, 0.5], "W1": [0.2]}), "axes"),
         (lambda: vi.attractors(SYSTEM, REST), "states"),
         (lambda: vi.attractors(SYSTEM, [[2.0, *REST[1:]]]), "initial state 0"),

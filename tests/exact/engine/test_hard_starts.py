@@ -128,4 +128,4 @@ vi.simulate(vi.System(**PARAMETERS, f10_hat=1, f20_hat=1), [0] * 8, 3)
 """
     environment = {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": ":".join(sys.path)}
     run = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
-    assert "ArithmeticError: there are too many proofs that no event happens after" in run.stderr
+    assert "ArithmeticError: there are too many proofs that no event happens: stopped after" in run.stderr

@@ -224,6 +224,8 @@ def test_no_exponents_make_a_misprint_of_10_26(evidence, judged, monkeypatch):
     """None of those tried is right; with 4 / (4 + 4 rho^2) and motions up to the upper limit it would be a misprint."""
     claim = judged["printed-condition"]
     assert (claim["verdict"], claim["numbers"]["right with these"]) == (REFUTED, 0)
+    kappa = evidence.system.kappa
+    assert claim["numbers"]["with squares"] == pytest.approx((1 + kappa) ** 2 / (2 * (1 + kappa**2)), rel=1e-13)
     with monkeypatch.context() as right:
         right.setattr(claims_manifold, "printed_limit", lambda rho: 1 / (1 + rho**2))
         assert verdict("printed-condition", evidence) == IN_PART

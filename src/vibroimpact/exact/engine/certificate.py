@@ -326,7 +326,8 @@ class Certificate(Representation):
         errors, error = errors_of(flow, flights, rows, HORIZON_ERROR)
         margins, depths, doubts = margins_of(q, flights, turns, rows, phase, duration)
         known, horizon = np.isfinite(errors), np.inf
-        if not np.isfinite(error):  # the first event or the end with an infinite error
+        # The horizon is the first event after which the error is inf or, if there is none, the end of the run.
+        if not np.isfinite(error):
             horizon = run.tau0 + [*rows[:, 0], duration][np.count_nonzero(known[:, 0]) - 1]
         return cls(
             flights=int(counters[contact.FLIGHTS]),

@@ -75,7 +75,7 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     if isinstance(tau0, Instant):
         begin = tau0
-    else:  # keep a float as it is, and another rational number without rounding
+    else:  # a float stays as it is; any other rational number becomes an Instant, without rounding
         number = real("tau0", tau0)
         begin = exactly(tau0) if isinstance(tau0, numbers.Rational) else number
     start = float(begin)
@@ -417,7 +417,9 @@ def _run(system, state, cycles, begin, times, clock):
     status, run = attempt(system, state, cycles, begin, times, clock)
     if status != event_loop.FINISHED:
         number, time = len(run.rows), run.rows[-1, 0] if len(run.rows) else 0.0
-        raise ArithmeticError(f"{event_loop.FAILURES[status]} after {number} events, at tau = {run.tau0 + time}")
+        raise ArithmeticError(
+            f"{event_loop.FAILURES[status]}: stopped after {number} events, at tau = {run.tau0 + time}"
+        )
     return run
 
 
@@ -426,9 +428,10 @@ def attempt(system, state, cycles, begin, times, clock):
     run, rows, counters = event_loop.memory(state, *phase_at(begin, system.Omega), cycles, clock)
     tables, samples, pieces = tables_of(system), np.empty((len(times), 8)), []
     while (status := event_loop.integrate(*tables, run, times, samples, rows, counters)) == event_loop.PAUSED:
-        pieces.append(rows[: int(counters[contact.EVENTS])])
-        run[event_loop.EARLIER_EVENTS] += counters[contact.EVENTS]
-        rows, counters[contact.EVENTS] = np.empty((event_loop.ROWS_PER_PIECE, contact.ROW)), 0.0
+        if counters[contact.EVENTS] + event_loop.MOST_AT_ONCE > len(rows):
+            pieces.append(rows[: int(counters[contact.EVENTS])])
+            run[event_loop.EARLIER_EVENTS] += counters[contact.EVENTS]
+            rows, counters[contact.EVENTS] = np.empty((event_loop.ROWS_PER_PIECE, contact.ROW)), 0.0
         stop_if_cancelled()
     pieces.append(rows[: int(counters[contact.EVENTS])])
     return status, Run(system, state, begin, cycles, samples, run[:8].copy(), pieces, counters)

@@ -158,8 +158,8 @@ def _combined(systems, states):
         shape = np.broadcast_shapes(systems.shape, states.shape[:-1])
     except ValueError:
         raise ValueError(
-            f"states: the shape {states.shape} allows no pairs with systems of shape {systems.shape}; needs shape "
-            "(..., 8), where (...) broadcasts with the shape of systems"
+            f"states: the shape {states.shape[:-1]} without the last axis does not broadcast with the shape "
+            f"{systems.shape} of systems"
         ) from None
     numbers = np.array(numbers, dtype=int).reshape(systems.shape)
     return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))

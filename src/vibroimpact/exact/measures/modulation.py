@@ -43,8 +43,8 @@ def extreme_depth(amplitudes) -> float:
 def swells(amplitudes) -> np.ndarray:
     """Return the cycles in which the amplitude swells, as indices (s,) into the amplitudes (n,).
 
-    A swell is counted when the amplitude rises above _HIGH for the first time after it was below _LOW. Both thresholds
-    are fractions of the range between the smallest and the largest amplitude. Two thresholds exclude ripples.
+    Measured from the smallest amplitude, in units of the range of the amplitudes, a swell begins when the amplitude
+    rises above 0.65 after it was below 0.35. The two thresholds exclude ripples.
 
     The differences between successive indices are the modulation periods. A steady response has no swells.
     """

@@ -42,7 +42,7 @@ class AsymmetricConditions:
     Raises
     ------
     ValueError
-        If undamped boxes are in resonance with the impacts (see ImpulseResponse).
+        If the boxes have an undamped resonance at a harmonic of the impacts (see ImpulseResponse).
     """
 
     def __init__(self, system):
@@ -123,7 +123,7 @@ def asymmetric_solutions(system):
     Raises
     ------
     ValueError
-        If undamped boxes are in resonance with the impacts (see ImpulseResponse).
+        If the boxes have an undamped resonance at a harmonic of the impacts (see ImpulseResponse).
     """
     if not system.modules:
         return np.empty((0, 6)), np.empty(0, dtype=int)

@@ -192,7 +192,7 @@ def orbits(system: System) -> list[Orbit]:
     Raises
     ------
     ValueError
-        If system is not a System, or if its undamped boxes are in resonance with a harmonic of the impacts.
+        If system is not a System, or if its boxes have an undamped resonance at a harmonic of the impacts.
 
     Examples
     --------
@@ -234,7 +234,7 @@ def prove(orbit: Orbit):
     Raises
     ------
     ValueError
-        If orbit is not an Orbit, or if undamped boxes are in resonance with the impacts.
+        If orbit is not an Orbit, or if the boxes have an undamped resonance at a harmonic of the impacts.
     ModuleNotFoundError
         If python-flint is missing; the extra `reference` installs it.
 

@@ -47,7 +47,7 @@ class SymmetricConditions:
     Raises
     ------
     ValueError
-        If undamped boxes are in resonance with the impacts (see ImpulseResponse).
+        If the boxes have an undamped resonance at a harmonic of the impacts (see ImpulseResponse).
     """
 
     def __init__(self, system, forced=None):
@@ -110,13 +110,13 @@ def symmetric_solutions(system) -> np.ndarray:
     Raises
     ------
     ValueError
-        If undamped boxes are in resonance with the impacts (see ImpulseResponse).
+        If the boxes have an undamped resonance at a harmonic of the impacts (see ImpulseResponse).
     """
     return _solutions(system, [system])[0]
 
 
-def symmetric_solutions_under(system, forces: np.ndarray) -> list[np.ndarray]:
-    """Return `symmetric_solutions` of the system for each force (f10_hat, f20_hat) in an array (n, 2).
+def symmetric_solutions_under(system, forces) -> list[np.ndarray]:
+    """Return `symmetric_solutions` of the system for each pair (f10_hat, f20_hat) in a sequence of forces.
 
     Raises
     ------

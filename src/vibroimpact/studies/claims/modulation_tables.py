@@ -49,41 +49,51 @@ def modulation_tables(
     blank. "windows", for strongly modulated spread starts: columns case, module, cycles, quantity, mean, uncertainty.
     "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see `spectra.rows`).
     """
-    rows, compared, exponents = [], [], []
-    for case, system in systems.items():
-        regimes = settle(system, spread_starts(starts + 1, seed), Observation(**observation))
-        groups = {("rest", regimes[0].name): regimes[:1]}
-        for name in REGIMES:
-            if members := [regime for regime in regimes[1:] if regime.name == name]:
-                groups["spread", name] = members
-        for (start, name), members in groups.items():
-            states = [regime.run.final for regime in members]
-            lasts = start == "spread" and name in CHAOS
-            watched = spectra.spectra_of(system, states, blocks * block if lasts else cycles, block)
-            found = [
-                measures(system, state, cycles) | {(EXPONENT, 0): one.spectrum.exponents[0]}
-                for state, one in zip(states, watched, strict=True)
-            ]
-            key = {"case": case, "start": start, "regime": name}
-            if start == "spread":
-                share = len(members) / starts
-                number = {"mean": share, "uncertainty": np.sqrt(share * (1 - share) / starts)}
-                rows.append({**key, "starts": starts, "quantity": SHARE, "module": 0, **number})
-            for quantity, module in found[0]:
-                mean, error, count = mean_and_error([values[quantity, module] for values in found])
-                if quantity == EXPONENT and count == 1:
-                    error = watched[0].errors[0]
-                named = {"quantity": quantity, "module": module, "mean": mean, "uncertainty": error}
-                rows.append({**key, "starts": count, **named})
-            exponents += spectra.rows(key, watched)
-            if (start, name) == ("spread", STRONGLY_MODULATED):
-                compared += _windows(case, system, states[:WINDOW_MOTIONS], windows)
-    columns = ["case", "module", "cycles", "quantity", "mean", "uncertainty"]
+    tables = [
+        _case(case, system, starts, seed, cycles, blocks, block, windows, observation)
+        for case, system in systems.items()
+    ]
+    rows, compared, exponents = zip(*tables, strict=True)
     return {
-        "measures": pd.DataFrame(rows),
-        "spectra": pd.DataFrame(exponents),
-        "windows": pd.DataFrame(compared, columns=columns),
+        "measures": pd.concat(rows, ignore_index=True),
+        "spectra": pd.DataFrame([row for part in exponents for row in part]),
+        "windows": pd.DataFrame(
+            [row for part in compared for row in part],
+            columns=["case", "module", "cycles", "quantity", "mean", "uncertainty"],
+        ),
     }
+
+
+def _case(case, system, starts, seed, cycles, blocks, block, windows, observation):
+    regimes = settle(system, spread_starts(starts + 1, seed), Observation(**observation))
+    groups = {("rest", regimes[0].name): regimes[:1]}
+    for name in REGIMES:
+        if members := [regime for regime in regimes[1:] if regime.name == name]:
+            groups["spread", name] = members
+    rows, compared, exponents = [], [], []
+    for (start, name), members in groups.items():
+        states = [regime.run.final for regime in members]
+        lasts = start == "spread" and name in CHAOS
+        watched = spectra.spectra_of(system, states, blocks * block if lasts else cycles, block)
+        found = [
+            measures(system, state, cycles) | {(EXPONENT, 0): one.spectrum.exponents[0]}
+            for state, one in zip(states, watched, strict=True)
+        ]
+        key = {"case": case, "start": start, "regime": name}
+        if start == "spread":
+            share = len(members) / starts
+            error = np.sqrt(share * (1 - share) / starts)
+            rows.append({**key, "starts": starts, "quantity": SHARE, "module": 0, "mean": share, "uncertainty": error})
+        for quantity, module in found[0]:
+            mean, error, count = mean_and_error([values[quantity, module] for values in found])
+            if quantity == EXPONENT and count == 1:
+                error = watched[0].errors[0]
+            named = {"quantity": quantity, "module": module, "mean": mean, "uncertainty": error}
+            rows.append({**key, "starts": count, **named})
+        exponents += spectra.rows(key, watched)
+        if (start, name) == ("spread", STRONGLY_MODULATED):
+            compared = _windows(case, system, states[:WINDOW_MOTIONS], windows)
+    return pd.DataFrame(rows), compared, exponents
 
 
 def _windows(case, system, states, windows):

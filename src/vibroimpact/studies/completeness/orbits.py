@@ -64,7 +64,7 @@ def certify(system) -> Proof:
     Raises
     ------
     ValueError
-        If undamped boxes are in resonance with the impacts.
+        If the boxes have an undamped resonance at a harmonic of the impacts.
     """
     listed = symmetric_solutions(system)
     if system.modules == (1, 2):

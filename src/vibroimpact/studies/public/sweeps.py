@@ -11,7 +11,7 @@ from vibroimpact.studies.sweeps.observations import OBSERVATIONS
 from vibroimpact.studies.sweeps.rows import rows
 from vibroimpact.studies.sweeps.spec import Spec
 from vibroimpact.system import System
-from vibroimpact.system.arguments import MOST_SEED, instance, reals, whole
+from vibroimpact.system.arguments import MOST_SEED, instance, reals, short_repr, whole
 from vibroimpact.system.progress import track
 
 _MOST_STARTS = 10_000
@@ -107,7 +107,9 @@ def sweep(
 def _axes(name, given, system) -> list[Axis]:
     """Return one Axis per parameter, from the values of each parameter by name."""
     if not isinstance(given, Mapping):
-        raise ValueError(f"{name}: expected values by parameter, such as {{'f20_hat': [0.8, 1.0]}}")
+        raise ValueError(
+            f"{name}: got {short_repr(given)}, expected values by parameter, such as {{'f20_hat': [0.8, 1.0]}}"
+        )
     check_parameters(system, given)
     found = {key: reals(f"{name}[{key!r}]", list(values)).ravel().tolist() for key, values in given.items()}
     for key, values in found.items():

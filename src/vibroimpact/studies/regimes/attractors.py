@@ -10,7 +10,7 @@ from vibroimpact.exact.periodic import PeriodicOrbit, refined
 from vibroimpact.studies.regimes.classification import PERIODIC, UNSETTLED
 from vibroimpact.studies.regimes.settling import Observation, settle
 from vibroimpact.system import System
-from vibroimpact.system.arguments import instance, reals
+from vibroimpact.system.arguments import instance, reals, short_repr
 from vibroimpact.system.state import NAMES, active_mask, states_array
 
 OPEN = -1
@@ -178,7 +178,8 @@ def basins(
     """
     if not isinstance(axes, Mapping) or not 1 <= len(axes) <= 2:
         raise ValueError(
-            "axes: expected values of one or two coordinates, such as {'W1': [-0.5, 0.5], 'X1': [0.0, 0.1]}"
+            f"axes: got {short_repr(axes)}, expected values of one or two coordinates, such as {{'W1': [-0.5, 0.5], "
+            "'X1': [0.0, 0.1]}"
         )
     for name in axes:
         if name not in _COORDINATES:

@@ -10,7 +10,7 @@ from vibroimpact.exact.lanes.ensemble import finals
 from vibroimpact.exact.measures.periodicity import mirror_distance, repeats_after
 from vibroimpact.exact.periodic import refined
 from vibroimpact.system.amplitude import sawtooth_amplitude
-from vibroimpact.system.arguments import MOST_SEED, whole
+from vibroimpact.system.arguments import MOST_SEED, real, whole
 from vibroimpact.system.state import IMPACT, active_mask, inactive_at_rest
 
 SYMMETRIC, ASYMMETRIC, OTHER = "symmetric", "asymmetric", "other periodic"
@@ -175,10 +175,10 @@ def _at_rest(run):
     return ~run.samples[:, speeds[active_mask(run.system)[speeds]]].any(axis=0)
 
 
-def starts(count: int, seed: int = 1) -> np.ndarray:
+def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
     """Return initial states evenly spread over positions and velocities, the first at rest.
 
-    The others are scrambled Halton points with |X_i|, |X_i'|, |Y_i'| and |W_i| below 1.
+    The others are scrambled Halton points with |X_i|, |X_i'|, |Y_i'| <= reach and |W_i| < 1.
 
     Parameters
     ----------
@@ -186,6 +186,8 @@ def starts(count: int, seed: int = 1) -> np.ndarray:
         Number of initial states, at least 1.
     seed : int, default 1
         Seed of the scrambling.
+    reach : float, default 1.0
+        Largest displacement and velocity of the boxes, and velocity of the balls, dimensionless.
 
     Returns
     -------
@@ -204,7 +206,8 @@ def starts(count: int, seed: int = 1) -> np.ndarray:
     """
     from scipy.stats import qmc  # takes a second to load, and is rarely needed
 
-    count, seed = whole("count", count, 1, _MOST_STARTS), whole("seed", seed, 0, MOST_SEED)
-    states = 2 * qmc.Halton(8, rng=seed).random(count - 1) - 1
-    states[:, [1, 3]] = states[:, [0, 2]] - states[:, [1, 3]]  # Y_i = X_i - W_i
+    count, seed, reach = whole("count", count, 1, _MOST_STARTS), whole("seed", seed, 0, MOST_SEED), real("reach", reach)
+    unit = 2 * qmc.Halton(8, rng=seed).random(count - 1) - 1
+    states = reach * unit
+    states[:, [1, 3]] = states[:, [0, 2]] - unit[:, [1, 3]]  # Y_i = X_i - W_i
     return np.vstack([np.zeros(8), states])

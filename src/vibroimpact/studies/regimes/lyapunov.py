@@ -105,7 +105,7 @@ def largest_lyapunov(
     block, state = cycles // blocks, _settled(system, state, settle)
     factors = np.array([grown.factors for grown in _frame_growth(system, state, [block] * (discarded + blocks), 1)])
     if not factors.all():
-        raise ArithmeticError("every perturbation of the motion vanishes, so that it has no finite Lyapunov exponent")
+        raise ArithmeticError("the perturbation of the motion vanishes, so that it has no finite Lyapunov exponent")
     rates = np.log(factors[discarded:]).mean(axis=(1, 2))
     mean, scatter = rates.mean(), rates.std(ddof=1) / np.sqrt(blocks)
     first, last = max(discarded * block, 1), discarded * block + cycles

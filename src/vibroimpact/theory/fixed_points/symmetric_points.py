@@ -185,9 +185,9 @@ def refuse_free_motion(system) -> None:
     scale = own + abs(balance.K)
     if abs(denominator) <= 1e-12 * scale * own and np.abs(numerators).max() <= 1e-12 * scale * force:
         raise ValueError(
-            f"sigma_e_hat: at {system.sigma_e_hat} the forcing frequency is a resonance of the undamped boxes that the "
-            "forces do not excite; the boxes could move freely with any phase, so that the fixed points cannot be "
-            "listed; add damping or change the frequency"
+            f"sigma_e_hat: at {system.sigma_e_hat} the slow flow has an undamped resonance that the forces do not "
+            "excite, so that the fixed points may not be isolated and cannot be listed; add damping or change the "
+            "frequency"
         )
 
 

@@ -1,4 +1,8 @@
-"""Compute the data of interactive pages: parameters, predictions of the theory for cases, verdicts over both forces."""
+"""Compute the data of interactive pages.
+
+These are parameters, predicted responses of each case and, in the plane of both forces, regimes and verdicts of the
+criteria on stability.
+"""
 
 import json
 

@@ -29,7 +29,7 @@ class SteadyBoxes:
     Raises
     ------
     ValueError
-        If undamped boxes are in resonance with the train or the forcing.
+        If the boxes have an undamped resonance at a harmonic of the train or of the forcing.
     """
 
     def __init__(self, system, sign: int):
@@ -60,7 +60,7 @@ class EnclosedConditions:
     Raises
     ------
     ValueError
-        If undamped boxes are in resonance with the impacts.
+        If the boxes have an undamped resonance at a harmonic of the impacts.
     """
 
     def __init__(self, system):

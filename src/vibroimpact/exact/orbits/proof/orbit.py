@@ -80,7 +80,7 @@ def prove(orbit) -> OrbitProof:
     Raises
     ------
     ValueError
-        If undamped boxes are in resonance with the impacts.
+        If the boxes have an undamped resonance at a harmonic of the impacts.
     """
     with ctx.workprec(_BITS):
         conditions = EnclosedConditions(orbit.system)
