@@ -68,7 +68,7 @@ def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, li
         try:
             params, paths = now(record["rule"], record["wildcards"])
         except LookupError:
-            yield f"{path}: no rule of this checkout makes it"
+            yield f"{path}: its record names no rule of this checkout"
             continue
         if inputs.keys() != {*paths}:
             yield f"{path}: the inputs of its rule have changed"

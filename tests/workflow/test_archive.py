@@ -107,7 +107,7 @@ CHANGES = {
     a_setting_that_is_new: f"{PICTURE}: config.figures.figure.C_max was None, is now 2.0",
     an_input_that_is_new: f"{PICTURE}: the inputs of its rule have changed",
     a_table_made_again: f"{PICTURE}: its input {TABLE} has changed",
-    a_rule_that_is_gone: f"{TABLE}: no rule of this checkout makes it",
+    a_rule_that_is_gone: f"{TABLE}: its record names no rule of this checkout",
 }
 
 

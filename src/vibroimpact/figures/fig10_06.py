@@ -26,11 +26,11 @@ SPEC = {
     "title": "Fixed points for equal forces",
     "notebook": "fixed_points",
     "caption": r"Fig. 10.6. Fixed points for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}` on the "
-        "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` (grey "
-        "squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other dashed. A "
-        "singular point outside the frame is named with its :math:`C_i`. Headings: verdicts of (10.26), which "
-        "agree with the chapter. They concern the impacts only: the exact motion of a point called stable may be "
-        "unstable.",
+        "SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, :math:`S_2` "
+        "(grey squares), one row per fixed point. The branch that (10.26) calls stable is bold solid, the other "
+        "dashed. Lower right: :math:`C_i` of singular points outside the frame, or that there are none. Headings: "
+        "verdicts of (10.26), which agree with the chapter. They concern the impacts only: the exact motion of a "
+        "point called stable may be unstable.",
     "alt": "Three rows, a to c, of two planes, C1 and B1, C2 and B2, with the V-shaped manifold, its left arm dashed "
         "and its right arm bold. Black circles P1, P2 mark the fixed point of the row, grey squares S1, S2 the "
         "singular points; row b names an S2 beyond the frame, and row a has no S2.",
@@ -38,7 +38,8 @@ SPEC = {
         "title": "Fixed points of case {case}",
         "caption": r"Fixed points of case *{case}*, :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`, "
             "on the SIM: projections :math:`P_1`, :math:`P_2` (black circles) and singular points :math:`S_1`, "
-            ":math:`S_2` (grey squares), one row per fixed point. Headings: verdicts of (10.26), which judges the "
+            ":math:`S_2` (grey squares), one row per fixed point. Lower right: :math:`C_i` of singular points outside "
+            "the frame, or that there are none. Headings: verdicts of (10.26), which judges the "
             "impacts alone.",
         "alt": "A row for each fixed point of case {case}, of two planes, C1 and B1, C2 and B2, with the V-shaped "
             "manifold, its left arm dashed and its right arm bold. Black circles P1, P2 mark the fixed point of the "
@@ -142,7 +143,7 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
         for axes, module in zip(row, MODULES, strict=True):
             names |= draw_plane(axes, table, f"{label}{module}")
             beyond = select(table, f"{label}{module}", f"S_{module} beyond")["C"]
-            outside = rf"$S_{module}$ at $C_{module} = {beyond.iloc[0]:.1f} \rightarrow$" if len(beyond) else ""
+            outside = rf"$S_{module}$: {', '.join(f'{C:.1f}' for C in beyond)} $\rightarrow$" if len(beyond) else ""
             if by_limit and not len(beyond) + len(select(table, f"{label}{module}", f"S_{module}")):
                 outside = f"no $S_{module}$"
             axes.annotate(outside, (1, 0), (-4, 5), "axes fraction", textcoords="offset points", ha="right", **NAME)

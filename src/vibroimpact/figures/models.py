@@ -29,10 +29,10 @@ from vibroimpact.theory.fixed_points.table import fixed_point_table
 
 SPEC = {
     "title": "Error against run time of the models of each figure",
-    "caption": "Cheapest sufficient model of each figure: largest error in percent of the axis (a), and run time (b). "
-        "Filled: the model in use, the cheapest below the tolerance (dotted). Errors are differences from the exact "
-        "orbits or, for simulations, from a run in arbitrary precision; for chaotic motions, statistics of bursts are "
-        "compared. Grey lane: the reference itself, and errors below 0.001 %.",
+    "caption": "Largest error in percent of the axis (a) and run time (b) of each model of each figure. Filled: the "
+        "model in use, by default the cheapest below the tolerance (dotted). Errors are differences from the exact "
+        "orbits or, for simulations, from a run in arbitrary precision; for chaotic motions, statistics of bursts "
+        "are compared. Grey lane: the reference itself, and errors below 0.001 %.",
     "alt": "Two panels with one row per model, grouped by figure from 10.6 to 10.11: errors and run times on "
         "logarithmic axes. The error of the slow flow is 4 to 6 %, that of the second term some tenths of a per cent. "
         "In double precision, the steady motion of figure 10.8 is in the grey lane, the chaotic one of 10.11 above the "

@@ -59,7 +59,12 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
         kinds = {name: kind for name in old if (kind := _kind(columns, name, series)) and given[name].any()}
         words = [name for name in _words(old) if name not in kinds]
         if not a[words].reset_index(drop=True).equals(b[words].reset_index(drop=True)):
-            differ = f"texts differ in {', '.join(words)}" if len(a) == len(b) else f"{len(b)} rows instead of {len(a)}"
+            other = [
+                name for name in words if not a[name].reset_index(drop=True).equals(b[name].reset_index(drop=True))
+            ]
+            differ = (
+                f"values differ in {', '.join(other)}" if len(a) == len(b) else f"{len(b)} rows instead of {len(a)}"
+            )
             reasons.append(f"{', '.join(series)}: {differ}")
             continue
         others = (given.to_numpy() != _given(b).to_numpy()).any(axis=0)

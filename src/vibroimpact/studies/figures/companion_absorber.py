@@ -33,8 +33,8 @@ SPEC = {
     "caption": "Peak displacement in a band of frequencies against the clearance, both over the static deflection "
         r":math:`f = \varepsilon\hat f_{i0}`. A peak is the value exceeded in 1 % of the cycles at the worst "
         "frequency. Black: restitution coefficient of the chapter; orange: best one tested. Stars: the lowest peaks, "
-        "measured again from rest and seven other starts at twice as many frequencies. Even the lowest peak is twice "
-        "that of the best linear absorbers with the mass of the balls.",
+        "measured again from more starts at twice as many frequencies. Level lines: without balls, and the best "
+        "linear absorbers with the mass of the balls.",
     "alt": "Peak against clearance on logarithmic axes, with two valleys of dots. The valley of the small restitution "
         "coefficient is half as high as that of the chapter's. Of two level lines, the one without balls lies far "
         "above, the one of the best linear absorbers at half the height of the lower valley.",

@@ -39,8 +39,7 @@ SPEC = {
         r"orbits at the :math:`\varepsilon` of the cases, each joined to the fixed point of the slow flow (circle) "
         r"that it approaches as :math:`\varepsilon` decreases, if any. Other panels, one per case: :math:`v^2` of "
         r"these orbits against :math:`\varepsilon`; :math:`v` is the difference of the flight times over the period. "
-        r"A circle in the grey area is no motion: that orbit becomes symmetric before :math:`\varepsilon = 0`. "
-        "The stable orbit of the equal case is the motion of Fig. 10.8.",
+        r"A circle in the grey area is no motion: that orbit becomes symmetric before :math:`\varepsilon = 0`.",
     "alt": "First panel: a V-shaped curve of B against C, bold where stable. A green curve rises steeply from its "
         "right arm, with circles on it and diamonds and triangles beside it. Other panels: lines of v squared "
         "against epsilon from these marks, labelled stable or unstable, to circles at epsilon 0; the lowest line "
@@ -153,7 +152,7 @@ POINT_MARK = _MARK | {"marker": "o", "markerfacecolor": "white", "markersize": 4
 ORBIT_MARKS = [_MARK | {"marker": marker, "markersize": size} for marker, size in (("D", 3.6), ("^", 5.0), ("s", 4.0))]
 """Marks of the exact orbits of the first, second and further cases."""
 NO_MOTION = -0.06
-"""Lower end of the axis of v^2; the area below 0 is grey."""
+"""Lower end of the axis of v^2, unless a fixed point lies lower; the area below 0 is grey."""
 C_MARGIN = 0.1
 """Margin, in C, around the asymmetric branch and the markers in the panel of the manifold."""
 UNEQUAL_FROM = 1e-3
@@ -298,7 +297,7 @@ def draw(tables: dict) -> Figure:
         _draw_case(axes, pairs[pairs["case"] == case], mark)
     if marks:
         others[0].set_ylabel("$v^2$ ($v$: difference of flights / period)")
-        others[0].set_ylim(NO_MOTION, 1.15 * pairs["squared"].max())
+        others[0].set_ylim(min(NO_MOTION, 1.15 * pairs["limit"].min()), 1.15 * pairs["squared"].max())
     lines = [Line2D([], [], label=label, **style) for label, style in (("stable", STABLE), ("unstable", UNSTABLE))]
     handles = [*left.get_legend_handles_labels()[0], *lines]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.2)
@@ -342,7 +341,7 @@ def _draw_case(axes, pairs, mark):
         axes.annotate(verdict, start, (-5, 4), textcoords="offset points", ha="right")
     ends = pairs.drop_duplicates("label")["limit"]
     axes.plot(np.zeros(len(ends)), ends, clip_on=False, **POINT_MARK)
-    axes.axhspan(NO_MOTION, 0, color=LIGHT_GREY, linewidth=0, zorder=0)
+    axes.axhspan(-1, 0, color=LIGHT_GREY, linewidth=0, zorder=0)
     axes.text(0.95, -0.01, "no motion", ha="right", va="top", transform=axes.get_yaxis_transform())
     axes.set(xlabel=r"$\varepsilon$", xlim=(0, None))
     axes.locator_params(axis="x", nbins=3)

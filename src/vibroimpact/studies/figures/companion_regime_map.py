@@ -19,9 +19,10 @@ from vibroimpact.studies.sweeps.observations import FROM_REST, fixed_point_count
 
 SPEC = {
     "title": "Map of regimes over both forcing amplitudes",
-    "caption": "Regime that most starts reach in the plane of both forcing amplitudes, with a stroke where other "
-        "starts reach others. The start from rest is not counted, since a ball may stay idle. Line: the number of "
-        "fixed points that are stable by the theory, in impacts and slow flow, changes. Crosses: the cases.",
+    "caption": "Regime that most starts reach in the plane of both forcing amplitudes, with a stroke where some "
+        "starts reach another regime. The start from rest is not counted, since a ball may stay idle. Line: the "
+        "number of fixed points that are stable by the theory, in impacts and slow flow, changes. Crosses: the "
+        "cases.",
     "alt": "Map over the plane of f10 and f20 in patches of one colour for each class of regimes. Strongly modulated "
         "responses fill the middle and the lower left, other periodic ones the upper left and the right edge, "
         "asymmetric ones the upper middle, where a closed solid line encloses the forces for which the theory has a "

@@ -17,7 +17,7 @@ SPEC = {
     "notebook": "physical_units",
     "caption": "Two machines on springs, in SI units. a: largest displacement of both boxes against the frequency, "
         "with balls at several clearances :math:`L` (after a transient from rest), without balls, and with the best "
-        "linear absorbers of the same mass. At a jump of a line another motion is reached. b: box 1 and its ball "
+        "linear absorbers of the same mass. At a jump of a line, runs reach another motion. b: box 1 and its ball "
         "against time, from rest, including the transient.",
     "alt": "Two panels. a: largest displacement in millimetres against frequency in hertz: a tall resonance without "
         "balls, a low flat line of the best absorbers, and a line for each clearance of the balls. b: the "
