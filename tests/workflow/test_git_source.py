@@ -77,6 +77,7 @@ def record_of(figure, results):
     return {name: value for name, value in record.items() if name not in ("commit", "tree")}
 
 
+@pytest.mark.thorough
 def test_figures_are_those_of_the_checkout_and_are_made_once(outer, built):
     targets = f"chapter_{FIGURE}", TABLE
     status, said = outer(*targets)

@@ -3,6 +3,8 @@
 import os
 import re
 
+import pytest
+
 from archives import archive_of, checkout, commit, unpacked
 from vibroimpact_pipeline.result_records import RECORDS
 
@@ -12,6 +14,7 @@ EDITS = [
 ]
 
 
+@pytest.mark.thorough
 def test_only_what_depends_on_an_edit_is_planned(restudied):
     assert restudied.planned("all", "studies") == set()
     for name, old, new, made in EDITS:
@@ -41,6 +44,7 @@ def test_every_result_has_a_record_and_every_record_its_result(studied):
     assert {str(path.relative_to(studied.path)) for path in files} <= records
 
 
+@pytest.mark.thorough
 def test_the_archive_has_both_layers(studied, tmp_path):
     """And is refused where a result was made with another setting."""
     tree = checkout(studied, tmp_path / "tree")
