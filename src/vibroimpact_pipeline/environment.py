@@ -44,5 +44,5 @@ def set_environment(checkout: Path | None) -> None:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     try:
         getpass.getuser()
-    except (KeyError, OSError):  # some containers have no user name, where Snakemake fails with a traceback
+    except (KeyError, OSError):  # in some containers the user has no name, and Snakemake would fail
         os.environ["LOGNAME"] = str(os.getuid())

@@ -374,7 +374,7 @@ class _Study:
         if not machine.c1 or not machine.F10:
             raise ValueError(
                 f"machine: got c = {machine.c1} and the force {machine.F10}; expected a damping c above 0, and "
-                "a force F, base or unbalance other than 0"
+                "one of F, base and unbalance other than 0"
             )
         natural = {"omega1": machine.omega10, "omega2": machine.omega10}
         # Only |F| is used: with -F, the same results would need mirrored initial states.

@@ -74,7 +74,7 @@ def disk_cached(**options):
 
     def decorate(function):
         folder, before = code_folder(Path(function.__code__.co_filename).parent), config.CACHE_DIR
-        config.CACHE_DIR = str(folder or before)  # until this function is decorated; other packages keep their folder
+        config.CACHE_DIR = str(folder or before)  # restored below, so that other packages keep their folder
         try:
             return njit(cache=True, **options)(function)
         finally:

@@ -369,7 +369,10 @@ def _state(system, times, changes, speeds, sign):
 
 
 def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
-    """Return the largest |X_i - balls Y_i| at extrema inside the free flights, (2,); 0 if there is no extremum."""
+    """Return the largest |X_i - c Y_i| with c = `balls` at extrema inside the free flights, (2,); 0 if there is none.
+
+    With c = 1 this is the largest |W_i|, with c = 0 the largest |X_i|.
+    """
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     count = 1 + math.ceil(durations.max() * fastest / _STEP)

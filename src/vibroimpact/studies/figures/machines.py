@@ -85,7 +85,8 @@ FINE, PER_CYCLE = 301, 30
 def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int, shown: dict) -> dict:
     """Return the largest displacements of the boxes against frequency, and a motion in time.
 
-    Runs with balls start from rest, for several clearances; linear systems are computed in closed form.
+    Runs with balls start from rest, for several clearances. The machines without balls and with the best linear
+    absorbers are computed in closed form.
 
     Parameters
     ----------
@@ -102,9 +103,9 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
 
     Returns "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz],
     swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (True at an impact); "summary", a row
-    per clearance: L [m]; frequency [Hz], at which the swing is largest; at this frequency power [W], share (of the
-    power that is lost in impacts) and swing [mm]; force, the F10 [N] at which L is the best of the clearances. This
-    force is proportional to L, since only the ratio L / F10 matters.
+    per clearance: L [m]; frequency [Hz] of the largest swing; at this frequency, power [W] of the forces, share
+    (fraction of this power that impacts dissipate) and swing [mm]; force [N], the F10 for which L is the best of the
+    clearances. This force is proportional to L, since only the ratio L / F10 matters.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]

@@ -156,7 +156,7 @@ def classify(run: Run) -> tuple[str, int | None]:
         return UNSETTLED, None
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
-    # An impact may be at an end of the window, so that the number of impacts at a wall differs by one.
+    # With an impact at an end of the window, the numbers of impacts at a wall and of cycles may differ by 1.
     once = len(impacts) == len(run.events) and np.all(np.abs(np.array(counts) - run.cycles) <= 1)
     if repeats > 1 or not once:
         return OTHER, repeats

@@ -71,7 +71,8 @@ class Observation:
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
     """Return the regime in which the motion from each initial state ends, in the order of `states`.
 
-    Motions that cannot be classified after all rounds run for `retest` more cycles.
+    Motions that cannot be classified after the last round (see `Observation`) are continued for `retest` more cycles
+    and classified again.
 
     Motions that do not repeat are tested regime by regime. One of the motions in a regime, the witness, runs for
     `retest` more cycles. If any initial state ends in a periodic motion, there are up to MOST_WITNESSES witnesses,

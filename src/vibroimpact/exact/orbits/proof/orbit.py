@@ -66,7 +66,7 @@ class OrbitProof:
         return STABLE if moduli and all(modulus < 1 for modulus in moduli) else NOT_PROVED
 
     def row(self) -> dict:
-        """Return the numbers and verdicts of the proof by column name of a table of orbits."""
+        """Return the entries of the proof in a table of orbits, as {column name: number or verdict}."""
         numbers = {"box_radius": self.radius, "orbit_error": self.error, "moduli_error": self.moduli_error}
         return numbers | {"motion_proved": self.motion, "floquet_proved": self.stability}
 
