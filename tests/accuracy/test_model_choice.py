@@ -88,7 +88,7 @@ def test_a_point_without_an_exact_orbit_and_other_models_are_refused_in_one_line
     ):
         with pytest.raises(ValueError, match=said):
             motion(system, table, label, model)
-    with pytest.raises(ValueError, match=r"\Amodel: 'slow_flow' is not float64 or reference\Z"):
+    with pytest.raises(ValueError, match=r"\Amodel: 'slow_flow' should be float64 or reference\Z"):
         window(system, settings | {"initial_state": [0.0] * 8, "model": "slow_flow"})
 
 

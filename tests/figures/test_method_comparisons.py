@@ -69,9 +69,10 @@ def test_names_of_points_cover_nothing_and_points_near_the_fold_are_drawn_larger
         for pane in (axes, *axes.child_axes):
             expect_clear_names(pane)
         names = [text.get_text() for pane in (axes, *axes.child_axes) for text in pane.texts]
-        assert sorted(names) == sorted(f"${name}$" for name in points.loc[points["panel"] == panel, "series"]) or (
-            set(table.loc[table["panel"] == panel, "series"]) & {"S_1 beyond", "S_2 beyond"}
-        )
+        inside, S = points.loc[points["panel"] == panel, "series"], f"S_{panel[-1]}"
+        beyond = table.loc[(table["panel"] == panel) & (table["series"] == f"{S} beyond"), "C"]
+        corner = [rf"${S}$: {C:.1f} $\rightarrow$" for C in beyond] or [f"no ${S}$"] * (S not in set(inside))
+        assert sorted(names) == sorted([*(f"${name}$" for name in inside), *corner])
 
 
 def expect_clear_names(axes):

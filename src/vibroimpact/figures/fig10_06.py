@@ -142,11 +142,8 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
         heading(row[0], label, words if by_limit else "")
         for axes, module in zip(row, MODULES, strict=True):
             names |= draw_plane(axes, table, f"{label}{module}")
-            beyond = select(table, f"{label}{module}", f"S_{module} beyond")["C"]
-            outside = rf"$S_{module}$: {', '.join(f'{C:.1f}' for C in beyond)} $\rightarrow$" if len(beyond) else ""
-            if by_limit and not len(beyond) + len(select(table, f"{label}{module}", f"S_{module}")):
-                outside = f"no $S_{module}$"
-            axes.annotate(outside, (1, 0), (-4, 5), "axes fraction", textcoords="offset points", ha="right", **NAME)
+            if by_limit and (outside := singular_points_outside(table, f"{label}{module}")):
+                axes.annotate(outside, (1, 0), (-4, 5), "axes fraction", textcoords="offset points", ha="right", **NAME)
     for axes, module in zip(grid[0], MODULES, strict=True):
         axes.set_title(f"module {module}\n", pad=4)  # one line above the heading of the row
     for axes, module in zip(grid[-1], MODULES, strict=True):
@@ -169,6 +166,15 @@ def verdict(table: pd.DataFrame, label: str) -> str:
         for C in select(table, f"{label}{module}", f"P_{module}")["C"]
     ]
     return "" if not beyond else "stable" if all(beyond) else "unstable"
+
+
+def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
+    """Return C_i of the singular points outside the frame of a panel, "no S_i" if there are none at all, or ""."""
+    name = f"S_{panel[-1]}"
+    beyond = select(table, panel, f"{name} beyond")["C"]
+    if len(beyond):
+        return rf"${name}$: {', '.join(f'{C:.1f}' for C in beyond)} $\rightarrow$"
+    return "" if len(select(table, panel, name)) else f"no ${name}$"
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
