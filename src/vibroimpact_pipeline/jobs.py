@@ -30,9 +30,10 @@ class Refused(RuntimeError):
 def running(job) -> Iterator[SimpleNamespace]:
     """Run the body of a `with` statement as the script of a Snakemake job; yield a temporary path for each output.
 
-    The paths have the names of the outputs. Everything that the script prints is written to the log of the job. If the
-    code differs from `params.code` (see `code.code_of`), if an input differs from its record, or if either changes
-    while the job runs, the job fails with one line and replaces no output. An invalid config value also gives one line.
+    The paths are attributes with the names of the outputs, such as `out.json`. Everything that the script prints is
+    written to the log of the job. If the code differs from `params.code` (see `code.code_of`), if an input differs from
+    its record, or if either changes while the job runs, the job fails with one line and replaces no output. An invalid
+    config value also gives one line.
     """
     if sys.platform == "linux":  # make the kernel terminate this process when its parent ends
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)

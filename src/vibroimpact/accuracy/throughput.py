@@ -1,4 +1,4 @@
-"""Measure the time per impact of ensembles, single runs and heyoka's batches in typical scenes of the project.
+"""Measure the time per impact of ensembles, single runs and heyoka's batches in typical uses (see `Scene`).
 
 All methods are timed in turn. For ensembles, the error and the share of runs with as many impacts as the corresponding
 single run are measured as well.

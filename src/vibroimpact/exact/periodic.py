@@ -23,7 +23,8 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
 SAME = 1e-6
 """Largest difference between states that count as equal; near a bifurcation, errors are about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-_NEUTRAL = 1e-10  # a ball is neutral if the change of its velocity depends on the state by less than this (relative)
+# A ball is neutral if all derivatives of the change of its velocity are at most this, relative to the largest of all.
+_NEUTRAL = 1e-10
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
 _CONVERGED = ((1e-5, 1e-8), (1e-12, 1e-6))

@@ -30,7 +30,7 @@ SLOWEST = 1e-3
 limit at V = 0."""
 SLOWEST_COUNTED = 0.01
 """For a spring over the whole box: lowest speed of a ball, in the middle of the box, for its impact to be counted."""
-HALVINGS = 40  # largest number of bisections to find when in a step a contact begins
+HALVINGS = 40  # largest number of bisections to locate the beginning of a contact within a step
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
 

@@ -102,7 +102,7 @@ def reference_run(
     for i in (0, 2):
         gap = start[i] - start[i + 1]
         on_wall = float(start[i]) - float(start[i + 1]) in (1.0, -1.0) or 1 < abs(gap) <= 1 + ROUNDED
-        if exact_floats and on_wall:  # up to rounding: move the ball onto the wall
+        if exact_floats and on_wall:  # the ball is on the wall up to rounding: put it exactly there
             start[i + 1] = start[i] - (1 if gap > 0 else -1)
         elif abs(gap) > 1:
             module = i // 2 + 1

@@ -77,7 +77,7 @@ class Trajectory:
 
     def _sample_queue(self):
         times = [] if self.sample_times is None else list(self.sample_times)
-        # A float in a grid of times is the result of a computation, so that its binary value is used.
+        # Floats among the times are computed, such as k * period: the binary value counts, not the shortest decimal.
         rational = [Fraction(float(t)) if isinstance(t, float) else to_fraction("sample_times", t) for t in times]
         if any(later < earlier for earlier, later in pairwise(rational)):
             raise ValueError("sample_times: should be ascending")

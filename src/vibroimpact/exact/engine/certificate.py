@@ -133,7 +133,8 @@ def _fly(flow, flight, errors, matrix, product):
     left = flight[LENGTH]
     while left > 0.0:
         flight[LENGTH] = min(left, flow.longest)
-        if flight[LENGTH] > 0.5 * flow.spacing:  # the first entry of a table is the identity, free of rounding
+        # Shorter flights use the first entry of the table, the identity, which has no rounding error.
+        if flight[LENGTH] > 0.5 * flow.spacing:
             _add_table(flow.coefficients, flight[BEFORE:AFTER], errors.repeated)
         fill_flight(flow, flight, matrix)
         _propagate(matrix, errors, product)

@@ -203,7 +203,9 @@ def orbits(system: System) -> list[Orbit]:
 
 
 def search(system: System) -> OrbitSearch:
-    """Return `orbits` with the effort spent on asymmetric orbits, which indicates how likely an orbit was missed.
+    """Return the orbits that `orbits` finds, and the effort of the search for asymmetric orbits.
+
+    The effort indicates how likely an orbit was missed.
 
     Raises
     ------

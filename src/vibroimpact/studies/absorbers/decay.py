@@ -62,7 +62,7 @@ def decay_time(system: System, impulse: float, module: int = 1, fraction: float 
     state[2 + 2 * whole("module", module, 1, 2)] = impulse
     target = checked_fraction(fraction) * 0.5 * impulse**2
     if not target > 0:
-        raise ValueError(f"impulse: {impulse} gives the system no energy; expected a velocity other than 0")
+        raise ValueError(f"impulse: {impulse} gives the system no energy; expected a larger velocity of the box")
     cycles = whole("cycles", cycles, 1, 10**6)
     for done in range(0, cycles, CYCLES_PER_RUN):
         run = simulate(free, state, min(CYCLES_PER_RUN, cycles - done), start)

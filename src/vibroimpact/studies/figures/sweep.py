@@ -55,7 +55,7 @@ def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
         For each axis, `along` (names of the parameters that vary together) and optionally `scale`.
 
     Returns columns panel, series, the first parameter of each axis, value, along and scale (of all axes, joined by
-    "; "). Regimes in which no start ends are left out.
+    "; "). A regime is left out if no run of the sweep ends in it.
     """
     moved = [axis["along"][0] for axis in axes]
     curves = [

@@ -17,7 +17,8 @@ RESONANT = (0.1, 0.9)
 """Limits of the share of time in bursts. A module with a share below the first limit counts as never in resonance, with
 a share above the second limit as always in resonance."""
 DISCARDED = 1
-"""Number of first blocks that an exponent leaves out, while the perturbation turns to the direction of most growth."""
+"""Number of blocks at the start of a run that are not used for the exponent. In these blocks, the perturbation turns to
+the direction of largest growth."""
 SECOND_LENGTH_FACTOR = 10
 """Length of the run for the second estimate of an exponent, relative to the run for the first estimate. The second
 estimate is made only if the first one is not certainly positive."""

@@ -233,7 +233,7 @@ class Curve:
         return np.column_stack([self.equations(z[:-1], z[-1])[1], self._by_p(z)])
 
     def _ahead(self, place, length):
-        """Return the places of one step from `place`, the end of the step last.
+        """Return the places that one step from `place` reaches, in order; the last one is the end of the step.
 
         If the step passes a branch point, the list also has this branch point, between a place just before it and one
         just after it. The result is [] if the curve turns too much or is lost, or if the determinant changes sign

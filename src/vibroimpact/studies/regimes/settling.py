@@ -92,7 +92,8 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        now = first if name in CHAOS else regimes  # `regimes` includes motions that the test of chaos renamed
+        # Motions that the test of one kind of chaos renamed to another kind are not tested again.
+        now = first if name in CHAOS else regimes
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
             _test_classification(regimes, members, observation, progress)
