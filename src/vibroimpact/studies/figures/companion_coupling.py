@@ -345,8 +345,8 @@ def _draw_errors(axes, table):
 
 def _draw_power(axes, table):
     marks = {
-        SYMMETRIC: {"marker": "o", "markerfacecolor": "white", "markersize": 3.6},
-        ASYMMETRIC: {"marker": "D", "markerfacecolor": BLACK, "markersize": 3.4},
+        SYMMETRIC: {"marker": "o", "markerfacecolor": "none", "markersize": 4.6, "zorder": 3},
+        ASYMMETRIC: {"marker": "D", "markerfacecolor": BLACK, "markersize": 2.6},
     }
     for name, look in marks.items():
         rows = select(table, "power", name)
