@@ -13,7 +13,7 @@ FORCES = ["f10_hat", "f20_hat"]
 def tables_of(system, observation):
     """Return the sweeps frequency_response (as "response"), clearance and design, each with two starts."""
     runs = {"starts": 2, "seed": 1, "cycles": 60, "settle": 40, "observation": observation}
-    observed, detunings = ("amplitudes", "envelopes", "energy", "regimes"), axis(["sigma_e_hat"], (-1.0, 1.0), 5)
+    observed, detunings = ("amplitudes", "energy", "regimes"), axis(["sigma_e_hat"], (-1.0, 1.0), 5)
     peaks = Spec(("peaks",), band=BAND, **runs)
     clearances = axis(FORCES, (0.2, 5.0), 4, "logarithmic")
     forces = axis(FORCES, tuples=[[0.4, 0.4], [0.0, 1.0]])

@@ -36,7 +36,7 @@ def test_basins_without_an_orbit_are_those_of_boxes_at_rest():
 
 
 def test_forces_too_weak_for_a_response_are_drawn_without_one():
-    spec = Spec(("amplitudes", "envelopes", "energy", "regimes"), 1, 1, 30, 20, observation=OBSERVATION)
+    spec = Spec(("amplitudes", "energy", "regimes"), 1, 1, 30, 20, observation=OBSERVATION)
     band = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 3}
     forces = axis(["f10_hat", "f20_hat"], listed=[0.05, 0.06])
     grids = Grid(STILL, [axis(**band), forces]), Grid(STILL, [forces])

@@ -106,9 +106,9 @@ OF_BALLS = ["label", *PLACE, "ratio", "impact_share"]
 ONE_TO_ONE = {"theory": by_theory, "symmetric orbits": by_exact_orbits}
 LINES = {
     "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
-    "best absorbers": {"color": BLACK, "linestyle": (0, (4, 1.5)), "linewidth": 0.9},
+    "best absorbers": {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9},
 }
-"""Line styles of the linear systems in the figure."""
+"""Line styles of the linear systems, also in `machines` and `companion_absorber`."""
 CIRCLES = {"color": BLACK, "marker": "o", "markersize": 3.2, "markeredgewidth": 0.7, "linewidth": 0.7}
 LEAST, MOST = 1.8, 1.3
 """Lower end of the vertical axis, and ratio of its upper end to the highest response without balls."""

@@ -10,6 +10,7 @@ from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, heading, new_figure, styled
 from vibroimpact.studies.absorbers.tuning import compared
+from vibroimpact.studies.figures.companion_response import LINES
 from vibroimpact.system import PhysicalSystem
 
 SPEC = {
@@ -71,10 +72,6 @@ SPEC = {
 
 MM = 1000.0
 """Millimetres in a metre."""
-LINES = {
-    "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
-    "best absorbers": {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9},
-}
 DASHES = (1, 1.2), (5, 1.5, 1, 1.5), (5, 1.5, 1, 1.5, 1, 1.5), (8, 2)
 """Line styles of the clearances; the clearance with the lowest peak has a bold solid line."""
 BOX, BALL = {"color": GREY, "linewidth": 1.6}, {"color": BLACK, "linewidth": 0.7}
