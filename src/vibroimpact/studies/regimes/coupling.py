@@ -1,4 +1,4 @@
-"""Patterns of asymmetric flights of both balls, from weak to strong coupling, and the power dissipated by impacts.
+"""Patterns of asymmetric flights of both balls, from weak to strong coupling.
 
 The flight asymmetry v of a ball is the difference of its two flight times, divided by the period. The balls may be
 asymmetric in phase (IN_PHASE) or in antiphase (ANTIPHASE), each with a mirror image (docs/derivation.md, section 14).
@@ -8,10 +8,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from vibroimpact.exact.lanes.ensemble import ensemble, finals
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
 from vibroimpact.exact.orbits.newton import newton
-from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.studies.regimes.families import (
     FOLD,
     GRAZING,
@@ -29,16 +27,12 @@ LEAST_ASYMMETRY = 0.05
 """Smallest |v| at which the flights of a ball count as asymmetric."""
 STEP, SHARP = 0.1, 3e-5
 """Longest and shortest step in the logarithm of the coupling."""
-_NEAR = 0.01
 _SAME_BRANCH, _AT_THE_END = 0.1, 5e-3
 
 
-def coupled(system, alpha12_hat: float, held: bool = False):
-    """Return the system with another coupling spring.
-
-    The coupling damper changes in proportion, or stays the same if `held`.
-    """
-    scale = 1.0 if held or not system.alpha12_hat else alpha12_hat / system.alpha12_hat
+def coupled(system, alpha12_hat: float):
+    """Return the system with another coupling spring; the coupling damper changes in proportion."""
+    scale = alpha12_hat / system.alpha12_hat if system.alpha12_hat else 1.0
     return system.with_(alpha12_hat=alpha12_hat, gamma12_hat=system.gamma12_hat * scale)
 
 
@@ -129,30 +123,3 @@ def _end(orbit):
     if abs(mu.imag) > _AT_THE_END:
         return NEIMARK_SACKER
     return FOLD if mu.real > 0 else PERIOD_DOUBLING
-
-
-def asymmetric_orbits(system, both: bool = True) -> list:
-    """Return the stable asymmetric orbits of a system; if `both`, only those with two asymmetric balls."""
-    found = [one for one in orbits(system) if not one.symmetric and one.admissible and one.stable]
-    return [one for one in found if pattern(one) or not both]
-
-
-def shares(asymmetric, states, cycles: int) -> dict[str, float]:
-    """Return, by pattern, the fraction of the initial states `states`, (n, 8), that end on an orbit of this pattern.
-
-    asymmetric: the orbits. cycles: number of forcing cycles after which the states are compared with the orbits.
-    """
-    ends = finals(asymmetric[0].system, states, cycles)
-    near = {name: np.zeros(len(ends), bool) for name in (IN_PHASE, ANTIPHASE)}
-    for orbit in asymmetric:
-        near[pattern(orbit)] |= np.abs(ends - orbit.state).max(axis=1) < _NEAR
-    return {name: float(reached.mean()) for name, reached in near.items()}
-
-
-def impact_power(system, states, cycles: int, settle: int = 0) -> np.ndarray:
-    """Return the mean power dissipated by all impacts for each initial state (n, 8), shape (n,).
-
-    The unit is M L^2 omega_10^3.
-    """
-    runs = ensemble(system, states, cycles, settle=settle, energy=True)
-    return runs["energy"]["impacts"].sum(axis=-1) / ((cycles - settle) * system.period)
