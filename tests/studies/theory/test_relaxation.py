@@ -1,13 +1,12 @@
 """The relaxation closure: on the manifold it is the slow flow, it loses balls at the fold and no earlier."""
 
 import numpy as np
-import pytest
 from scipy.linalg import expm
 
 import vibroimpact as vi
 from chapter import PARAMETERS
 from vibroimpact.studies.theory.asymmetric_points import fixed_points
-from vibroimpact.studies.theory.relaxation import _mean_length, describing_function, lost_at, relax
+from vibroimpact.studies.theory.relaxation import describing_function, lost_at, relax
 from vibroimpact.theory.manifold import B_min, B_of_C, C_min, rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, impedances
 
@@ -46,7 +45,6 @@ def test_a_stable_point_holds_both_balls_for_good():
     b = point.B * np.exp(-1j * point.psi)
     found = relax(system, 30, 0, start=b)
     assert found.share.tolist() == [1, 1]
-    assert np.isnan(found.bursts).all()
     np.testing.assert_allclose(found.largest, point.B, rtol=1e-3)
 
 
@@ -74,12 +72,3 @@ def test_the_pair_of_fig_10_8_is_lost_where_its_module_passes_the_fold():
     assert above.C[0] > C_min(R) > below.C[0]
     assert (above.slow_verdict(), above.fast_verdict(EQUAL.kappa)) == ("stable", "stable")
     assert (below.slow_verdict(), below.fast_verdict(EQUAL.kappa)) == ("unstable", "unstable")
-
-
-@pytest.mark.parametrize(
-    ("states", "mean"),
-    [([1, 1, 0, 1, 1, 1, 0, 1, 0], 2.0), ([0, 1, 1, 0, 1], 2.0), ([1, 1, 0, 0], np.nan), ([0, 1, 1, 1], np.nan)],
-)
-def test_bursts_count_that_have_begun_and_ended(states, mean):
-    """One that was on at the start does not, nor one still on at the end."""
-    np.testing.assert_equal(_mean_length(np.array(states, dtype=float)), mean)

@@ -109,9 +109,9 @@ SPEC = {
                 "flow and simulated ([derivation](derivation.md), section 12), two rows per path.",
             "columns": {
                 "path": {},
-                "source": {"meaning": "slow flow: a ball enters and leaves resonance again and again, as computed for "
-                    "`relaxation.csv`. simulation: a start reaches a strongly modulated or chaotic response",
-                    "unit": "text", "values": ["slow flow", "simulation"]},
+                "source": {"meaning": "slow flow: a ball enters and leaves resonance again and again. simulation: a "
+                    "start reaches a strongly modulated or chaotic response", "unit": "text",
+                    "values": ["slow flow", "simulation"]},
                 "first, last": {"meaning": "ends of the longest range of `p` with modulated responses at every value; "
                     "blank if there is none", "unit": "dimensionless"},
                 "uncertainty": {"meaning": "uncertainty of the ends: distance between values of `p`",

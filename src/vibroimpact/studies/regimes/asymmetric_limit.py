@@ -11,11 +11,8 @@ import numpy as np
 
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions
 from vibroimpact.exact.orbits.newton import follow as from_root
-from vibroimpact.exact.orbits.search import asymmetric_orbit
 from vibroimpact.exact.orbits.symmetric import wrapped
-from vibroimpact.studies.regimes.epsilon_limit import Comparison, paired
 from vibroimpact.studies.regimes.families import AsymmetricOrbits, flight_fractions
-from vibroimpact.system.matrices import dynamic_stiffness
 
 _SYMMETRIC = 1e-6  # v^2 below which an orbit is symmetric within the accuracy of Newton's method
 _LIMIT_DISTANCE = 0.01
@@ -35,14 +32,6 @@ class Station:
         u = flight_fractions(self.system, self.root)
         middle = self.system.Omega * (self.root[:4:2] + u * self.system.period / 2)
         return np.concatenate([AsymmetricOrbits.amplitudes(self.system, self.root), (1 - 2 * u) ** 2, middle])
-
-    @property
-    def box_amplitudes(self) -> np.ndarray:
-        """Amplitudes B_1, B_2 of the first harmonic of U_i = X_i + epsilon Y_i, shape (2,), from forces and impacts."""
-        system, turns = self.system, np.exp(-1j * self.system.Omega * self.root[:4].reshape(2, 2))
-        kicks = 2j / system.period * self.root[4:] * (turns[:, 0] - turns[:, 1])
-        boxes = np.linalg.solve(dynamic_stiffness(system), system.forcing - system.epsilon * kicks)
-        return np.abs(boxes - system.epsilon * kicks / system.Omega**2)
 
 
 def follow(system, root, values) -> list[Station]:
@@ -94,10 +83,3 @@ def onset(stations) -> float:
     skew = np.array([station.place[2:4].max() for station in last])
     weights = [np.prod(np.delete(skew, k) / (np.delete(skew, k) - skew[k])) for k in range(len(last))]
     return max(0.0, float(epsilon @ weights))
-
-
-def distance_to_limit(station, point) -> Comparison:
-    """Compare the coordinates (`Station.place`) and multipliers of an orbit with those of a fixed point."""
-    system = station.system
-    exact = asymmetric_orbit(system, station.root).multipliers
-    return paired(system, offset(station, point), exact, point.slow_eigenvalues, point.fast(system.kappa))

@@ -29,13 +29,10 @@ _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 class Relaxation:
     """Statistics of both modules in a relaxation oscillation, each (..., 2).
 
-    bursts: mean length, in forcing periods, of the intervals in resonance that begin and end in the time observed; nan
-        if there are none.
     share: share of the time observed in which each ball is in resonance.
     largest: largest amplitude B of each box.
     """
 
-    bursts: np.ndarray
     share: np.ndarray
     largest: np.ndarray
 
@@ -78,19 +75,7 @@ def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Re
         resonant = np.where(resonant, size > lowest, size >= RETURN)
         if number >= 0:
             sizes[number], states[number] = size, resonant
-    bursts = np.apply_along_axis(_mean_length, 0, states) / _PER_CYCLE
-    return Relaxation(bursts, states.mean(axis=0), sizes.max(axis=0))
-
-
-def _mean_length(states):
-    """Return the mean length, in steps, of the intervals in resonance that both begin and end in `states`.
-
-    states: 1 for each step in resonance, else 0, shape (n,). The result is nan if there is no such interval.
-    """
-    changes = np.diff(states)
-    begins, ends = np.flatnonzero(changes > 0), np.flatnonzero(changes < 0)
-    ends = ends[ends > begins[0]] if len(begins) else ends[:0]
-    return np.mean(ends - begins[: len(ends)]) if len(ends) else np.nan
+    return Relaxation(states.mean(axis=0), sizes.max(axis=0))
 
 
 def lost_at(system, point) -> float:

@@ -94,14 +94,6 @@ class EpsilonRange(Section):
 
     epsilon: fields.items(fields.Epsilon, 2, 2, "First and last value")
     values: fields.count("Number of values, evenly spaced on a logarithmic scale", 3, fields.MAX_VALUES)
-    fit_below: float = Field(
-        gt=0, le=10, description="Fit orders to values of epsilon below this; at least two must be below"
-    )
-
-    def conditions(self):
-        low, high = sorted(self.epsilon)
-        if self.fit_below <= (second := low * (high / low) ** (1 / (self.values - 1))):
-            yield ("fit_below",), f"{self.fit_below} should be above the second lowest value, {second:g}"
 
 
 class Asymmetric(EpsilonRange):
@@ -113,7 +105,15 @@ class Asymmetric(EpsilonRange):
 class EpsilonLimit(EpsilonRange):
     """Comparison of the theory with exact responses as epsilon tends to 0."""
 
+    fit_below: float = Field(
+        gt=0, le=10, description="Fit orders to values of epsilon below this; at least two must be below"
+    )
     mixed: Mixed | None = None
+
+    def conditions(self):
+        low, high = sorted(self.epsilon)
+        if self.fit_below <= (second := low * (high / low) ** (1 / (self.values - 1))):
+            yield ("fit_below",), f"{self.fit_below} should be above the second lowest value, {second:g}"
 
 
 class Regimes(Section):
