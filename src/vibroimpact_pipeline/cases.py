@@ -7,7 +7,7 @@ import copy
 
 CHAPTER = ("equal", "unequal", "weak")
 """Cases of the chapter. A config may omit some of them (see `with_cases`)."""
-SINGLE = ("accuracy.benchmark", "report.force_sweep", "regimes.branches", "regimes.basins")
+SINGLE = ("accuracy.benchmark", "regimes.branches", "regimes.basins")
 COLLECTIONS = ("accuracy.problems", "report.animations", "sweeps")
 
 

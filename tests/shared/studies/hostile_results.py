@@ -16,7 +16,6 @@ SHOWN = {
     "companions": ["companion_basins"],
     "accuracy": ["work_precision", "stress_tests", "grazing", "models"],
     "animations": ["waves"],
-    "force_sweep": ["force_sweep"],
     "nudge": ["nudge"],
 }
 PICTURE = '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"><rect width="9" height="9"/></svg>'
@@ -39,10 +38,6 @@ def config() -> dict:
 def results(folder: Path) -> Path:
     """Write results in which every text is hostile, and return their folder."""
     numbers = {"C1": 1.0, "C2": 1.1, "B1": 0.1, "B2": 0.2, "psi1": 0.3, "psi2": 0.4}
-    point = {"label": HOSTILE, "track": 1, "C": [1.0, 1.1], "B": [0.1, 0.2], "verdicts": {"slow": HOSTILE}}
-    orbit = {"track": 1, "C": [1.0, 1.1], "exact": HOSTILE, "multipliers": [[2.0, 0.0], [0.5, 0.1]]}
-    sweep = {"values": [0.4, 0.5], "points": [[point], [point]], "manifold": {HOSTILE: [[0.0, 1.0], [1.0, 0.1]]}}
-    sweep |= {"orbits": [[orbit], [orbit]]}
     motion = {name: [0.0, 0.5] for name in ("t", "X1", "Y1", "X2", "Y2")} | {HOSTILE: [HOSTILE]}
     moving = {"cycles": 1, "places": [-3.0, 3.0], "motion": motion, "impacts": [[0.25, 1, 1]], "note": HOSTILE}
     run = {"error_state": 1e-9, "missed": 0, "spurious": 0, "seconds_per_cycle": 1e-6}
@@ -53,13 +48,13 @@ def results(folder: Path) -> Path:
     record |= {"steps": [{"method": HOSTILE, "digits": HOSTILE, "files": [HOSTILE]}], "versions": {HOSTILE: HOSTILE}}
     places = {figure: "figures" for figures in SHOWN.values() for figure in figures}
     places |= dict.fromkeys(("work_precision", "stress_tests", "grazing", "models"), "accuracy")
-    places |= {"waves": "animations", "force_sweep": "force_sweep", "nudge": "nudge"}
+    places |= {"waves": "animations", "nudge": "nudge"}
     texts = {f"{place}/{figure}.provenance.json": json.dumps(record) for figure, place in places.items()}
     texts |= {f"{place}/{figure}.svg": PICTURE for figure, place in places.items()}
     texts |= {f"notebooks/{figure}.html": "<!DOCTYPE html><head></head>" for figure in ("fig10_06", "mine")}
     pushed = moving | {"flights": [], "distance": [1.0], "multiplier": [2.0], "label": [HOSTILE]}
     numbered = [claim | {"numbers": None}, claim | {"place": "Fig. 10.6", "numbers": {HOSTILE: [HOSTILE, 1.0]}}]
-    data = {"animations/waves": moving, "nudge/nudge": pushed, "force_sweep/force_sweep": sweep, "claims": numbered}
+    data = {"animations/waves": moving, "nudge/nudge": pushed, "claims": numbered}
     texts |= {f"{name}.json": json.dumps(content) for name, content in data.items()}
     hostile = dict.fromkeys(("case", "label", "exact", "printed_10_26", "fast", "slow", "theory"), HOSTILE)
     points = [{"case": case, "label": label} for case in (HOSTILE, "equal") for label in (HOSTILE, "a", "b", "c")]
@@ -75,7 +70,6 @@ def results(folder: Path) -> Path:
         "accuracy/choices.csv": [run | {"error": 1e-6, "choice": 1, "wrong": 0}],
         "accuracy/stress_tests.csv": [run | {"group": HOSTILE, "test": HOSTILE, "verdict": "right"}],
         "sweeps/regime_map.csv": [{"f10_hat": 0.5, "f20_hat": 0.5, "note": HOSTILE} | dict.fromkeys(REGIMES, 0.1)],
-        "force_sweep/force_sweep.csv": [{"value": 0.4, "theory": HOSTILE}, {"value": 0.5, "theory": "stable"}],
         "regimes/special_points.csv": [
             {"path": "f20_hat", "family": "fixed point", "kind": HOSTILE, "p": 0.45, "admissible": True}
         ],

@@ -23,7 +23,7 @@ def package(studied):
 def test_it_has_all_tables_of_a_build_but_those_that_others_gather(package):
     folder, described = package
     gathered = re.compile(
-        r"(fixed_points|orbits|verdicts)/\w+\.csv|accuracy/benchmark\.csv|sweeps/\w+/tiles/.*|(report|force_sweep)/.*"
+        r"(fixed_points|orbits|verdicts)/\w+\.csv|accuracy/benchmark\.csv|sweeps/\w+/tiles/.*|report/.*"
     )
     tables = {str(path.relative_to(folder)) for path in folder.rglob("*.csv")}
     found = {resource["path"] for resource in described["resources"]}

@@ -15,7 +15,6 @@ from vibroimpact.studies.figures import (
     companion_coupling,
     companion_epsilon,
     companion_response,
-    force_sweep,
 )
 from vibroimpact.studies.regimes.epsilon_limit import distance_to_orbit
 from vibroimpact.studies.sweeps.grid import Grid, axis
@@ -64,10 +63,6 @@ def test_a_path_without_special_points_says_none():
 
 
 def test_without_fixed_points_or_asymmetric_orbits_the_manifold_is_shown():
-    tables = force_sweep.compute(STILL, (0.0, 0.01), 2, 2.0)
-    assert tables["csv"].empty
-    assert tables["manifold"]["C"].max() == pytest.approx(2.0)
-    force_sweep.draw(tables)
     orbits = pd.DataFrame(columns=["case", "label", "symmetric", "C1", "C2"])
     tables = companion_asymmetric.compute({"still": STILL}, orbits, STILL.kappa, [0.1, 0.01], 3, 2.5)
     assert [len(tables[name]) > 0 for name in ("csv", "pairs", "points")] == [True, False, False]
@@ -117,6 +112,3 @@ def test_a_single_machine_is_compared_with_its_orbits():
     tables = companion_asymmetric.compute({"single": system}, orbits, system.kappa, [0.1, 0.01], 3, 2.5)
     assert len(tables["pairs"])
     companion_asymmetric.draw(tables)
-    tables = force_sweep.compute(system.with_(f10_hat=0.0), (1.8, 2.0), 2, 2.0)
-    assert tables["csv"]["track"].nunique() == 1
-    force_sweep.draw(tables)

@@ -13,7 +13,6 @@ from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.studies.regimes import families as kinds
 from vibroimpact.studies.regimes.branches import Path, branches
 from vibroimpact.studies.regimes.families import AsymmetricOrbits, FixedPoints, SymmetricOrbits
-from vibroimpact.studies.regimes.followed import followed
 
 INTERVAL, SEEDS = (0.65, 1.3), (0.89, 1.1)
 
@@ -226,16 +225,6 @@ def test_a_seed_at_a_resonance_is_skipped_with_its_reason(chapter):
     for p in (-0.07, 0.04):
         roots = roots_at(FixedPoints, system.with_(sigma_e_hat=p))
         assert matched([C for one in found for C in crossings(one, p)], roots)
-
-
-def test_a_slider_skips_a_resonance(chapter):
-    """At Omega = 1/2 the second harmonic of the impacts is at the resonance of the undamped boxes, 1."""
-    undamped = dict(sigma20_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
-    systems = {value: chapter(sigma_e_hat=value, **undamped) for value in (-5.1, -5.0, -4.9)}
-    with pytest.raises(ValueError, match="resonance"):
-        vi.orbits(systems[-5.0])
-    with pytest.warns(UserWarning, match=r"^asymmetric orbit: skipped a search: [^\n]*resonance[^\n]*$"):
-        assert {value for value, _ in followed(systems)} <= {-5.1, -4.9}
 
 
 def test_a_parameter_may_begin_at_the_end_of_its_domain(chapter):

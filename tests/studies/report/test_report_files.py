@@ -65,7 +65,7 @@ def test_every_page_says_what_it_may_do_and_is_light(site):
 
 def test_every_figure_is_shown_and_every_table_can_be_downloaded(site, pages):
     offered = {link for page in pages.values() for link in page.links}
-    made = [path for folder in ("figures", "accuracy", "force_sweep") for path in (site.parent / folder).glob("*.csv")]
+    made = [path for folder in ("figures", "accuracy") for path in (site.parent / folder).glob("*.csv")]
     shown = {link.split("/")[-1] for link in offered if link.startswith("_images/")}
     assert {path.name for path in (site / "figures").glob("*.svg")} <= shown
     assert {f"fig10_{number:02d}.svg" for number in range(1, 12)} <= shown

@@ -9,7 +9,6 @@ import vibroimpact as vi
 from chapter import PARAMETERS
 from configs import GOOD
 from pipeline_trees import ROOT
-from vibroimpact.theory.manifold import B_of_C, rho
 
 ANIMATIONS = GOOD["report"]["animations"]
 PAGES = sorted(
@@ -78,39 +77,6 @@ def test_trouble_on_a_page_would_be_seen(browser, tmp_path):
     assert all(words in found for words in ("ERR_FILE_NOT_FOUND", "said", "undefinedFunction"))
     assert any(url.startswith("http://127.0.0.1") for url in browser.requests)
     assert browser.barriers()
-
-
-ROWS = """[...document.querySelectorAll('[data-force-sweep] tbody tr')].map(
-  row => [...row.cells].map(cell => cell.textContent))"""
-LETTERS = """Object.fromEntries([...document.querySelectorAll('[data-force-sweep] .planes svg')[1]
-  .querySelectorAll('[data-label]')].map(disc =>
-    [disc.dataset.label, [disc.getAttribute('stroke'), Number(disc.getAttribute('cx'))]]))"""
-
-
-def test_the_slider_of_the_force_shows_the_points_of_the_results_by_keyboard(browser, site):
-    """Places, letters and verdicts at both cases; all on the manifold; colour and place go on from step to step."""
-    browser.open(address(site, "fixed_points"))
-    table = pd.read_csv(site.parent / "fixed_points.csv").set_index("label")
-    browser.page.focus("#f20")
-    before = start = browser.run(LETTERS)
-    for step in range(12):
-        rows = browser.run(ROWS)
-        for C, B in [(float(row[i]), float(row[i + 1])) for row in rows for i in (2, 4)]:
-            assert B_of_C(C, rho(PARAMETERS["kappa"])) == pytest.approx(B, abs=2e-3)
-        if step in (0, 11):
-            expected = table.query(f"case == '{'unequal' if step else 'equal'}'")
-            for _, label, C1, _, C2, _, printed, masri, slow, _, exact in rows:
-                row = expected.loc[label]
-                assert (float(C1), float(C2)) == pytest.approx((row["C1"], row["C2"]), abs=6e-4)
-                assert [printed, masri, slow, exact] == row[["printed_10_26", "fast", "slow", "exact"]].tolist()
-            assert len(rows) == len(expected)
-        browser.press("ArrowLeft")
-        now = browser.run(LETTERS)
-        assert {letter: hue for letter, (hue, _) in now.items()} == {letter: hue for letter, (hue, _) in start.items()}
-        assert all(abs(now[letter][1] - place) < 6 for letter, (_, place) in before.items())
-        before = now
-    browser.run("document.querySelectorAll('[data-force-sweep] button')[1].click()")
-    assert browser.run("document.querySelector('[data-force-sweep] output').textContent") == "0.89"
 
 
 @pytest.mark.thorough

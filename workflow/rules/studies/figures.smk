@@ -60,8 +60,7 @@ COMPANIONS = {
         "inputs": {"frequency": "results/sweeps/frequency_response.csv", "force": "results/sweeps/clearance.csv"},
     },
     "companion_stability": {"inputs": {"points": "results/fixed_points.csv"}},
-    "force_sweep": {"case": "report.force_sweep.case", "settings": ["report.force_sweep.*"], "folder": "force_sweep"},
-    "nudge": {"case": "report.force_sweep.case", "folder": "nudge"},
+    "nudge": {"case": "figures.fig10_06.case", "folder": "nudge"},
 }
 
 

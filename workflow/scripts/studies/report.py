@@ -51,7 +51,6 @@ def groups(figures: list[str], charts: list[str], config: dict) -> dict[str, lis
         "companions": companions,
         "accuracy": list(charts),
         "animations": list(config["report"]["animations"]),
-        "force_sweep": ["force_sweep"],
         "nudge": ["nudge"],
     }
 

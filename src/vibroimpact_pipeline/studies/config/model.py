@@ -43,24 +43,10 @@ class Animation(Section):
     cycles: fields.count("Length, at most window_cycles of the case [forcing periods]", 1, 1000)
 
 
-class ForceSweep(Section):
-    """The slider that varies f20_hat on the page of fixed points; all other parameters are those of the case."""
-
-    case: fields.CaseName
-    range: fields.Forces
-    values: fields.count("Number of values of f20_hat", 2, fields.MAX_VALUES)
-    C_max: fields.Amplitude = Field(description="Right end of the planes")
-
-    def conditions(self):
-        if self.range[1] - self.range[0] < 1e-6 * (self.values - 1):
-            yield ("values",), f"{self.values} values in {self.range} should differ in six decimals"
-
-
 class Report(Section):
-    """Interactive parts of the report: animations and the slider of the fixed points."""
+    """Interactive parts of the report."""
 
     animations: fields.named(Animation, 0, 10) = Field(description="Animations by name")
-    force_sweep: ForceSweep
 
 
 class Studies(Section):

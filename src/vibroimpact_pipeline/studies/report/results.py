@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 KINDS = ("csv", "svg", "pdf", "png")
-FOLDERS = ("figures", "accuracy", "force_sweep", "animations", "nudge")
+FOLDERS = ("figures", "accuracy", "animations", "nudge")
 
 
 class Results:

@@ -1,11 +1,11 @@
-"""What the animation and the control show: the frames of a simulated motion, fixed points along a force."""
+"""What the animations show: the frames of a simulated motion."""
 
 import numpy as np
 import pytest
 
 import vibroimpact as vi
 from figure_tables import system_of, tables_of_run
-from vibroimpact.studies.figures import animation, force_sweep, nudge
+from vibroimpact.studies.figures import animation, nudge
 
 EQUAL = system_of("equal")
 
@@ -65,41 +65,3 @@ def test_where_no_motion_that_is_called_stable_is_unstable_there_is_nothing_to_n
     tables = nudge.compute(EQUAL.with_(f10_hat=0.5, f20_hat=0.5))
     assert all(len(table) == 0 for table in tables.values())
     assert len(nudge.draw(tables).axes) == 2
-
-
-@pytest.fixture(scope="module")
-def swept():
-    return force_sweep.compute(EQUAL, (0.6, 1.3), 71, 2.5)
-
-
-def test_a_track_moves_without_jumps_and_keeps_to_one_point(swept):
-    """Away from the fold at 0.69778, where two points appear and move with the square root."""
-    points = swept["csv"]
-    points = points[points["value"] > 0.72]
-    assert points["track"].nunique() == 3
-    for _, track in points.groupby("track"):
-        assert track["value"].is_unique
-        steps = np.abs(np.diff(track[["C1", "C2"]].to_numpy(), axis=0))
-        assert steps.max() < 0.06
-
-
-def test_the_asymmetric_orbits_are_followed_to_where_they_lose_their_stability(swept):
-    """At 0.817, a Neimark-Sacker bifurcation: there a pair leaves the unit circle. At 1 they are those of a search."""
-    pair = swept["orbits"].query("track == @force_sweep.ASYMMETRIC_TRACK")
-    modulus = np.hypot(pair["real"], pair["imag"]).groupby(pair["value"]).max()
-    assert modulus.index.tolist() == swept["csv"]["value"].unique().tolist()
-    assert ((modulus < 1) == (modulus.index > 0.817)).all()
-    crossing = pair[(pair["value"] == 0.81) & (np.hypot(pair["real"], pair["imag"]) > 1)]
-    assert (crossing["imag"].abs() > 0.1).tolist() == [True, True]
-    stable = [orbit for orbit in vi.orbits(EQUAL) if orbit.admissible and orbit.stable]
-    (found,) = pair.query("value == 1")[["C1", "C2"]].drop_duplicates().to_numpy()
-    for orbit in stable:
-        np.testing.assert_allclose(found, orbit.C, atol=1e-10)
-    assert len(stable) == 2
-
-
-def test_multipliers_of_the_orbits_of_the_points_decide_on_their_verdict(swept):
-    rows = swept["orbits"].query("track != @force_sweep.ASYMMETRIC_TRACK")
-    modulus = np.hypot(rows["real"], rows["imag"]).groupby([rows["value"], rows["track"]]).max()
-    verdicts = swept["csv"].set_index(["value", "track"])["exact"]
-    assert ((modulus < 1) == (verdicts[modulus.index] == "stable")).all()
