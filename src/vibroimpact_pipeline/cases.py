@@ -8,15 +8,15 @@ import copy
 CHAPTER = ("equal", "unequal", "weak")
 """Cases of the chapter. A config may omit some of them (see `with_cases`)."""
 SINGLE = ("accuracy.benchmark", "regimes.branches", "regimes.basins")
-COLLECTIONS = ("accuracy.problems", "report.animations", "sweeps")
+COLLECTIONS = ("accuracy.problems", "sweeps")
 
 
 def with_cases(config: dict) -> dict:
     """Return a copy of a config in which every entry that needs a case names its case.
 
     An entry without a case gets `default_case`, or the first case if the config sets no default. The chapter's figures
-    must name their case. If the config omits a case of the chapter (`CHAPTER`), the figures and animations that name it
-    are removed, and also `regimes.epsilon.mixed` if it names it. Other entries that name it get the default case.
+    must name their case. If the config omits a case of the chapter (`CHAPTER`), the figures that name it are removed,
+    and also `regimes.epsilon.mixed` if it names it. Other entries that name it get the default case.
     Malformed entries are left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)
@@ -28,7 +28,7 @@ def with_cases(config: dict) -> dict:
     missing = [case for case in CHAPTER if cases.get(case) is None]
 
     figures = _at(config, "figures")
-    for shown in (figures, _at(config, "report.animations"), _at(config, "regimes.epsilon")):
+    for shown in (figures, _at(config, "regimes.epsilon")):
         for name in [name for name, entry in shown.items() if isinstance(entry, dict) and entry.get("case") in missing]:
             del shown[name]
     entries = [_at(config, entry) for entry in SINGLE]

@@ -1,6 +1,6 @@
 """Compute and write the tables of one figure, and draw the figure from the written tables.
 
-For an interactive page, the data of the page are also written as JSON. For an animated figure, a GIF is written.
+For a figure that also moves, a GIF and the data of its interactive part are written.
 """
 
 import json
@@ -30,8 +30,7 @@ with running(snakemake) as out:
     computed = module.compute(**arguments(snakemake.params, snakemake.input))
     write_and_draw(module, computed, vars(out))
     if "json" in vars(out):
-        data = module.page_data(computed, **snakemake.params.settings)
+        data = module.page_data(computed)
         Path(out.json).write_text(json.dumps(data, separators=(",", ":")) + "\n", encoding="utf-8")
-    if "gif" in vars(out):
         module.animate(computed, out.gif)
     provenance.write(snakemake, out)

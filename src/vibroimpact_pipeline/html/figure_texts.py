@@ -14,13 +14,10 @@ TEXTS = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", tex
 
 
 def figure_texts(root, config: dict) -> dict[str, dict]:
-    """Return the SPEC of every figure, animation and interactive part by name, filled in for a config (see `words`)."""
+    """Return the SPEC of every figure by name, filled in for a config (see `words`)."""
     known, data = read(root)
-    texts = {name: spec for name, spec in known.items() if name != "animation" and not name.startswith("fig10_")}
-    moving = dict(config.get("report", {"animations": {}}))
-    scenes = {name: shown | {"like": "animation"} for name, shown in moving.pop("animations").items()}
-    scenes |= config["figures"] | moving
-    for figure, scene in scenes.items():
+    texts = {name: spec for name, spec in known.items() if not name.startswith("fig10_")}
+    for figure, scene in config["figures"].items():
         case = scene.get("case")
         known_case = case in config["cases"]
         named = scene | ({"case": title_of(config, case)} if known_case else {})

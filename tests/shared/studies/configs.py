@@ -25,8 +25,6 @@ UNUSUAL = [
     "MINE & sweeps.mine.axes[0] = {along: [sigma20_hat, sigma_e_hat], tuples: [[-20, 0], [1, -20]]} "
     "& sweeps.mine.axes[1] = {along: [epsilon], listed: [0.01, 0.02]}",
     "regimes.epsilon.epsilon = [0.0001, 0.1]",
-    "report.animations = {fast: {case: weak, cycles: 120}}",
-    "figures.conditions = {like: fig10_08, model: float64} & report.animations.case = {case: weak, cycles: 2}",
     f"{UNDAMPED} & machines = ...",
 ]
 

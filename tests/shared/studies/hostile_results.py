@@ -15,7 +15,6 @@ SHOWN = {
     "own": ["mine"],
     "companions": ["companion_basins"],
     "accuracy": ["work_precision", "stress_tests", "grazing", "models"],
-    "animations": ["waves"],
     "nudge": ["nudge"],
 }
 PICTURE = '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"><rect width="9" height="9"/></svg>'
@@ -29,7 +28,6 @@ def config() -> dict:
         "fig10_06": made["figures"]["fig10_06"],
         "mine": {"like": "fig10_07", "case": HOSTILE, "fixed_point": HOSTILE, "periods": HOSTILE},
     }
-    made["report"]["animations"] = {"waves": {"case": HOSTILE, "cycles": 1}}
     made["regimes"]["branches"]["case"] = "equal"
     made["system"][HOSTILE] = HOSTILE
     return made
@@ -48,13 +46,13 @@ def results(folder: Path) -> Path:
     record |= {"steps": [{"method": HOSTILE, "digits": HOSTILE, "files": [HOSTILE]}], "versions": {HOSTILE: HOSTILE}}
     places = {figure: "figures" for figures in SHOWN.values() for figure in figures}
     places |= dict.fromkeys(("work_precision", "stress_tests", "grazing", "models"), "accuracy")
-    places |= {"waves": "animations", "nudge": "nudge"}
+    places |= {"nudge": "nudge"}
     texts = {f"{place}/{figure}.provenance.json": json.dumps(record) for figure, place in places.items()}
     texts |= {f"{place}/{figure}.svg": PICTURE for figure, place in places.items()}
     texts |= {f"notebooks/{figure}.html": "<!DOCTYPE html><head></head>" for figure in ("fig10_06", "mine")}
     pushed = moving | {"flights": [], "distance": [1.0], "multiplier": [2.0], "label": [HOSTILE]}
     numbered = [claim | {"numbers": None}, claim | {"place": "Fig. 10.6", "numbers": {HOSTILE: [HOSTILE, 1.0]}}]
-    data = {"animations/waves": moving, "nudge/nudge": pushed, "claims": numbered}
+    data = {"nudge/nudge": pushed, "claims": numbered}
     texts |= {f"{name}.json": json.dumps(content) for name, content in data.items()}
     hostile = dict.fromkeys(("case", "label", "exact", "printed_10_26", "fast", "slow", "theory"), HOSTILE)
     points = [{"case": case, "label": label} for case in (HOSTILE, "equal") for label in (HOSTILE, "a", "b", "c")]

@@ -29,4 +29,3 @@ def test_entries_without_a_case_take_the_default_and_those_of_a_removed_case_are
     )
     assert made["regimes"]["branches"]["case"] == made["sweeps"]["design"]["case"] == "weak"
     assert made["regimes"]["basins"]["case"] == "unequal"
-    assert list(made["report"]["animations"]) == ["modulated"]

@@ -1,48 +1,13 @@
-"""What the animations show: the frames of a simulated motion."""
+"""The nudge: the frames of its motion, growth by the multiplier, and flights at the end."""
 
 import numpy as np
 import pytest
 
 import vibroimpact as vi
-from figure_tables import system_of, tables_of_run
-from vibroimpact.studies.figures import animation, nudge
+from figure_tables import system_of
+from vibroimpact.studies.figures import nudge
 
 EQUAL = system_of("equal")
-
-
-@pytest.fixture(scope="module")
-def window():
-    """Samples and events of three cycles, with the system."""
-    return *tables_of_run(EQUAL, [0.0] * 8, 60, 3, 40), EQUAL
-
-
-def test_frames_have_every_corner_of_the_motion_and_stills_its_envelope(window):
-    tables = animation.compute(*window, 2)
-    motion, impacts = tables["motion"], tables["impacts"]
-    assert motion["t"].is_monotonic_increasing
-    assert (motion["t"].iloc[0], motion["t"].iloc[-1]) == pytest.approx((0.0, 2.0), abs=1e-9)
-    assert len(impacts) == 8  # two per cycle and module
-    for hit in impacts.itertuples():
-        at_impact = np.interp(hit.t, motion["t"], motion[f"X{hit.module}"] - motion[f"Y{hit.module}"])
-        assert at_impact == pytest.approx(hit.wall, abs=1e-9)
-    for module, axes in enumerate(animation.draw(tables).axes, start=1):
-        seen = motion[motion["t"] < 1 - 1e-9][f"X{module}"].agg(["max", "min"])
-        assert [line.get_ydata()[0] for line in axes.lines[1:]] == pytest.approx(seen.tolist(), abs=1e-3)
-    assert len(animation.draw(animation.compute(*window, 1)).axes) == animation.INSTANTS
-
-
-def test_between_frames_the_ball_flies_straight(window):
-    """Y moves uniformly between impacts, so that the frames follow it exactly, whatever their distance."""
-    samples, events, system = window
-    fine = animation.compute(samples, events, system, 2)["motion"]
-    coarse = animation.compute(samples.iloc[::20], events, system, 2)["motion"]
-    for name in ("Y1", "Y2"):
-        np.testing.assert_allclose(np.interp(fine["t"], coarse["t"], coarse[name]), fine[name], atol=1e-9)
-
-
-def test_more_cycles_than_the_window_has_are_refused(window):
-    with pytest.raises(ValueError, match="cycles: 4"):
-        animation.compute(*window, 4)
 
 
 def test_a_nudged_motion_leaves_with_the_multiplier_and_ends_lopsided():

@@ -7,10 +7,8 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from configs import GOOD
 from pipeline_trees import ROOT
 
-ANIMATIONS = GOOD["report"]["animations"]
 PAGES = sorted(
     path.stem for folder in ("docs", "docs/studies", "report/pages") for path in (ROOT / folder).glob("*.md")
 )
@@ -104,31 +102,6 @@ SOME_FRAMES = """new Promise(done => {
   next(20);
 })"""
 """A loaded machine draws them late, but draws them."""
-
-
-@pytest.mark.thorough
-@pytest.mark.parametrize("number", range(len(ANIMATIONS)))
-def test_an_animation_plays_pauses_and_shows_the_simulated_motion(browser, site, number):
-    scene = list(ANIMATIONS.values())[number]
-    browser.open(address(site, "play"))
-    root = f"document.querySelectorAll('[data-motion]')[{number}]"
-    ball = f"Number({root}.querySelector('circle').getAttribute('cx'))"
-    before = browser.run(ball)
-    browser.run(SOME_FRAMES)
-    assert browser.run(ball) != before, "does not play"
-    browser.run(f"{root}.querySelector('button').focus()")
-    browser.press("Enter")
-    before = browser.run(ball)
-    browser.run(SOME_FRAMES)
-    assert browser.run(ball) == before, "does not pause"
-    browser.run(f"{root}.querySelector('input').focus()")
-    browser.press("Home")
-    samples = pd.read_csv(site.parent / next((site.parent / "simulations" / scene["case"]).glob("*/samples.csv")))
-    for module, place in enumerate([-3.0, 3.0], start=1):
-        circle = f"Number({root}.querySelectorAll('circle')[{module - 1}].getAttribute('cx'))"
-        box = f"{root}.querySelectorAll('svg g')[{module - 1}].transform.baseVal[0].matrix.e"
-        assert browser.run(circle) == pytest.approx(place + samples[f"Y{module}"].iloc[0], abs=1e-3)
-        assert browser.run(box) == pytest.approx(place + samples[f"X{module}"].iloc[0], abs=1e-3)
 
 
 @pytest.fixture

@@ -17,8 +17,6 @@ def hurried(config):
     regimes["modulation"] |= {"starts": 2, "cycles": 60, "blocks": 2, "windows": [60]}
     regimes["basins"]["points"] = 5
     regimes["epsilon"]["values"] = 5  # three of them are small: the order has an uncertainty
-    del config["report"]["animations"]["modulated"]
-    config["report"]["animations"]["strong_in_motion"] = {"case": "strong", "cycles": 2}
     return renamed(config, "unequal", "uneven")
 
 

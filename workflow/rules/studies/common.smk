@@ -4,11 +4,8 @@
 CAPTION = "../../../report/caption.rst"
 
 
-def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=(), folder=None):
-    """Return inputs, outputs and params of a figure, or None if the config lacks an entry that the figure needs.
-
-    A figure with its own `folder` is for an interactive page; its module also returns the data of the page.
-    """
+def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=(), outputs=None):
+    """Return inputs, outputs and params of a figure, or None if the config lacks an entry that the figure needs."""
     try:
         case = at(config, case) if case else None
         inputs = {name: path.format(case=case, model="float64") for name, path in inputs.items()}
@@ -17,11 +14,7 @@ def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()
         params = figure_params(figure, [path.format(case=case) for path in settings], case, systems)
     except LookupError:
         return None
-    outputs = files(figure, "Companion figures", CAPTION)
-    if folder:
-        outputs = figure_files(f"results/{folder}/{figure}", spec(figure)["tables"])
-        outputs |= {kind: f"results/{folder}/{figure}.{kind}" for kind in ("json", *spec(figure).get("animated", []))}
-    return SimpleNamespace(inputs=inputs, outputs=outputs, params=params)
+    return SimpleNamespace(inputs=inputs, outputs=outputs or files(figure, "Companion figures", CAPTION), params=params)
 
 
 def sweep_request(sweep):
@@ -30,8 +23,3 @@ def sweep_request(sweep):
     if "regimes" in sweep["observe"]:
         spec["observation"] = config["regimes"]["observation"]
     return {"system": system_of(sweep["case"]), "axes": sweep["axes"], "spec": spec}
-
-
-def arithmetic(scene):
-    """Return the model of the simulation that an animation shows: reference if its case sets `digits`, else float64."""
-    return "reference" if "digits" in config["cases"][scene["case"]]["simulation"] else "float64"

@@ -7,7 +7,7 @@ include: "common.smk"
 # Arguments of `compute` for each figure. `settings` lists paths of config entries; each argument has the name of the
 # last key of its path, and * means all settings of a section except `case`. `inputs` are tables by name. With `case`, the
 # system of this case is an argument; with `systems`, the systems of all cases are one argument. A figure is omitted if
-# the config lacks one of these entries or an entry in `needs`.
+# the config lacks one of these entries or an entry in `needs`. `outputs` replace those of a companion figure.
 COMPANIONS = {
     "companion_10_05": {"settings": ["stability.companion_10_05.C_range"]},
     "companion_10_08": {
@@ -60,25 +60,20 @@ COMPANIONS = {
         "inputs": {"frequency": "results/sweeps/frequency_response.csv", "force": "results/sweeps/clearance.csv"},
     },
     "companion_stability": {"inputs": {"points": "results/fixed_points.csv"}},
-    "nudge": {"case": "figures.fig10_06.case", "folder": "nudge"},
+    "nudge": {
+        "case": "figures.fig10_06.case",
+        "outputs": figure_files("results/nudge/nudge", {})
+        | {kind: f"results/nudge/nudge.{kind}" for kind in ("json", "gif")},
+    },
 }
 
 
-# Machines in SI units, each with its own page like a figure of the chapter, and the animations of the report.
+# Machines in SI units, each with its own page like a figure of the chapter.
 for name in config["machines"]:
     SCENES[name] = config["machines"][name] | {"like": "machines"}
     COMPANIONS[name] = {"settings": [f"machines.{name}.*"]}
-for name, shown in config["report"]["animations"].items():
-    SCENES[name] = shown | {"like": "animation"}
-    COMPANIONS[name] = {
-        "case": f"report.animations.{name}.case",
-        "settings": [f"report.animations.{name}.cycles"],
-        "inputs": {table: path.replace("{model}", arithmetic(shown)) for table, path in MOTION.items()},
-        "folder": "animations",
-    }
 
 STUDY_FIGURES = {figure: found for figure, takes in COMPANIONS.items() if (found := companion(figure, **takes))}
-PAGE_FIGURES = [figure for figure in STUDY_FIGURES if COMPANIONS[figure].get("folder")]
 
 for figure, found in STUDY_FIGURES.items():
 
@@ -99,11 +94,12 @@ for figure, found in STUDY_FIGURES.items():
             "../../scripts/figure.py"
 
 
-STUDY_DRAWINGS = [figure for figure in STUDY_FIGURES if figure not in PAGE_FIGURES]
-ALL_FIGURES += STUDY_DRAWINGS
+ALL_FIGURES += STUDY_FIGURES
+# Figures with a reference picture; the nudge is a picture of the article.
+STUDY_DRAWINGS = [figure for figure in STUDY_FIGURES if figure != "nudge"]
 
 
 rule companions:
     input:
-        [getattr(rules, figure).output for figure in STUDY_DRAWINGS],
+        [getattr(rules, figure).output for figure in STUDY_FIGURES],
         expand("results/notebooks/{machine}.html", machine=config["machines"]),

@@ -8,7 +8,6 @@ rule report:
         rules.stability.input,
         rules.accuracy.input,
         rules.claims.output,
-        [getattr(rules, figure).output for figure in PAGE_FIGURES],
     output:
         site=directory("results/report"),
     params:
@@ -17,9 +16,7 @@ rule report:
         tables=sorted(
             {table["file"] for one in ALL_FIGURES for name, table in spec(one)["tables"].items() if name != "csv"}
         ),
-        config={
-            name: config[name] for name in ("system", "cases", "figures", "report", "regimes", "stability", "sweeps")
-        },
+        config={name: config[name] for name in ("system", "cases", "figures", "regimes", "stability", "sweeps")},
         code=code(
             "studies/report", "development.lock", "docs", "report", *(["src/vibroimpact"] if SRC.is_dir() else [])
         ),

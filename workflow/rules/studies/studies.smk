@@ -42,5 +42,4 @@ rule studies:
         rules.stability.input,
         rules.claims.output,
         rules.sweeps.input,
-        rules.nudge.output,
         rules.datapackage.output,

@@ -47,11 +47,10 @@ def groups(figures: list[str], charts: list[str], config: dict) -> dict[str, lis
     companions = [figure for figure in figures if figure.startswith("companion_")]
     return {
         "chapter": chapter,
-        "own": [figure for figure in figures if figure not in chapter + companions],
+        "own": [figure for figure in figures if figure not in (*chapter, *companions, "nudge")],
         "companions": companions,
         "accuracy": list(charts),
-        "animations": list(config["report"]["animations"]),
-        "nudge": ["nudge"],
+        "nudge": [figure for figure in figures if figure == "nudge"],
     }
 
 

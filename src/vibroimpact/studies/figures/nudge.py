@@ -12,7 +12,6 @@ from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, heading, new_figure, styled
 from vibroimpact.frames import to_frame
 from vibroimpact.studies.claims.verdict_grid import exact_orbits
-from vibroimpact.studies.figures import animation
 from vibroimpact.system.state import NAMES
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import PRINTED, of_fixed_point
@@ -27,14 +26,15 @@ SPEC = {
     "alt": "Left: the distance from the periodic motion follows a straight line on a logarithmic axis, then stays "
         "large. Right: the flights, at first equal, permanently split into long and short ones.",
     "method": "exact orbit of the fixed point, and a simulation that starts next to it",
-    "animated": ["gif"],
 }  # fmt: skip
 
 PERTURBATION, CYCLES, PER_CYCLE = 1e-6, 40, 40
 """Initial shift of ball 2 from the orbit in units of L, length of the run in forcing periods, samples per period."""
 BALL = "Y2"
+REST_POSITIONS = [-3.0, 3.0]
+"""Rest positions of the boxes in the moving picture, in units of L."""
 COLUMNS = {
-    "motion": ["t", *animation.COORDINATES],
+    "motion": ["t", "X1", "Y1", "X2", "Y2"],
     "impacts": ["t", "module", "wall"],
     "distance": ["t", "distance"],
     "flights": ["t", "length"],
@@ -45,9 +45,11 @@ COLUMNS = {
 def compute(system) -> dict:
     """Perturb the most unstable of the exact orbits whose fixed points (10.26) calls stable, and simulate the motion.
 
-    Returns "motion", "impacts" (see `animation.compute`); "distance": columns t, distance (Euclidean, between state and
-    orbit, once a period); "flights": columns t (end of a flight of ball 2), length (forcing periods); "orbit": label,
-    multiplier (largest modulus). If none of these orbits is unstable, the tables have no rows.
+    Returns tables by name; times t are in forcing periods. "motion": columns t, X1, Y1, X2, Y2, with a row per sample
+    and event, so that straight lines between rows keep the corners at impacts; "impacts": columns t, module, wall;
+    "distance": columns t, distance (Euclidean, between state and orbit, once a period); "flights": columns t (end of a
+    flight of ball 2), length; "orbit": label, multiplier (largest modulus). If none of these orbits is unstable, the
+    tables have no rows.
     """
     label, orbit = _called_stable(system)
     if orbit is None:
@@ -56,15 +58,19 @@ def compute(system) -> dict:
     times = np.arange(CYCLES * PER_CYCLE + 1) / PER_CYCLE
     run = simulate(system, start, CYCLES, sample_times=times * system.period)
     samples = pd.DataFrame(run.samples, columns=NAMES).assign(tau=times * system.period)
-    shown = animation.compute(samples, to_frame(run), system, CYCLES)
-    ends = shown["impacts"].query("module == 2")["t"].to_numpy()
+    moments = pd.concat([samples, to_frame(run)], ignore_index=True)
+    moments = moments.assign(t=moments["tau"] / system.period)
+    impacts = moments[moments["kind"] == "impact"]
+    ends = impacts[impacts["module"] == 2]["t"].to_numpy()
     away = np.linalg.norm(run.samples[::PER_CYCLE] - orbit.state, axis=1)
     rows = {
+        "motion": moments.drop_duplicates("tau").sort_values("tau", ignore_index=True),
+        "impacts": impacts.reset_index(drop=True),
         "distance": np.column_stack([times[::PER_CYCLE], away]),
         "flights": np.column_stack([ends[1:], np.diff(ends)]),
         "orbit": [[label, abs(orbit.multipliers[0])]],
     }
-    return shown | {name: pd.DataFrame(found, columns=COLUMNS[name]) for name, found in rows.items()}
+    return {name: pd.DataFrame(found, columns=COLUMNS[name]) for name, found in rows.items()}
 
 
 def page_data(tables: dict[str, pd.DataFrame]) -> dict:
@@ -72,7 +78,7 @@ def page_data(tables: dict[str, pd.DataFrame]) -> dict:
     rounded = {name: tables[name].astype(float).round(4) for name in ("motion", "impacts", "flights")}
     return {
         "cycles": int(tables["distance"]["t"].max()) if len(tables["distance"]) else 0,
-        "places": list(animation.REST_POSITIONS.values()),
+        "places": REST_POSITIONS,
         "motion": rounded["motion"].to_dict("list"),
         **{name: rounded[name].to_numpy().tolist() for name in ("impacts", "flights")},
         "distance": [float(f"{value:.3g}") for value in tables["distance"]["distance"]],

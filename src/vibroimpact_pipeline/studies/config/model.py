@@ -36,19 +36,6 @@ class Stability(Section):
     verdict_grid: VerdictGrid
 
 
-class Animation(Section):
-    """An animation of the first cycles in the simulated window of a case."""
-
-    case: fields.CaseName
-    cycles: fields.count("Length, at most window_cycles of the case [forcing periods]", 1, 1000)
-
-
-class Report(Section):
-    """Interactive parts of the report."""
-
-    animations: fields.named(Animation, 0, 10) = Field(description="Animations by name")
-
-
 class Studies(Section):
     """Config of the studies. Values are dimensionless and times in forcing periods, except in `machines`."""
 
@@ -57,7 +44,6 @@ class Studies(Section):
     tile_seconds: float = Field(
         20.0, gt=0, le=1e5, description="Approximate run time of each job of a sweep [core seconds]"
     )
-    report: Report
     sweeps: fields.named(Sweep, 0, 100) = Field({}, description="Parameter sweeps by name; companion figures draw some")
     machines: fields.named(Machines, 0, 10) = Field(
         {}, description="Machines in SI units by name; each becomes a figure"
@@ -74,15 +60,10 @@ class Whole(Config, Studies):
                 yield ("sweeps", name, *place), what
         if "self" in self.sweeps:
             yield ("sweeps", "self"), "this name is reserved by Snakemake; rename the sweep"
-        for name, shown in self.report.animations.items():
-            if shown.cycles > (kept := self.cases[shown.case].simulation.window_cycles):
-                what = f"{shown.cycles} should be at most {kept}, the window_cycles of case {shown.case}"
-                yield ("report", "animations", name, "cycles"), what
 
     def named_rules(self) -> Iterator[Place]:
         """Yield the key path of each entry from which a rule of the same name is made."""
         yield from super().named_rules()
-        yield from (("report", "animations", name) for name in self.report.animations)
         yield from (("machines", name) for name in self.machines)
 
     def varied_parameters(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 KINDS = ("csv", "svg", "pdf", "png")
-FOLDERS = ("figures", "accuracy", "animations", "nudge")
+FOLDERS = ("figures", "accuracy", "nudge")
 
 
 class Results:
