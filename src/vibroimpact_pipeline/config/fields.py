@@ -50,11 +50,6 @@ def span(kind, about: str = "Lower and upper end"):
     return items(kind, 2, 2, about, ASCENDING)
 
 
-def around(low: float, high: float):
-    """Return the type of a range within [0, 100] that contains [low, high]."""
-    return tuple[Annotated[float, Field(ge=0, le=low)], Annotated[float, Field(ge=high, le=100)]]
-
-
 def named(kind, least: int, most: int, name: str = NAME):
     """Return the type of a mapping with free names; null removes an entry of an earlier file (see `reading`)."""
     free = Annotated[str, Field(pattern=name)]

@@ -36,7 +36,9 @@ class Manifold(Section):
 class Regions(Section):
     """Figure 10.5."""
 
-    C_range: fields.around(0.6, 1.01) = Field(description="Ends of the axis; it must contain the limit of (10.26)")
+    C_range: tuple[Annotated[float, Field(ge=0, le=0.6)], Annotated[float, Field(ge=1.01, le=100)]] = Field(
+        description="Ends of the axis; it must contain the limit of (10.26)"
+    )
 
 
 class FixedPoints(Section):

@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.accuracy.verdict_table import fixed_point_rows, orbit_rows
+from vibroimpact.accuracy.verdict_table import NO_ORBIT, fixed_point_rows, orbit_rows
 from vibroimpact.figures import fig10_06, fig10_07, fig10_10
 from vibroimpact.studies.figures import (
     companion_asymmetric,
@@ -26,6 +26,12 @@ STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)
 """Too weakly driven for a fixed point, an orbit or an impact."""
 UNCOUPLED = PARAMETERS | {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
 OBSERVATION = {"cycles": 20, "rounds": 1, "window": 8, "nearness": 0.02, "blocks": 2, "block": 5, "retest": 50}
+
+
+def test_without_orbits_fixed_points_are_left_without_multipliers():
+    system = vi.System(**PARAMETERS, f10_hat=0.5, f20_hat=0.5)
+    rows = fixed_point_rows("weak", system, vi.fixed_points(system), orbit_rows("weak", []))
+    assert rows[["orbit", "exact"]].to_numpy().tolist() == [["", NO_ORBIT]]
 
 
 def test_basins_without_an_orbit_are_those_of_boxes_at_rest():

@@ -10,7 +10,7 @@ from vibroimpact_pipeline.result_records import RECORDS
 
 EDITS = [
     ("config/config.yaml", "f20_hat: 0.89", "f20_hat: 0.88", {"companion_branches", "modulation", "claims"}),
-    ("config/studies.yaml", "C_range: [0.5, 2.2]", "C_range: [0.5, 2.0]", {"companion_10_05"}),
+    ("config/studies.yaml", "fit_below: 0.005", "fit_below: 0.006", {"companion_epsilon"}),
 ]
 
 
@@ -51,7 +51,7 @@ def test_the_archive_has_both_layers(studied, tmp_path):
     tree.snakemake("archive")
     packed = unpacked(archive_of(tree), tmp_path)
     assert all((packed / f"results/{name}").is_file() for name in ("claims.json", "fixed_points.csv"))
-    tree.edit("config/studies.yaml", "C_range: [0.5, 2.2]", "C_range: [0.5, 2.0]")
+    tree.edit("config/studies.yaml", "fit_below: 0.005", "fit_below: 0.006")
     commit(tree.path)
     said = tree.dry_run("--rerun-triggers", "mtime", "--", "archive")
-    assert re.search(r"C_range was \[0.5, 2.2\], is now \[0.5, 2.0\].*\. Rebuild first: make figures studies", said)
+    assert re.search(r"fit_below was 0.005, is now 0.006.*\. Rebuild first: make figures studies", said)

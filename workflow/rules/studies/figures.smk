@@ -9,7 +9,6 @@ include: "common.smk"
 # system of this case is an argument; with `systems`, the systems of all cases are one argument. A figure is omitted if
 # the config lacks one of these entries or an entry in `needs`. `outputs` replace those of a companion figure.
 COMPANIONS = {
-    "companion_10_05": {"settings": ["stability.companion_10_05.C_range"]},
     "companion_10_08": {
         "case": "figures.fig10_08.case",
         "inputs": POINTS | MOTION,
@@ -59,7 +58,6 @@ COMPANIONS = {
         "settings": ["sweeps.clearance.band"],
         "inputs": {"frequency": "results/sweeps/frequency_response.csv", "force": "results/sweeps/clearance.csv"},
     },
-    "companion_stability": {"inputs": {"points": "results/fixed_points.csv"}},
     "nudge": {
         "case": "figures.fig10_06.case",
         "outputs": figure_files("results/nudge/nudge", {})

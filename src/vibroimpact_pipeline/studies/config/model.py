@@ -12,14 +12,6 @@ from vibroimpact_pipeline.studies.config.regimes import Regimes
 from vibroimpact_pipeline.studies.config.sweeps import Sweep
 
 
-class Companion1005(Section):
-    """Axis of the companion of figure 10.5."""
-
-    C_range: fields.around(0.6, fields.BEYOND_LIMITS) = Field(
-        description="Ends of the axis; it must contain the derived limits"
-    )
-
-
 class VerdictGrid(Section):
     """Grid of `points` x `points` cells of forcing amplitudes; cell centres get verdicts of theory and exact orbits."""
 
@@ -30,9 +22,8 @@ class VerdictGrid(Section):
 
 
 class Stability(Section):
-    """Axis of the companion of figure 10.5, and the grid on which stability criteria are judged."""
+    """The grid on which stability criteria are judged."""
 
-    companion_10_05: Companion1005
     verdict_grid: VerdictGrid
 
 
