@@ -69,15 +69,6 @@ class Machine {
     this.springs.forEach((line, n) => line.setAttribute("points", Machine.spring(ends[2 * n], ends[2 * n + 1])));
   }
 
-  // Show a simulated motion at time t, by linear interpolation between rows.
-  showFrame({ motion, impacts }, t) {
-    const n = Math.max(0, Math.min(motion.t.findLastIndex((time) => time <= t), motion.t.length - 2));
-    const span = motion.t[n + 1] - motion.t[n], part = span > 0 ? Math.min(1, (t - motion.t[n]) / span) : 0;
-    const [X1, X2, Y1, Y2] = ["X1", "X2", "Y1", "Y2"].map((name) => motion[name][n] + part * (motion[name][n + 1] - motion[name][n]));
-    const since = (module, wall) => Math.min(...impacts.filter((hit) => hit[1] === module && hit[2] === wall && hit[0] <= t).map((hit) => t - hit[0]));
-    this.show([X1, X2], [Y1, Y2], [1, 2].map((module) => [1, -1].map((wall) => since(module, wall))));
-  }
-
   static spring(left, right) {
     const turns = 14, lead = 0.15 * (right - left), step = (right - left - 2 * lead) / turns;
     const inner = Array.from({ length: turns + 1 }, (_, n) => `${left + lead + n * step},${[0, 0.14, 0, -0.14][n % 4]}`);

@@ -65,9 +65,18 @@ class Nudge {
     this.clock.button.textContent = "Play again";
   }
 
+  // Show both boxes at time t, by linear interpolation between the rows of the motion.
+  showMachine({ motion, impacts }, t) {
+    const n = Math.max(0, Math.min(motion.t.findLastIndex((time) => time <= t), motion.t.length - 2));
+    const part = Math.min(1, (t - motion.t[n]) / (motion.t[n + 1] - motion.t[n] || 1));
+    const [X1, X2, Y1, Y2] = ["X1", "X2", "Y1", "Y2"].map((name) => motion[name][n] + part * (motion[name][n + 1] - motion[name][n]));
+    const since = (module, wall) => Math.min(...impacts.filter((hit) => hit[1] === module && hit[2] === wall && hit[0] <= t).map((hit) => t - hit[0]));
+    this.machine.show([X1, X2], [Y1, Y2], [1, 2].map((module) => [1, -1].map((wall) => since(module, wall))));
+  }
+
   show(t) {
     this.t = t;
-    this.machine.showFrame(this.data, t);
+    this.showMachine(this.data, t);
     this.charts[0].show(this.climbs, t);
     this.charts[1].show(this.data.flights, t);
   }

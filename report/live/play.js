@@ -125,6 +125,7 @@ class Play {
     this.data = dataOf(root);
     this.parts = Object.fromEntries([...root.querySelectorAll("[id^=play-]")].map((part) => [part.id.slice(5), part]));
     const { parts, data } = this;
+    for (const one of Object.values(data.cases)) one.points = one.points.map((point) => predicted(point, data.system));
     this.machine = new Machine(parts.machine);
     this.strips = [new Strip(parts.box, 170, false), new Strip(parts.ball, 230, true)];
     this.take(Object.values(data.cases)[0].forces, SETTLED);

@@ -10,7 +10,7 @@ workflow/rules/.
 - sweeps: for each sweep that the figure draws, the axes and observations that the figure needs.
 - columns: for each column of the plotted table, meaning, unit, allowed values, `compared` (a kind of number in
   figure_check/tolerances.yaml, or kinds by series) and `infinite` if infinite values are allowed. file: path of the
-  table, if not the default. on_demand: command that makes the table, if the default build does not.
+  table, if not the default.
 - tables: for each further table that `compute` returns, file, description and columns.
 
 For equations, columns or own, a SPEC may give the name of another figure, whose entry is then used. The key "C1, C2"
@@ -48,8 +48,6 @@ def specs(root=None) -> dict[str, dict]:
         shared = {name: found[others[name]][name] if name in others else spec.get(name) for name in SHARED}
         file = spec.get("file", f"results/figures/{figure}.csv")
         plotted = {"file": file, "about": f"{spec['title']}.", "columns": shared.pop("columns")}
-        if "on_demand" in spec:
-            plotted["on_demand"] = {file: spec["on_demand"]}
         tables = ({"csv": plotted} if plotted["columns"] else {}) | spec.get("tables", {})
         entries = {name: entry for name, entry in spec.items() if name not in ("columns", "file")}
         entries["shares"] = sorted({*others.values()})

@@ -2,12 +2,14 @@
 
 import re
 
+import numpy as np
 import pandas as pd
 import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
 from pipeline_trees import ROOT
+from vibroimpact.theory.response import leading_order
 
 PAGES = sorted(
     path.stem for folder in ("docs", "docs/studies", "report/pages") for path in (ROOT / folder).glob("*.md")
@@ -134,6 +136,17 @@ def test_the_trace_is_the_motion_of_the_library(still):
         frame = f"document.querySelector('#play-{part} .frame')"
         top, height = (f"{frame}.{name}.baseVal.value" for name in ("y", "height"))
         assert still.run(f"(1 - 2 * ({last} - {top}) / {height}) * {end}") == pytest.approx(expected, abs=0.005)
+
+
+def test_the_prediction_is_the_response_at_leading_order(still):
+    system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+    for point in vi.fixed_points(system):
+        C, B, psi = (float(of_modules[1]) for of_modules in (point.C, point.B, point.psi))
+        found = still.run(f"predicted({{C: {C}, B: {B}, psi: {psi}}}, {{epsilon: 0.1, kappa: 0.65}})")
+        tau = np.arange(len(found["X"])) / len(found["X"]) * system.period
+        response = leading_order(system, point, tau)
+        for name in ("X", "W"):
+            np.testing.assert_allclose(found[name], getattr(response, name)[:, 1], atol=1e-9)
 
 
 def test_a_click_on_the_map_shows_exact_motion_and_theory_with_the_multiplier(still):

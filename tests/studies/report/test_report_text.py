@@ -15,10 +15,9 @@ from chapter import FORCES, PARAMETERS
 from configs import GOOD as CONFIG
 from pipeline_trees import ROOT
 from vibroimpact.figures.plotting.markdown import digits
-from vibroimpact.theory.manifold import B_of_C, rho
 from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.html.mathematics import mathml
-from vibroimpact_pipeline.studies.report.live import SAMPLES, live_data, verdict_data
+from vibroimpact_pipeline.studies.report.live import live_data, verdict_data
 from vibroimpact_pipeline.studies.report.pages import Pages, cell, table
 from vibroimpact_pipeline.studies.report.results import Results
 
@@ -50,9 +49,9 @@ def test_captions_fill_from_the_config():
 
 def test_numbers_and_figures_of_documents_are_those_of_the_build():
     """To as many decimals as a document gives, with its sign; where a build has no such value, as it is written."""
-    values = {"x | a": 0.70984, "x | b": -3.17987, "percent | x | c": 69.16}
+    values = {"x | a": 0.70984, "x | b": -3.17987, "percent | x | c": 69.16, "x | times": 1313.4}
     pages = Pages(ROOT, SimpleNamespace(value=lambda place: values[place]), CONFIG, {"chapter": ["one"]})
-    pages.places = {"a": "x | a", "b-1.0": "x | b", "c": "percent | x | c", "d": "x | d"}
+    pages.places = {"a": "x | a", "b-1.0": "x | b", "c": "percent | x | c", "d": "x | d", "e": "x | times"}
     pages.about["one"] = {"alt": "What it shows."}
     text = (
         "[0.69](numbers.yaml#a), [−3.2](numbers.yaml#b-1.0); [70](numbers.yaml#c) %, [5](numbers.yaml#d).\n"
@@ -64,6 +63,7 @@ def test_numbers_and_figures_of_documents_are_those_of_the_build():
     assert re.findall(r"\[(\S+)\]\((#number-.*?)\)", shown) == links
     assert pages.number("c") == (69.16, "results/x | c")
     assert pages.number("d") is None
+    assert pages.with_numbers("[900](numbers.yaml#e)", paper=True) == "1300"  # of one machine
     picture = "```{figure} figures/one.svg\n:alt: What it shows.\n:target: figures/one.svg\n\nOne\n```"
     assert shown.endswith(f"%, 5.\n{picture} \n([see](#one), two)")
     assert pages.with_numbers(text, paper=True).splitlines()[:2] == ["0.71, −3.2; 69 %, 5.", "![One](figures/one.svg) "]
@@ -128,28 +128,21 @@ def test_the_slider_of_epsilon_knows_points_without_an_orbit():
     assert data["theory"] == [[]]
 
 
-def test_predictions_of_the_page_play_are_saw_tooths_on_the_manifold():
-    """Of module 2: W reaches its walls once a cycle; the box, W - Z, has the amplitude B of C on the manifold."""
+def test_the_page_play_has_the_points_of_all_cases_of_one_system():
+    """With the multipliers of `vi.orbits`; the only point of the case weak is unstable by (10.26)."""
     cases = {name: {"f10_hat": f10, "f20_hat": f20} for name, (f10, f20) in FORCES.items()}
-    found = {name: vi.fixed_points(vi.System(**PARAMETERS, **forces)) for name, forces in cases.items()}
-    points = [(name, point.label, "S1", "unstable") for name, listed in found.items() for point in listed]
-    tables = {"fixed_points.csv": pd.DataFrame(points, columns=["case", "label", "orbit", "exact"])}
-    tables["orbits.csv"] = pd.DataFrame([{"case": "equal", "label": "S1", "modulus_1": 2.43617}])
-    other = {"soft": {"f10_hat": 1.0, "f20_hat": 0.9, "kappa": 0.5}}  # of another system, so it is not shown
-    data = json.loads(live_data(SimpleNamespace(table=tables.get), {"system": PARAMETERS, "cases": cases | other}))
-    shown = data["cases"]
-    assert (data["system"], shown.keys()) == (PARAMETERS, cases.keys())
-    for name, multipliers in (("equal", ["2.44"] * 3), ("weak", [""])):
-        assert [point["multiplier"] for point in shown[name]["points"]] == multipliers
-    epsilon, r = PARAMETERS["epsilon"], rho(PARAMETERS["kappa"])
-    for name, case in shown.items():
-        assert case["forces"] == list(FORCES[name])
-        C = {point.label: point.C for point in found[name]}
-        assert [point["label"] for point in case["points"]] == sorted(C)
-        for point in case["points"]:
-            W, X = np.array(point["W"]), np.array(point["X"])
-            np.testing.assert_allclose(W[SAMPLES // 2 :], -W[: SAMPLES // 2], atol=2e-4)  # half a period later
-            U = (1 + epsilon) * X - epsilon * W
-            first = 2 / SAMPLES * abs(np.exp(-2j * np.pi * np.arange(SAMPLES) / SAMPLES) @ U)
-            assert first == pytest.approx(B_of_C(C[point["label"]][1], r), abs=1e-3)
-            assert (point["printed"] == "stable") == (4 / (4 + np.pi * r) < C[point["label"]]).all()
+    other = {"soft": {"f10_hat": 1.0, "f20_hat": 0.9, "kappa": 0.5}}
+    data = json.loads(live_data({"system": PARAMETERS, "cases": cases | other}))
+    assert (data["system"], data["cases"].keys()) == (PARAMETERS, cases.keys())
+    for name, shown in data["cases"].items():
+        system = vi.System(**PARAMETERS, **cases[name])
+        assert shown["forces"] == list(FORCES[name])
+        moduli = [abs(orbit.multipliers[0]) for orbit in vi.orbits(system) if orbit.symmetric]
+        found = {point.label: point for point in vi.fixed_points(system)}
+        assert [point["label"] for point in shown["points"]] == sorted(found)
+        for point in shown["points"]:
+            here = found[point["label"]]
+            expected = here.C[1], here.B[1], here.psi[1]
+            assert [point[key] for key in ("C", "B", "psi")] == pytest.approx(expected, abs=1e-4)
+            assert any(modulus == pytest.approx(float(point["multiplier"]), rel=0.005) for modulus in moduli)
+    assert [point["printed"] for point in data["cases"]["weak"]["points"]] == ["unstable"]

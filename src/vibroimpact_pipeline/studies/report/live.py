@@ -1,15 +1,13 @@
 """Compute the data of interactive pages.
 
-These are parameters, predicted responses of each case and, in the plane of both forces, regimes and verdicts of the
-criteria on stability.
+These are parameters, fixed points of each case and, in the plane of both forces, regimes and verdicts of the criteria
+on stability.
 """
 
 import json
 
-import numpy as np
-
 from vibroimpact.exact.orbits.floquet import floquet
-from vibroimpact.exact.orbits.symmetric import symmetric_solutions_under
+from vibroimpact.exact.orbits.symmetric import symmetric_solutions, symmetric_solutions_under
 from vibroimpact.studies.claims.verdict_grid import exact_orbits
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
 from vibroimpact.studies.regimes.classification import CHAOTIC, REGIMES
@@ -18,58 +16,53 @@ from vibroimpact.system.parameters import System
 from vibroimpact.system.verdict import STABLE
 from vibroimpact.theory.criteria import of_fixed_point
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
-from vibroimpact.theory.response import leading_order
 from vibroimpact_pipeline.specs import case_parameters
 
 FORCES = ("f10_hat", "f20_hat")
-SAMPLES = 200
-"""Number of samples of a predicted response over one forcing cycle."""
 
 
-def live_data(results, config: dict) -> str:
-    """Return the data of the page Play as JSON.
+def live_data(config: dict) -> str:
+    """Return the data of the page Play as JSON: the parameters, and forces and fixed points of each case.
 
-    The data are the parameters and, for each case, the forcing amplitudes and the predicted responses. Each response
-    has the verdict of (10.26), and the verdict on its exact orbit with the largest multiplier. Cases that differ from
-    the first case in more than the forcing amplitudes are omitted.
+    Cases that differ from the first case in more than the forcing amplitudes are omitted.
     """
     given = {case: case_parameters(config, case) for case in config["cases"]}
     systems = {case: System(**{name: known[name] for name in (*PARAMETERS, *FORCES)}) for case, known in given.items()}
     first, *_ = systems.values()
-    exact = _exact(results)
-    cases = {}
-    for name, system in systems.items():
-        if system == first.with_(f10_hat=system.f10_hat, f20_hat=system.f20_hat):
-            points = sorted(fixed_points(system), key=lambda point: point.label)
-            predictions = [_point(system, point) | exact[name, point.label] for point in points]
-            cases[name] = {"forces": [system.f10_hat, system.f20_hat], "points": predictions}
+    cases = {
+        name: {"forces": [system.f10_hat, system.f20_hat], "points": _points(system, symmetric_solutions(system))}
+        for name, system in systems.items()
+        if system == first.with_(f10_hat=system.f10_hat, f20_hat=system.f20_hat)
+    }
     return json.dumps({"system": {name: getattr(first, name) for name in PARAMETERS}, "cases": cases})
 
 
-def _point(system, point):
-    response = leading_order(system, point, np.arange(SAMPLES) / SAMPLES * system.period)
-    samples = {name: getattr(response, name)[:, 1].round(4).tolist() for name in ("X", "W")}
-    return samples | {"label": point.label, "printed": of_fixed_point(system, point)["printed_10_26"]}
+def _points(system, roots) -> list[dict]:
+    """Return the fixed points of a system by label; `roots` are its symmetric exact orbits.
+
+    Each fixed point has C, B and psi of module 2, the verdict of (10.26), and the verdict on its exact orbit with the
+    largest multiplier.
+    """
+    points = fixed_points(system)
+    exact = exact_orbits(system, [point.C for point in points], roots)
+    found = [_point(system, point, orbit) for point, orbit in zip(points, exact, strict=True)]
+    return sorted(found, key=lambda point: point["label"])
 
 
-def _exact(results) -> dict:
-    """Return, for each fixed point by case and label, the verdict on its exact orbit and the largest multiplier."""
-    points, orbits = results.table("fixed_points.csv"), results.table("orbits.csv")
-    moduli = orbits.set_index(["case", "label"])["modulus_1"]
-    return {
-        (row.case, row.label): {
-            "exact": row.exact,
-            "multiplier": f"{moduli[row.case, row.orbit]:.3g}" if (row.case, row.orbit) in moduli else "",
-        }
-        for row in points.itertuples()
-    }
+def _point(system, point, orbit) -> dict:
+    place = {name: round(float(getattr(point, name)[1]), 4) for name in ("C", "B", "psi")}
+    verdicts = {"label": point.label, "printed": of_fixed_point(system, point)["printed_10_26"]}
+    if orbit is None:
+        return place | verdicts | {"exact": "no exact orbit", "multiplier": ""}
+    largest = abs(orbit.multipliers[0])
+    shown = f"{largest:.3g}" if largest < 1e3 else f"{largest:.0f}"
+    return place | verdicts | {"exact": floquet(orbit), "multiplier": shown}
 
 
 def map_data(results, config: dict) -> str:
     """Return the data of the regime map on the page Play as JSON; an empty text if the map is for another system.
 
-    Each cell has its forces, its most frequent regime, and its fixed points. Each fixed point has C, B and psi of
-    module 2, the verdict of (10.26), and the verdict on its exact orbit with the largest multiplier.
+    Each cell has its forces, its most frequent regime, and its fixed points.
     """
     first, *_ = (case_parameters(config, case) for case in config["cases"])
     swept = case_parameters(config, config["sweeps"]["regime_map"]["case"]) if "regime_map" in config["sweeps"] else {}
@@ -81,23 +74,10 @@ def map_data(results, config: dict) -> str:
     forces = table[list(FORCES)].to_numpy()
     cells = []
     for (f10, f20), regime, roots in zip(forces, regimes, symmetric_solutions_under(system, forces), strict=True):
-        here = system.with_(f10_hat=f10, f20_hat=f20)
-        points = fixed_points(here)
-        exact = exact_orbits(here, [point.C for point in points], roots)
-        found = [_of_cell(here, point, orbit) for point, orbit in zip(points, exact, strict=True)]
-        cells.append([round(f10, 4), round(f20, 4), regime, found])
+        points = _points(system.with_(f10_hat=f10, f20_hat=f20), roots)
+        cells.append([round(f10, 4), round(f20, 4), regime, points])
     names = {regime: "chaotic, always resonant" if regime == CHAOTIC else regime for regime in dict.fromkeys(regimes)}
     return json.dumps({"cells": cells, "names": names, "colours": {regime: COLOURS[regime] for regime in names}})
-
-
-def _of_cell(system, point, orbit):
-    place = {name: round(float(getattr(point, name)[1]), 4) for name in ("C", "B", "psi")}
-    verdicts = {"label": point.label, "printed": of_fixed_point(system, point)["printed_10_26"]}
-    if orbit is None:
-        return place | verdicts | {"exact": "no exact orbit", "multiplier": ""}
-    largest = abs(orbit.multipliers[0])
-    shown = f"{largest:.3g}" if largest < 1e3 else f"{largest:.0f}"
-    return place | verdicts | {"exact": floquet(orbit), "multiplier": shown}
 
 
 def verdict_data(results, config: dict) -> str:

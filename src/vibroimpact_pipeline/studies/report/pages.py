@@ -17,6 +17,8 @@ from vibroimpact_pipeline.studies.report.live import live_data, map_data, verdic
 TEMPLATES = "report/pages"
 NUMBER = re.compile(r"\[(?P<number>−?[\d.]+)\]\((?:studies/)?numbers\.yaml#(?P<key>[\w.-]+)\)")
 """Matches a number in a document with the link to its key in numbers.yaml."""
+RUN_TIMES = "| times"
+"""Column at the end of the place of a ratio of run times."""
 PICTURE = re.compile(r"(?P<text>!?\[[^\]]*\])\((?:\.\./)+results/\w+/(?P<name>\w+)\.png\)")
 """Matches a figure in a document, shown with a caption or linked."""
 LIVE = re.compile(r"<!-- live: (?P<part>\w+) -->\n(?P<still>.*?)(?=\n\n)", re.DOTALL)
@@ -81,7 +83,7 @@ class Pages:
             "table": table,
             "data": data,
             "dictionary": lambda of_figures: data_dictionary.page(*data_dictionary.read(self.root), of_figures),
-            "live_data": lambda: live_data(results, config),
+            "live_data": lambda: live_data(config),
             "map_data": lambda: map_data(results, config),
             "verdict_data": lambda: verdict_data(results, config),
             "verdict_dots": lambda: verdict_dots(results),
@@ -103,11 +105,16 @@ class Pages:
         return PICTURE.sub(lambda found: self._picture(paper, **found.groupdict()), text)
 
     def number(self, key: str) -> tuple[float, str] | None:
-        """Return value and source of a number by its key in numbers.yaml, or None if this build has no such number."""
+        """Return value and source of a number by its key in numbers.yaml, or None if this build has no such number.
+
+        Ratios of run times, which depend on the machine, are rounded to two significant digits.
+        """
         try:
             value = float(self.results.value(self.places[key]))
         except (LookupError, TypeError, ValueError, StopIteration, OSError):
             return None
+        if self.places[key].endswith(RUN_TIMES):
+            value = float(f"{value:.2g}")
         return value, f"results/{self.places[key].removeprefix('percent | ')}"
 
     def _number(self, paper, number, key):
