@@ -158,28 +158,23 @@ class Pages:
         if "csv" in files:
             page = "data_figures" if files["csv"].parent.name == "figures" else "data"
             links.append(f"[meaning of the columns]({page}.md)")
-        origin = [plain(about["method"])] if "method" in about else []
+        origin = [plain(about["method"])]
         if record.get("commit"):
             origin.append(f"commit {code(record['commit'][:12])} ({plain(record['tree'])} tree)")
         if record.get("config"):
             origin.append(f"config {', '.join(map(code, record['config']))}")
-        origin += [f"{plain(part)} {plain(number)}" for part, number in record.get("versions", {}).items()]
+        origin += [f"{plain(part)} {plain(number)}" for part, number in record["versions"].items()]
+        caption = " ".join(about["caption"].split())
+        picture = FIGURE.format(name=quote(name), alt=one_line(about["alt"]), caption=caption)
         return "\n\n".join(
             [
                 f"({anchor(name)})=\n{'#' * level} {plain(about['title'])}",
                 *(f"$$\n{formula.strip()}\n$$" for formula in about.get("equations", [])),
-                self.render_picture(name, files),
+                f"``````````{{eval-rst}}\n{picture}\n``````````",
                 f"**Files:** {' · '.join(links)}",
-                f"**Origin:** {'; '.join(origin)}" if record else "",
+                f"**Origin:** {'; '.join(origin)}",
             ]
         )
-
-    def render_picture(self, name: str, files) -> str:
-        """Return the picture of a figure, if there is one, and the caption."""
-        caption = " ".join(self.about[name]["caption"].split())
-        if "svg" in files:
-            caption = FIGURE.format(name=quote(name), alt=one_line(self.about[name]["alt"]), caption=caption)
-        return f"``````````{{eval-rst}}\n{caption}\n``````````"
 
 
 def table(frame, heads: dict, number: int = 3) -> str:

@@ -39,11 +39,15 @@ class Results:
         ValueError
             If the figure has no files.
         """
+        folder = self._folder(figure)
+        found = {kind: folder / f"{figure}.{kind}" for kind in KINDS}
+        found = {kind: path for kind, path in found.items() if path.is_file()}
+        return found | {path.suffixes[0][1:]: path for path in sorted(folder.glob(f"{figure}.*.csv"))}
+
+    def _folder(self, figure: str) -> Path:
         for folder in FOLDERS:
-            found = {kind: self.root / folder / f"{figure}.{kind}" for kind in KINDS}
-            if found := {kind: path for kind, path in found.items() if path.is_file()}:
-                further = sorted((self.root / folder).glob(f"{figure}.*.csv"))
-                return found | {path.suffixes[0][1:]: path for path in further}
+            if (self.root / folder / f"{figure}.svg").is_file():
+                return self.root / folder
         raise ValueError(f"figure: no files of {figure!r} found in {self.root}")
 
     def notebook(self, figure: str) -> Path | None:
@@ -51,9 +55,8 @@ class Results:
         return path if path.is_file() else None
 
     def provenance(self, figure: str) -> dict:
-        """Return the provenance record of a figure, or an empty mapping if there is no record."""
-        paths = [self.root / folder / f"{figure}.provenance.json" for folder in FOLDERS]
-        return next((json.loads(path.read_text(encoding="utf-8")) for path in paths if path.is_file()), {})
+        """Return the provenance record of a figure."""
+        return json.loads((self._folder(figure) / f"{figure}.provenance.json").read_text(encoding="utf-8"))
 
     def claims(self) -> list[dict]:
         """Return the judged claims in the order of the chapter; an empty list if claims are not judged."""
