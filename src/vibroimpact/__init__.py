@@ -35,7 +35,6 @@ _NAMES = {
     "studies.regimes.lyapunov": "largest_lyapunov lyapunov_spectrum",
     "studies.absorbers.references": "Tuning tuned",
     "studies.absorbers.tuning": "best_tuning textbook_tuning",
-    "studies.absorbers.decay": "decay_time",
     "studies.one_machine": "design Design",
     "exact.engine.simulation": "simulate simulate_many Run",
     "exact.lanes.ensemble": "ensemble OUTCOME STATUSES",

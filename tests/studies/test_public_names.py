@@ -15,7 +15,6 @@ CALLS = """
 vi.sections(system, start, 2, progress=False)
 vi.largest_lyapunov(system, start, 20, 2, blocks=2)
 vi.lyapunov_spectrum(system, start, 20, 2)
-vi.decay_time(system, 1.0)
 """
 
 

@@ -1,1 +1,1 @@
-"""Balls as absorbers: linear systems for comparison, tuned absorbers and free decay."""
+"""Balls as absorbers: peaks in a band of frequencies, and linear systems for comparison."""

@@ -1,19 +1,17 @@
-"""Steady response and free decay of a linear system of boxes and attached masses, in the units of (10.2)."""
+"""Steady response of a linear system of boxes and attached masses, in the units of (10.2)."""
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import eigvals, expm
-from scipy.optimize import brentq, minimize_scalar
+from scipy.linalg import eigvals
+from scipy.optimize import minimize_scalar
 
-from vibroimpact.system.arguments import pair, real, whole
+from vibroimpact.system.arguments import pair
 
 POINTS = 400
 """Number of frequencies in a band at which a response is sampled, in addition to the natural frequencies."""
-DECAY_EXPONENT = 40
-"""Exponent of the longest decay time: beyond 2**DECAY_EXPONENT units of tau, the decay time is inf."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,35 +113,6 @@ class Linear:
         upper = np.hstack([np.zeros((n, n)), np.eye(n)])
         return np.vstack([upper, -np.linalg.solve(self.mass, np.hstack([self.stiffness, self.damping]))])
 
-    def decay_time(self, module: int = 1, fraction: float = 0.1) -> float:
-        """Return the time tau from an impulse on a box at rest until only a fraction of its energy is left.
-
-        The energy decreases monotonically, so that it falls to `fraction` of its initial value once. The time does not
-        depend on the size of the impulse. It is inf if it exceeds 2**DECAY_EXPONENT.
-
-        Raises
-        ------
-        ValueError
-            If module is not 1 or 2, or if fraction is not between 0 and 1.
-        """
-        i, n = whole("module", module, 1, 2) - 1, len(self.force)
-        left = np.linalg.solve(self.mass, np.eye(n)[i])
-        state, target = np.concatenate([np.zeros(n), left]), checked_fraction(fraction) * 0.5 * left[i]
-        rate, elapsed = self.rate, 0.0
-        powers = [expm(rate)]
-        while self._energy(powers[-1] @ state) > target:
-            if len(powers) > DECAY_EXPONENT:
-                return math.inf
-            powers.append(powers[-1] @ powers[-1])
-        for k, power in reversed(list(enumerate(powers[:-1]))):
-            if self._energy(power @ state) > target:
-                state, elapsed = power @ state, elapsed + 2.0**k
-        return elapsed + brentq(lambda t: self._energy(expm(rate * t) @ state) - target, 0.0, 1.0)
-
-    def _energy(self, state):
-        places, speeds = np.split(state, 2)
-        return 0.5 * (speeds @ self.mass @ speeds + places @ self.stiffness @ places)
-
 
 def _height(measure, low, high):
     """Return the largest value of `measure` between two frequencies that enclose one local maximum."""
@@ -165,17 +134,3 @@ def checked_band(band) -> tuple[float, float]:
     if not 0 < low < high:
         raise ValueError(f"band: got ({low}, {high}), expected (low, high) with 0 < low < high")
     return low, high
-
-
-def checked_fraction(fraction) -> float:
-    """Return a fraction as a float between 0 and 1, both excluded.
-
-    Raises
-    ------
-    ValueError
-        If the fraction is invalid.
-    """
-    fraction = real("fraction", fraction)
-    if not 0 < fraction < 1:
-        raise ValueError(f"fraction: {fraction} is not between 0 and 1 (both excluded)")
-    return fraction

@@ -56,7 +56,7 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
     Returns
     -------
     Linear
-        Linear system with .peak(band), .stroke(band), .amplitudes(Omega) and .decay_time().
+        Linear system with .peak(band), .stroke(band) and .amplitudes(Omega).
 
     Raises
     ------

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, new_figure, styled
-from vibroimpact.studies.absorbers.decay import decay_time, quickest_decay
 from vibroimpact.studies.absorbers.peaks import peak
 from vibroimpact.studies.figures.companion_response import (
     FORCES,
@@ -65,11 +64,9 @@ SPEC = {
                     r"greatest of these peaks. stroke: largest $\lvert X_i - Y_i\rvert/f$ in the band, the room that "
                     "linear absorbers need on each side; for balls, the clearance. For balls compared with `who` at "
                     "one force: frequencies won, share of frequencies at which the boxes move less with balls; least "
-                    r"and greatest, extremes of the ratio of the largest $\lvert X_i\rvert$ to that of `who`. decay: "
-                    "cycles until a tenth of the energy of an impulse on box 1 is left; for balls, after the impulse "
-                    "with the shortest decay",
+                    r"and greatest, extremes of the ratio of the largest $\lvert X_i\rvert$ to that of `who`",
                     "unit": "text", "values": ["peak", "lowest peak", "plateau", "plateau from", "plateau to",
-                    "stroke", "frequencies won", "least", "greatest", "decay"]},
+                    "stroke", "frequencies won", "least", "greatest"]},
                 "who": {"meaning": "balls at the kappa of the config, balls at the best kappa of the sweep `design`, "
                     "one ball at the kappa of the config while the other hits no wall, or the linear system for "
                     "comparison",
@@ -79,8 +76,8 @@ SPEC = {
                     "are measured again, from rest and seven other starts, also at frequencies half-way between; the "
                     "value is the lower result. For one ball, it is the peak of the sweep, from rest",
                     "unit": "dimensionless", "compared": {
-                    "decay": "trajectory", "without balls": "algebra",
-                    "balls fixed": "algebra", "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
+                    "without balls": "algebra", "balls fixed": "algebra",
+                    "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
                     "frequencies won": "shares", "least": "extremes", "greatest": "extremes", "others": "peaks"}},
                 "spread": {"meaning": "standard error of `value` by the jackknife, with one start left out at a time",
                     "unit": "dimensionless", "compared": "spreads"},
@@ -106,7 +103,7 @@ SPEC = {
 }  # fmt: skip
 
 BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
-PEAK, LOWEST, PLATEAU, STROKE, DECAY = "peak", "lowest peak", "plateau", "stroke", "decay"
+PEAK, LOWEST, PLATEAU, STROKE = "peak", "lowest peak", "plateau", "stroke"
 """Names of quantities in the summary; `_response_ratios` defines further names."""
 LIGHT = "#D55E00"
 STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgewidth": 0.4, "linestyle": "none"}
@@ -120,8 +117,6 @@ REMEASURED_PEAKS = 2
 """Number of the lowest peaks of a sweep that are measured again."""
 REMEASURED_STARTS = 8
 """Number of starts, rest among them, in the second measurement of a lowest peak."""
-IMPULSES, ENERGY_FRACTION = np.geomspace(0.5, 50.0, 81), 0.1
-"""Impulses on box 1 (as velocities, in units of L omega_10), and the fraction of the energy left after a decay."""
 PLACE = "kappa", *FORCES, "sigma_e_hat", "clearance"
 SUMMARY_COLUMNS = ["quantity", "who", "value", "spread", "largest", "swept", *PLACE, "narrowest", "widest", "regime"]
 
@@ -186,11 +181,6 @@ def compute(
     strokes |= {who: optima[who]["clearance"] for who in (BALLS, BEST_KAPPA)}
     rows += [{"quantity": STROKE, "who": who, "value": stroke} for who, stroke in strokes.items()]
     rows += _response_ratios(system, per_force(system, response), band)
-    # In a linear system, the energy decays equally fast after each impulse; with balls, the quickest decay is reported.
-    times = [decay_time(system, impulse, fraction=ENERGY_FRACTION) for impulse in IMPULSES]
-    decays = {BALLS: quickest_decay(system, IMPULSES, times, fraction=ENERGY_FRACTION)[1]}
-    decays |= {name: one.decay_time(1, ENERGY_FRACTION) for name, one in linear.items()}
-    rows += [{"quantity": DECAY, "who": who, "value": time / system.period} for who, time in decays.items()]
     summary = pd.DataFrame(rows, columns=SUMMARY_COLUMNS)
     for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
         summary.insert(5, column, (summary["value"] / peaks[name]).where(summary["quantity"] == PEAK))
