@@ -118,11 +118,11 @@ AXES = {"f20_hat": [1.0]}
         ({"observe": ["peaks"], "band": AXES}, "band"), ({"observe": ["amplitudes"], "cycles": 0}, "cycles"),
         ({"observe": ["amplitudes"], "cycles": 10, "settle": 10}, "settle"), ({"observe": []}, "observe"),
         ({"observe": ["regimes"], "observation": {"cycles": 5}}, "observation"), ({"observe": "all"}, "observe"),
-        ({"observe": ["orbits"], "starts": 0}, "starts"), ({"observe": ["orbits"], "axes": {}}, "axes"),
-        ({"observe": ["orbits"], "axes": {"kappa": []}}, r"axes\['kappa'\]"),
-        ({"observe": ["orbits"], "axes": {"kappa": ["a"]}}, r"axes\['kappa'\]"),
-        ({"observe": ["orbits"], "axes": {"kappa": [0.5, 1.5]}}, "at kappa = 1.5"),
-        ({"observe": ["orbits"], "axes": {"mass": [1]}}, "mass"), ({"observe": ["points"]}, "observe"),
+        ({"observe": ["fixed_points"], "starts": 0}, "starts"), ({"observe": ["fixed_points"], "axes": {}}, "axes"),
+        ({"observe": ["fixed_points"], "axes": {"kappa": []}}, r"axes\['kappa'\]"),
+        ({"observe": ["fixed_points"], "axes": {"kappa": ["a"]}}, r"axes\['kappa'\]"),
+        ({"observe": ["fixed_points"], "axes": {"kappa": [0.5, 1.5]}}, "at kappa = 1.5"),
+        ({"observe": ["fixed_points"], "axes": {"mass": [1]}}, "mass"), ({"observe": ["points"]}, "observe"),
     ],
 )  # fmt: skip
 def test_a_wrong_argument_of_a_sweep_is_named_in_one_line(given, told):

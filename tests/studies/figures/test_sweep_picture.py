@@ -23,7 +23,7 @@ def table(axes, observe):
 
 
 def test_a_line_has_the_values_of_its_column():
-    given = table(LINE, ["amplitudes", "orbits"])
+    given = table(LINE, ["amplitudes", "fixed_points"])
     figure = sweep.draw(sweep.compute(given, LINE))
     assert len(figure.axes) == 4
     largest = {line.get_label(): line for line in figure.axes[0].lines}
@@ -39,7 +39,7 @@ def test_regimes_that_no_start_ends_in_are_left_out(axes):
 
 
 def test_a_map_has_a_panel_per_column_cells_around_their_points_and_blanks_where_there_is_no_value():
-    given = table(PLANE, ["amplitudes", "orbits"]).assign(orbits=0.0)  # zeros are drawn
+    given = table(PLANE, ["amplitudes", "fixed_points"]).assign(fixed_points=0.0)  # zeros are drawn
     given.loc[5, "largest_X1"] = np.nan
     figure = sweep.draw(sweep.compute(given, PLANE))
     panels = [axes for axes in figure.axes if axes.get_xlabel() == r"$\varepsilon$"]

@@ -117,7 +117,7 @@ def test_a_section_is_that_of_the_twin():
 
 
 def test_a_row_of_a_sweep_is_that_of_the_twin(machine):
-    observe, [module] = ["regimes", "amplitudes", "envelopes", "energy", "peaks"], machine.modules
+    observe, [module] = ["regimes", "amplitudes", "energy", "peaks"], machine.modules
     given = dict(starts=4, seed=1, cycles=700, settle=600, band={"sigma_e_hat": [0.0, 0.1]})
     [ours], [theirs] = (vi.sweep(system, {"kappa": [0.6]}, observe, **given) for system in (machine, TWIN))
     assert (ours.pop("failed"), theirs.pop("failed")) == ("", "")

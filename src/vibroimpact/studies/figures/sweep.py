@@ -29,15 +29,10 @@ PANELS = {
     "share of starts": {name: name for name in REGIMES},
     "largest $|X_i|$": {"largest_X1": "box 1", "largest_X2": "box 2"},
     "root mean square of $X_i$": {"rms_X1": "box 1", "rms_X2": "box 2"},
-    "cycle amplitude of $X_i$": {
-        **{f"low_X{i}": f"box {i}, 5 %" for i in (1, 2)},
-        **{f"high_X{i}": f"box {i}, 95 %" for i in (1, 2)},
-    },
     "along the band": {"peak": "largest $|X_i|$", "peak_rms": "root mean square"},
     "share of the work": {"impact_share": "impacts"},
     "mean ball speed": {"ball_speed_1": "ball 1", "ball_speed_2": "ball 2"},
     "fixed points": {"fixed_points": "all", "stable_points": "stable"},
-    "1:1 orbits": {"orbits": "all", "stable_orbits": "stable"},
 }
 """Panel -> column of the table -> name in the legend. In maps each column has its own panel."""
 MARKERS, SHADES = "osD^vPX<>d", ("black", "0.45", "0.7")

@@ -3,12 +3,12 @@
 import math
 from collections.abc import Mapping
 
-RUNS = ("amplitudes", "envelopes", "energy")
+RUNS = ("amplitudes", "energy")
 """Observations that need one run over `cycles` per initial state; "peaks" and "regimes" need runs of other kinds."""
 CYCLE = 5e-6
 """Core seconds per forcing cycle of one run, as measured by `make benchmark` (a settled cycle has four impacts)."""
 POINT = 0.01
-"""Core seconds that a point takes in addition to its simulations: for flow tables, fixed points and orbits."""
+"""Core seconds that a point takes in addition to its simulations: for flow tables and fixed points."""
 RETESTED = 0.1
 """Assumed share of the motions that do not repeat; these motions are tested over `retest` cycles."""
 MOST_TILES = 10_000

@@ -3,9 +3,7 @@
 import numpy as np
 
 from vibroimpact.exact.engine.event_loop import FINISHED
-from vibroimpact.exact.lanes.ensemble import ensemble, finals
-from vibroimpact.exact.measures.modulation import PER_CYCLE, cycle_amplitudes, sampled
-from vibroimpact.exact.orbits.search import orbits
+from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.studies.absorbers.peaks import by_cycle, peak_of
 from vibroimpact.studies.regimes.classification import REGIMES
 from vibroimpact.studies.regimes.classification import starts as spread_starts
@@ -18,8 +16,6 @@ from vibroimpact.system.state import inactive_at_rest
 from vibroimpact.theory.fixed_points.symmetric_points import fixed_points
 
 FROM_REST = "from_rest"
-LOW, HIGH = 0.05, 0.95
-"""Quantiles of the amplitude per cycle that bound an envelope."""
 
 
 def observed(system, spec: Spec) -> dict:
@@ -52,14 +48,6 @@ def _amplitudes(system, states, spec):
         return *[np.nan] * 6, len(runs)
     rms = np.sqrt(done["mean_square"].mean(axis=0))
     return *done["largest"].max(axis=0), *rms, *done["ball_speed"].mean(axis=0), len(runs) - len(done)
-
-
-def _envelopes(system, states, spec):
-    """Return the quantiles LOW and HIGH of the amplitude of X_i per cycle, over all cycles of all starts."""
-    cycles = spec.cycles - spec.settle
-    runs = [sampled(system, state, cycles).samples for state in finals(system, states, spec.settle)]
-    found = [[cycle_amplitudes(samples[:-1, box], PER_CYCLE) for samples in runs] for box in (0, 2)]
-    return tuple(float(np.quantile(amplitudes, part)) for part in (LOW, HIGH) for amplitudes in found)
 
 
 def _peaks(system, states, spec):
@@ -101,22 +89,14 @@ def fixed_point_counts(system) -> tuple[int, int]:
     return len(points), sum(FixedPoints.stable(system, point) for point in points)
 
 
-def _orbits(system, states, spec):
-    """Return the number of admissible 1:1 orbits and the number of stable ones among them."""
-    found = [orbit for orbit in orbits(system) if orbit.admissible]
-    return len(found), sum(bool(abs(orbit.multipliers[0]) < 1) for orbit in found)
-
-
 OBSERVATIONS = {
     "regimes": ((*REGIMES, FROM_REST), _regimes),
     "amplitudes": (
         ("largest_X1", "largest_X2", "rms_X1", "rms_X2", "ball_speed_1", "ball_speed_2", "unfinished"),
         _amplitudes,
     ),
-    "envelopes": (("low_X1", "low_X2", "high_X1", "high_X2"), _envelopes),
     "peaks": (("peak", "peak_rms", "peak_at", "peak_one_ball", "peak_unfinished"), _peaks),
     "energy": (("impact_share", "starts_without_impacts"), _energy),
     "fixed_points": (("fixed_points", "stable_points"), lambda system, states, spec: fixed_point_counts(system)),
-    "orbits": (("orbits", "stable_orbits"), _orbits),
 }
 """Columns of each observation, in order, and the function of (system, states, spec) that returns their values."""

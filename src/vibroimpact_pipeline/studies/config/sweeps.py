@@ -18,7 +18,7 @@ MAX_POINTS = 4_000_000
 SIMULATED = ("starts", "seed", "cycles", "settle")
 NEEDED = dict.fromkeys(RUNS, SIMULATED) | {"regimes": ("starts", "seed"), "peaks": (*SIMULATED, "band")}
 """Keys of a sweep that each observation requires."""
-OBSERVATIONS = Literal["regimes", "amplitudes", "envelopes", "peaks", "energy", "fixed_points", "orbits"]
+OBSERVATIONS = Literal["regimes", "amplitudes", "peaks", "energy", "fixed_points"]
 FORMS = [{"range", "values"}, {"range", "values", "scale"}, {"range", "cells"}, {"listed"}, {"tuples"}]
 """Allowed combinations of keys that define the values of an axis."""
 Listed = fields.items(fields.Number, 2, fields.MAX_VALUES, "Values, instead of a range")
@@ -70,7 +70,7 @@ class Sweep(Section):
 
     case: fields.CaseName
     axes: fields.items(Axis, 1, 2, "Axes of the grid")
-    observe: fields.items(OBSERVATIONS, 1, 7, "Observations; all but fixed_points and orbits need simulations")
+    observe: fields.items(OBSERVATIONS, 1, 5, "Observations; all but fixed_points need simulations")
     starts: fields.Starts | None = None
     seed: fields.Seed | None = None
     cycles: fields.count("Length of a run [forcing periods]") | None = None
