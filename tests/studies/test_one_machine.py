@@ -36,14 +36,13 @@ def found():
     return vi.design(MACHINE, BAND, **CHOICE)
 
 
-def test_without_ball_and_with_it_fixed_the_peak_is_that_of_an_oscillator(found):
-    for mass, said in ((120.0, found.without), (126.0, found.fixed)):
-        ratio = 240.0 / (2 * np.sqrt(mass * 3e5))
-        assert said == pytest.approx(40.0 / 3e5 / (2 * ratio * np.sqrt(1 - ratio**2)), rel=1e-9)
+def test_without_ball_the_peak_is_that_of_an_oscillator(found):
+    ratio = 240.0 / (2 * np.sqrt(120.0 * 3e5))
+    assert found.without == pytest.approx(40.0 / 3e5 / (2 * ratio * np.sqrt(1 - ratio**2)), rel=1e-9)
 
 
 @pytest.mark.parametrize("drive", [{"base": 1e-4}, {"unbalance": 0.02}])
-def test_a_moving_base_and_an_unbalance_have_their_closed_form_without_ball_with_it_fixed_and_with_an_absorber(drive):
+def test_a_moving_base_and_an_unbalance_have_their_closed_form_without_ball_and_with_an_absorber(drive):
     """Transmissibility of a base; u omega^2 of an unbalance; a mass on spring and damper in place of the ball."""
     machine = vi.PhysicalSystem.single(M=120.0, m=6.0, k=3e5, c=240.0, omega=1.0, **drive)
     found = vi.design(machine, BAND, **CHOICE)
@@ -56,7 +55,6 @@ def test_a_moving_base_and_an_unbalance_have_their_closed_form_without_ball_with
     assert [row["without_m"] for row in found.response] == pytest.approx(amplitude(omegas, 120.0), rel=1e-9)
     fine = 2 * np.pi * np.linspace(*BAND, 200_001)
     assert found.without == pytest.approx(amplitude(fine, 120.0).max(), rel=1e-8)
-    assert found.fixed == pytest.approx(amplitude(fine, 126.0).max(), rel=1e-8)
     assert found.machine == replace(machine, L=found.machine.L, kappa=0.4)
     absorber = max(row["absorber_m"] for row in found.response)
     assert absorber <= found.absorber * (1 + 1e-9) < found.without
@@ -66,8 +64,6 @@ def test_a_moving_base_and_an_unbalance_have_their_closed_form_without_ball_with
 
 
 def test_the_machine_is_told_by_its_natural_frequency_and_static_deflection(found):
-    assert found.natural == pytest.approx(50 / (2 * np.pi), rel=1e-12)
-    assert found.static == pytest.approx(40 / 3e5, rel=1e-12)
     assert str(found).splitlines()[0] == "natural frequency 7.958 Hz, static deflection 0.133 mm"
 
 
@@ -75,7 +71,7 @@ def test_text_and_table_are_of_one_grid_and_window(found):
     assert [(row["clearance_m"], row["restitution"]) for row in found.candidates] == [(0.001, 0.4), (0.002, 0.4)]
     assert (found.machine.L, found.machine.kappa) == (0.002, 0.4)
     assert found.peak == max(row["with_m"] for row in found.response)
-    assert found.settling == max(row["settling_m"] for row in found.response)
+    assert f"\n  {1000 * max(row['settling_m'] for row in found.response):.3g} mm while it settles" in str(found)
     assert found.absorber < found.peak < found.without
     assert max(row["without_m"] for row in found.response) == pytest.approx(found.without, rel=0.02)
 
@@ -88,15 +84,15 @@ def many():
 
 def test_the_best_few_are_measured_again_and_the_best_of_those_is_chosen(many):
     """By their neighbourhood: each of them alone gets the numbers that it has in the list."""
-    again = [row for row in many.candidates if np.isfinite(row["again_m"])]
+    again = [row for row in many.candidates if np.isfinite(row["near_m"])]
     assert len(again) == 3
     assert max(row["peak_m"] for row in again) <= min(row["peak_m"] for row in many.candidates if row not in again)
     lowest = min(again, key=lambda row: row["near_m"])
-    chosen = lowest["clearance_m"], lowest["restitution"], lowest["again_m"], lowest["near_m"]
-    assert chosen == (many.machine.L, many.machine.kappa, many.peak, many.near[1])
+    chosen = lowest["clearance_m"], lowest["restitution"], lowest["near_m"]
+    assert chosen == (many.machine.L, many.machine.kappa, many.near[1])
     other = next(row for row in again if row is not lowest)
     alone = vi.design(*NARROW, [other["clearance_m"]], [other["restitution"]])
-    assert (alone.peak, alone.near[1]) == (other["again_m"], other["near_m"])
+    assert alone.near[1] == other["near_m"]
     beside = [vi.design(*NARROW, [f * many.machine.L], [many.machine.kappa]) for f in (0.98, 1.02)]
     peaks = [one.peak for one in (many, *beside)]
     assert many.near == pytest.approx((min(peaks), max(peaks)), rel=1e-9)
@@ -160,23 +156,10 @@ def test_what_to_know_before_it_is_built_is_told(found):
         "The clearance is the largest of those tried": {},
         "The restitution is the smallest of those tried": {"candidates": softest},
         "Fragile: with clearances within 2% of it the peak is up to 20%": {"near": (found.peak, 1.2 * found.peak)},
-        "No resonance without ball lies in the band from 7.4 to 8.4 Hz.": {"natural": 8.5},
-        "The ball of 121 kg is heavier than its machine of 120 kg.": {"machine": replace(found.machine, m=121.0)},
     }
     for words, changes in told.items():
         said = [words in str(replace(found, **others)) for others in told.values()]
         assert said == [not changes or others is changes for others in told.values()]
-
-
-def test_the_mass_of_the_ball_is_chosen_and_what_it_buys_is_told(found):
-    several = vi.design(MACHINE, BAND, **CHOICE, masses=[6.0, 1.5])
-    assert [row["mass_kg"] for row in several.masses] == [1.5, 6.0]
-    alone = vi.design(replace(MACHINE, m=1.5), BAND, **CHOICE)
-    for row, one in zip(several.masses, (alone, found), strict=True):
-        assert (row["peak_m"], row["near_m"], row["absorber_m"]) == (one.peak, one.near[1], one.absorber)
-        assert f"with {row['mass_kg']:g} kg {1000 * one.peak:.3g} mm" in str(several)
-    assert several.machine == min((alone, found), key=lambda one: one.near[1]).machine
-    assert not found.masses
 
 
 def run_at(hertz, L=0.002, kappa=0.4):
@@ -196,23 +179,11 @@ def test_impulses_are_changes_of_momentum_and_speeds_account_for_the_energy_that
     momentum = machine.m * unit * states[:, 5]
     assert told["impulse_Ns"] == pytest.approx(np.abs(np.diff(momentum)).mean(), rel=0.02)
     assert told["impacts_per_s"] == pytest.approx(len(states) / (60 / 7.9))
-    assert told["impulse_Ns_per_s"] == pytest.approx(told["impulse_Ns"] * told["impacts_per_s"])
     before = unit * np.abs(states[:, 4] - states[:, 5]) / machine.kappa
     reduced, joule = machine.M * machine.m / (machine.M + machine.m), machine.k1 * machine.L**2
     lost = 0.5 * reduced * (1 - machine.kappa**2) * (before**2).sum()
     assert lost == pytest.approx(joule * np.sum(run.energy.impacts), rel=1e-9)
     assert told["impact_speed_m_s"] == pytest.approx(before.mean())
-
-
-def test_the_share_of_sticking_is_that_of_fine_samples():
-    machine, run = run_at(7.9, L=3e-5, kappa=0.1)
-    assert (run.events["kind"] == vi.STICK).any()
-    times = np.linspace(0, run.cycles * run.system.period, 60_001)[:-1]
-    samples = vi.simulate(run.system, vi.simulate(run.system, np.zeros(8), 200).final, 60, sample_times=times).samples
-    gap, speed = samples[:, 0] - samples[:, 1], samples[:, 4] - samples[:, 5]
-    share = np.mean((np.abs(np.abs(gap) - 1) < 1e-9) & (np.abs(speed) < 1e-9))
-    assert 0.05 < share < 1
-    assert one_machine._impacts(machine, run)["sticking"] == pytest.approx(share, abs=2e-3)
 
 
 def test_finer_frequencies_change_neither_the_choice_nor_its_peak(found, monkeypatch):
@@ -239,7 +210,7 @@ def test_without_a_choice_clearances_up_to_the_amplitude_are_tried(many):
         ("band", MACHINE, {"band": (8.0, 7.0)}), ("band", MACHINE, {"band": (0.0, 7.0)}),
         ("machine", replace(MACHINE, c1=0.0), {}), ("machine", replace(MACHINE, k12=1.0), {}),
         ("machine", MACHINE.dimensionless(), {}), ("clearances", MACHINE, {"clearances": [0.0]}),
-        ("restitutions", MACHINE, {"restitutions": [1.0]}), ("masses", MACHINE, {"masses": [0.0, 1.0]}),
+        ("restitutions", MACHINE, {"restitutions": [1.0]}),
     ],
 )  # fmt: skip
 def test_refusals_name_the_argument(told, machine, choice):
@@ -285,18 +256,3 @@ def test_the_picture_has_the_displacements_of_the_table(found):
     for name, label in (("with_m", "with the ball, settled"), ("without_m", "without ball")):
         drawn = [[row["frequency_Hz"], 1000 * row[name]] for row in found.response]
         np.testing.assert_array_equal(lines[label].T, drawn)
-
-
-def test_the_command_takes_a_range_of_masses(monkeypatch, capsys):
-    asked, done = [], vi.design(MACHINE, (7.9, 8.0), **CHOICE, masses=[2.0, 4.0])
-    monkeypatch.setattr(vi, "design", lambda *_, masses, **__: asked.append(masses) or done)
-    words = OPTIONS.replace("--m 6", "--m {}")
-    for given, masses in (("0..4", [1.0, 2.0, 3.0, 4.0]), ("2..6", [2.0, 3.0, 4.0, 5.0, 6.0]), ("6", None)):
-        assert main(words.format(given).split()) == 0
-        assert asked[-1] == masses
-    assert "with 2 kg" in capsys.readouterr().out
-    for wrong in ("4..2", "a..2", "1..", "-1..2"):
-        with pytest.raises(SystemExit) as end:
-            main([*words.replace("--m {}", f"--m={wrong}").split()])
-        assert end.value.code == 2
-        assert "m: " in capsys.readouterr().err

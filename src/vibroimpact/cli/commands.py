@@ -1,7 +1,6 @@
 """Commands of the command line: their options, and the tables that they compute."""
 
 import csv
-from argparse import ArgumentTypeError
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
@@ -24,15 +23,13 @@ NAMES = {**PARAMETERS, "f10_hat": None, "f20_hat": None}
 """Default of each parameter; None for the forces, which have the values of the case."""
 MACHINE = {
     "M": "mass of the machine with its box, without the ball [kg]",
-    "m": "mass of the ball [kg]; A..B compares designs for masses from A to B",
+    "m": "mass of the ball [kg]",
     "k": "stiffness of the spring [N/m]",
     "c": "damping [N s/m]",
     "F": "amplitude of the force [N]",
 }
 """Options of a machine: the arguments of PhysicalSystem.single that have no default."""
 PICTURES = (".png", ".pdf", ".svg")
-MASS_STEPS = 4
-"""Number of steps from the smallest to the largest mass of the ball."""
 _MOST_SAMPLES = 10_000_000
 _SIDES = ("1_plus", "1_minus", "2_plus", "2_minus")
 
@@ -129,8 +126,7 @@ def _design_options(parser):
     """Add the options for the machine (SI units), the frequency band, the candidate balls and the plot."""
     group = parser.add_argument_group("machine", "all required, in SI units")
     for name, words in MACHINE.items():
-        kind = _range if name == "m" else float
-        group.add_argument(f"--{name}", type=kind, required=True, metavar="X", help=words)
+        group.add_argument(f"--{name}", type=float, required=True, metavar="X", help=words)
     parser.add_argument("--from", dest="low", type=float, required=True, metavar="HZ", help="first frequency [Hz]")
     parser.add_argument("--to", dest="high", type=float, required=True, metavar="HZ", help="last frequency [Hz]")
     parser.add_argument(
@@ -144,14 +140,6 @@ def _design_options(parser):
     parser.add_argument("--plot", type=Path, metavar="FILE", help=f"also save a plot ({', '.join(PICTURES)})")
 
 
-def _range(text) -> tuple[float, ...]:
-    """Return the number in a text, or both numbers in a text of the form A..B."""
-    try:
-        return tuple(float(word) for word in text.split("..", maxsplit=1))
-    except ValueError:
-        raise ArgumentTypeError(f"{text!r} should be a number [kg] or a range such as 0..40") from None
-
-
 def _design(options):
     """Return one row per frequency; the summary is the text of the `Design`."""
     if options.plot is not None:
@@ -161,13 +149,9 @@ def _design(options):
     low, high = real("from", options.low), real("to", options.high)
     if not 0 < low < high:
         raise ValueError(f"from, to: {low:g} and {high:g} Hz; expected 0 < from < to")
-    least, most = options.m[0], options.m[-1]
-    if len(options.m) > 1 and not 0 <= least < most:
-        raise ValueError(f"m: {least:g}..{most:g}; expected a range A..B with 0 <= A < B [kg]")
-    masses = None if len(options.m) == 1 else [m for m in np.linspace(least, most, MASS_STEPS + 1) if m > 0]
-    machine = PhysicalSystem.single(**{name: getattr(options, name) for name in MACHINE} | {"m": most})
+    machine = PhysicalSystem.single(**{name: getattr(options, name) for name in MACHINE})
     choices = {"restitutions": options.restitution} if options.restitution else {}
-    found = vibroimpact.design(machine, (low, high), options.clearance, masses=masses, **choices)
+    found = vibroimpact.design(machine, (low, high), options.clearance, **choices)
     return Table(tuple(found.response[0]), [tuple(row.values()) for row in found.response], str(found), found.plot)
 
 
