@@ -10,7 +10,7 @@
 - `sections`: stroboscopic sections of many runs, such as a bifurcation diagram.
 - `branches`, `bifurcation_curves`: continuation in one parameter; folds and symmetry breaking in two parameters.
 - `sweep`: observations over a grid of parameters.
-- `design`, `best_tuning`, `textbook_tuning`: choice of the ball for a machine; linear absorbers.
+- `design`: choice of the ball for a machine.
 - `to_frame`, `to_dataset`: results as tables.
 
 Verdicts on stability have the same names everywhere: `fast` (impacts), `slow` (amplitudes), `theory` (both), `exact`
@@ -33,8 +33,6 @@ _NAMES = {
     "studies.regimes.settling": "Observation",
     "studies.regimes.classification": "starts",
     "studies.regimes.lyapunov": "largest_lyapunov lyapunov_spectrum",
-    "studies.absorbers.references": "Tuning tuned",
-    "studies.absorbers.tuning": "best_tuning textbook_tuning",
     "studies.one_machine": "design Design",
     "exact.engine.simulation": "simulate simulate_many Run",
     "exact.lanes.ensemble": "ensemble OUTCOME STATUSES",

@@ -14,10 +14,6 @@ from vibroimpact.exact.periodic import PeriodicOrbit as PeriodicOrbit
 from vibroimpact.exact.periodic import periodic_orbit as periodic_orbit
 from vibroimpact.frames import to_dataset as to_dataset
 from vibroimpact.frames import to_frame as to_frame
-from vibroimpact.studies.absorbers.references import Tuning as Tuning
-from vibroimpact.studies.absorbers.references import tuned as tuned
-from vibroimpact.studies.absorbers.tuning import best_tuning as best_tuning
-from vibroimpact.studies.absorbers.tuning import textbook_tuning as textbook_tuning
 from vibroimpact.studies.one_machine import Design as Design
 from vibroimpact.studies.one_machine import design as design
 from vibroimpact.studies.public.continuation import bifurcation_curves as bifurcation_curves

@@ -3,7 +3,7 @@
 import numpy as np
 
 import vibroimpact as vi
-from vibroimpact.studies.absorbers.tuning import compared
+from vibroimpact.studies.absorbers.references import compared
 
 FREQUENCIES = 2 * np.pi * np.linspace(2.9, 3.5, 61)  # rad/s
 

@@ -1,1 +1,1 @@
-"""Studies of a system in one call: continuation, sweeps, attractors, sections, exponents, linear absorbers."""
+"""Studies of a system in one call: continuation, sweeps, attractors, sections, exponents, design of a ball."""

@@ -17,8 +17,7 @@ import numpy as np
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.studies.absorbers.peaks import finished
-from vibroimpact.studies.absorbers.references import tuned, without_balls
-from vibroimpact.studies.absorbers.tuning import best_tuning
+from vibroimpact.studies.absorbers.references import best_tuning, tuned, without_balls
 from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.system import PhysicalSystem
 from vibroimpact.system.arguments import instance, pair, reals

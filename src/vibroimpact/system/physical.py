@@ -42,9 +42,7 @@ class PhysicalSystem:
     Notes
     -----
     With omega10 = sqrt(k1 / M), the units of the dimensionless quantities are: time 1 / omega10, frequency omega10,
-    displacement L, velocity L omega10, force k1 L, energy k1 L^2. A linear absorber (`Tuning`) with the attributes
-    `frequency` and `damping` has the spring epsilon k1 frequency^2 and the damper 2 epsilon M omega10 frequency
-    damping.
+    displacement L, velocity L omega10, force k1 L, energy k1 L^2.
 
     Examples
     --------

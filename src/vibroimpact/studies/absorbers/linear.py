@@ -8,8 +8,6 @@ import numpy as np
 from scipy.linalg import eigvals
 from scipy.optimize import minimize_scalar
 
-from vibroimpact.system.arguments import pair
-
 POINTS = 400
 """Number of frequencies in a band at which a response is sampled, in addition to the natural frequencies."""
 
@@ -51,13 +49,9 @@ class Linear:
 
         Raises
         ------
-        ValueError
-            If there are no absorbers.
         numpy.linalg.LinAlgError
             If the system is driven at an undamped resonance.
         """
-        if len(self.force) != 4:
-            raise ValueError("strokes: the system has no absorbers; see `tuned`")
         responses = self._responses(Omega)
         return np.abs(responses[..., :2] - responses[..., 2:])
 
@@ -68,24 +62,13 @@ class Linear:
         return np.linalg.solve(impedance, self.scale(Omega) * self.force[:, None])[..., 0]
 
     def peak(self, band: tuple[float, float]) -> float:
-        """Return the largest |X_i| of both boxes in a band of frequencies; inf if the band has an undamped resonance.
-
-        Raises
-        ------
-        ValueError
-            If the band is invalid.
-        """
+        """Return the largest |X_i| of both boxes in a band; inf if the band contains an undamped resonance."""
         return self._highest(self.amplitudes, band)
 
     def stroke(self, band: tuple[float, float]) -> float:
         """Return the largest |X_i - Y_i| of both absorbers in a band of frequencies.
 
         The stroke is the room that an absorber needs on each side.
-
-        Raises
-        ------
-        ValueError
-            If the band is invalid, or if there are no absorbers.
         """
         return self._highest(self.strokes, band)
 
@@ -94,7 +77,7 @@ class Linear:
 
         measure: the method `amplitudes` or `strokes`.
         """
-        low, high = checked_band(band)
+        low, high = band
         resonances = np.abs(eigvals(self.rate).imag)
         inside = resonances[(resonances > low) & (resonances < high)]
         grid = np.unique([*np.linspace(low, high, POINTS), *inside])
@@ -120,17 +103,3 @@ def _height(measure, low, high):
         lambda Omega: -measure(Omega).max(), bounds=(low, high), method="bounded", options={"xatol": 1e-10}
     )
     return float(max(-best.fun, *measure([low, high]).ravel()))
-
-
-def checked_band(band) -> tuple[float, float]:
-    """Return the two frequencies of a band as floats, 0 < low < high.
-
-    Raises
-    ------
-    ValueError
-        If the band is invalid.
-    """
-    low, high = pair("band", band)
-    if not 0 < low < high:
-        raise ValueError(f"band: got ({low}, {high}), expected (low, high) with 0 < low < high")
-    return low, high

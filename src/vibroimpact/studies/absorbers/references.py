@@ -1,28 +1,29 @@
-"""Linear systems for comparison: without balls, with fixed balls, with linear absorbers as heavy as the balls."""
+"""Linear systems for comparison: without balls, and with linear absorbers as heavy as the balls.
 
-from dataclasses import dataclass, replace
+The absorbers are tuned by the textbook rule or by optimisation.
+"""
+
+from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import minimize
 
-from vibroimpact.studies.absorbers.linear import Linear
-from vibroimpact.system.arguments import pair
+from vibroimpact.studies.absorbers.linear import POINTS, Linear
 from vibroimpact.system.matrices import damping_matrix, masses, stiffness_matrix
+
+STARTS = ((1.0, 1.0), (0.95, 1.05), (1.05, 0.95))
+"""Starting points of the optimisation, as multiples of the textbook frequencies."""
+BOUND_FACTOR = 100.0
+"""Each optimised frequency and damping ratio lies between 1 / BOUND_FACTOR and BOUND_FACTOR times its textbook value.
+In a band that is narrow or contains no resonance, the best damping ratio or frequency is the lowest one allowed."""
 
 
 @dataclass(frozen=True)
 class Tuning:
     """Linear absorbers, one on each box, each with the mass epsilon of a ball.
 
-    Parameters
-    ----------
-    frequency : tuple of float
-        Natural frequency of each absorber on a box at rest, sqrt(stiffness / epsilon), dimensionless, (2,).
-    damping : tuple of float
-        Damping ratio of each absorber, damping / (2 epsilon frequency), (2,).
-
-    Examples
-    --------
-    >>> tuning = vi.Tuning(frequency=(1.0, 1.0), damping=(0.1, 0.1))
+    frequency: natural frequency of each absorber on a box at rest, sqrt(stiffness / epsilon), dimensionless, (2,).
+    damping: damping ratio of each absorber, damping / (2 epsilon frequency), (2,).
     """
 
     frequency: tuple[float, float]
@@ -34,43 +35,12 @@ def without_balls(system, scale=np.ones_like) -> Linear:
     return Linear(np.diag(masses(system)), damping_matrix(system), stiffness_matrix(system), system.forcing, scale)
 
 
-def fixed_balls(system, scale=np.ones_like) -> Linear:
-    """Return the linear system of the boxes, each of mass 1 + epsilon with its fixed ball; `scale` as in `Linear`."""
-    return replace(without_balls(system, scale), mass=np.diag(masses(system, (True, True))))
-
-
 def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
-    """Return the linear system of the boxes with linear absorbers in place of the balls.
+    """Return the linear system of the boxes with linear absorbers in place of the balls; `scale` as in `Linear`.
 
     The coordinates are (X1, X2, Y1, Y2).
-
-    Parameters
-    ----------
-    system : System
-        Dimensionless parameters.
-    tuning : Tuning
-        Frequencies and damping ratios of the absorbers.
-    scale : callable, optional
-        Function that returns the factor of the force at an array of frequencies, see `Linear`; 1 by default.
-
-    Returns
-    -------
-    Linear
-        Linear system with .peak(band), .stroke(band) and .amplitudes(Omega).
-
-    Raises
-    ------
-    ValueError
-        If a frequency is not above 0 or a damping ratio is below 0.
-
-    Examples
-    --------
-    >>> linear = vi.tuned(system, vi.textbook_tuning(system))
-    >>> linear.peak((0.9, 1.1))  # doctest: +SKIP
     """
-    frequency, damping = (np.array(pair(name, getattr(tuning, name))) for name in ("frequency", "damping"))
-    if not (frequency > 0).all() or not (damping >= 0).all():
-        raise ValueError(f"tuning: got {tuning}, expected frequencies above 0 and damping ratios of at least 0")
+    frequency, damping = np.array(tuning.frequency), np.array(tuning.damping)
     spring, damper = system.epsilon * frequency**2, 2 * system.epsilon * frequency * damping
     return Linear(
         np.diag([1.0, 1.0, system.epsilon, system.epsilon]),
@@ -81,6 +51,90 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
     )
 
 
+def textbook_tuning(system) -> Tuning:
+    """Return the linear absorbers tuned by Den Hartog's rule, each with the mass of a ball.
+
+    The response of a single undamped box passes through two points for every damping of its absorber. The rule makes
+    both points equally high, sqrt(1 + 2 / epsilon) times the static deflection, and the peaks almost as low as the
+    points. It treats each box separately, so that it is approximate for damped or coupled boxes.
+
+    Notes
+    -----
+    The textbook prints the damping as c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the natural
+    frequency Omega_n of the box. `Tuning.damping` refers to the frequency of the absorber, Omega_n / (1 + epsilon).
+    Therefore `Tuning.damping` is sqrt(3 epsilon / (8 (1 + epsilon))).
+
+    References
+    ----------
+    Den Hartog, Mechanical Vibrations, 4th edition 1956, chapter 3; Brock 1946 (damping).
+    """
+    ratio = system.epsilon
+    host = np.sqrt([1.0, system.stiffness2])
+    damping = float(np.sqrt(3 * ratio / (8 * (1 + ratio))))
+    return Tuning(tuple((host / (1 + ratio)).tolist()), (damping, damping))
+
+
+def best_tuning(system, band: tuple[float, float], scale=np.ones_like) -> Tuning:
+    """Return the linear absorbers with the lowest peak over a band of frequencies, each with the mass of a ball.
+
+    The peak (`Linear.peak`) is a maximum and not smooth. Therefore an upper bound on the response in the whole band is
+    minimised, by sequential quadratic programming from three starting points. The best local optimum is returned.
+
+    Parameters
+    ----------
+    system
+        Dimensionless parameters.
+    band : tuple of float
+        First and last forcing frequency Omega, dimensionless.
+    scale : callable, optional
+        As in `Linear`.
+
+    Raises
+    ------
+    ArithmeticError
+        If the optimisation fails from every starting point.
+    """
+    book, frequencies = textbook_tuning(system), np.linspace(*band, POINTS)
+    textbook = np.log([*book.frequency, *book.damping])
+    found = []
+    for factors in STARTS:
+        start = textbook + np.log([*factors, 1.0, 1.0])
+        bound = _levels(start, system, frequencies, scale).max()
+        result = minimize(
+            lambda values: values[-1],
+            [*start, bound],
+            jac=lambda values: np.eye(5)[-1],
+            constraints={
+                "type": "ineq",
+                "fun": lambda values: values[-1] - _levels(values[:4], system, frequencies, scale),
+            },
+            bounds=[(value - np.log(BOUND_FACTOR), value + np.log(BOUND_FACTOR)) for value in textbook]
+            + [(None, None)],
+            method="SLSQP",
+            options={"maxiter": 200, "ftol": 1e-9},
+        )
+        if result.success:
+            found.append(_tuning(result.x[:4]))
+    if not found:
+        raise ArithmeticError(f"the tuning of the absorbers for the band {band} did not converge from any start")
+    return min(found, key=lambda tuning: tuned(system, tuning, scale).peak(band))
+
+
+def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
+    """Return all linear systems for comparison, by name; the best absorbers are tuned for a band of frequencies.
+
+    Raises
+    ------
+    ArithmeticError
+        As for `best_tuning`.
+    """
+    return {
+        "without balls": without_balls(system),
+        "absorbers of the textbook": tuned(system, textbook_tuning(system)),
+        "best absorbers": tuned(system, best_tuning(system, band)),
+    }
+
+
 def _attached(matrix, links):
     """Return the stiffness or damping matrix (4, 4) of the boxes with their absorbers.
 
@@ -89,3 +143,17 @@ def _attached(matrix, links):
     """
     link = np.diag(links)
     return np.block([[matrix + link, -link], [-link, link]])
+
+
+def _levels(logarithms, system, frequencies, scale):
+    """Return the logarithms of the amplitudes of both boxes at all `frequencies`, as one array.
+
+    logarithms: of both frequencies and both damping ratios of the absorbers, (4,). An amplitude below 1e-12 times the
+    largest one is replaced by this bound, since a box may not move at all.
+    """
+    amplitudes = tuned(system, _tuning(logarithms), scale).amplitudes(frequencies)
+    return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
+
+
+def _tuning(logarithms):
+    return Tuning(*map(tuple, np.exp(logarithms).reshape(2, 2).tolist()))

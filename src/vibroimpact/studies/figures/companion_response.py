@@ -21,7 +21,7 @@ from vibroimpact.figures.plotting.style import (
     side_by_side,
     styled,
 )
-from vibroimpact.studies.absorbers.tuning import compared
+from vibroimpact.studies.absorbers.references import compared
 from vibroimpact.studies.figures.sweep import SYMBOLS
 from vibroimpact.studies.regimes.classification import IDLE, NO_IMPACTS, PERIODIC, REGIMES
 from vibroimpact.studies.regimes.one_to_one import by_exact_orbits, by_theory

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.lanes.ensemble import ensemble
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, heading, new_figure, styled
-from vibroimpact.studies.absorbers.tuning import compared
+from vibroimpact.studies.absorbers.references import compared
 from vibroimpact.studies.figures.companion_response import LINES
 from vibroimpact.system import PhysicalSystem
 
