@@ -117,7 +117,7 @@ def test_hopping_is_not_painted_as_chaos(map_of_regimes):
 
 def test_lowest_peaks_are_measured_again_at_their_places_with_a_standard_error():
     """Against runs of the same starts, frequency by frequency and cycle by cycle; the error by leaving starts out."""
-    balls = {"band": BAND, "observation": OBSERVATION, "starts": 2, "seed": 1, "cycles": 60, "settle": 40}
+    balls = {"band": BAND, "seed": 1, "cycles": 60, "settle": 40}
     balls |= tables_of(SYSTEMS["equal"], OBSERVATION)
     summary = companion_absorber.compute(SYSTEMS["equal"], **balls)["summary"]
     lowest = summary.query("quantity == 'lowest peak'")
@@ -135,7 +135,6 @@ def test_lowest_peaks_are_measured_again_at_their_places_with_a_standard_error()
             runs.append(seen.max(axis=-1).T / (0.1 * place.f10_hat))
         runs = np.array(runs)  # frequencies, cycles, starts
         assert place.value == pytest.approx(np.percentile(runs, 99, axis=(1, 2)).max(), rel=1e-9)
-        assert place.largest == pytest.approx(runs.max(), rel=1e-9)
         others = [np.percentile(np.delete(runs, k, axis=2), 99, axis=(1, 2)).max() for k in range(len(states))]
         assert place.spread**2 == pytest.approx(7 / 8 * np.sum((others - np.mean(others)) ** 2), rel=1e-6, abs=1e-12)
     best = summary.query("who == 'balls, best kappa'").iloc[0]

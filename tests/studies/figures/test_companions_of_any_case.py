@@ -41,13 +41,12 @@ def test_basins_without_an_orbit_are_those_of_boxes_at_rest():
 
 
 def test_forces_too_weak_for_a_response_are_drawn_without_one():
-    spec = Spec(("amplitudes", "energy", "regimes"), 1, 1, 30, 20, observation=OBSERVATION)
+    spec = Spec(("amplitudes", "regimes"), 1, 1, 30, 20, observation=OBSERVATION)
     band = {"along": ["sigma_e_hat"], "range": [-1.0, 1.0], "values": 3}
     forces = axis(["f10_hat", "f20_hat"], listed=[0.05, 0.06])
     grids = Grid(STILL, [axis(**band), forces]), Grid(STILL, [forces])
     frequency, force = (pd.DataFrame(rows(grid, spec, range(len(grid)))) for grid in grids)
     tables = companion_response.compute(STILL, frequency, force, band)
-    assert tables["shares"].empty  # no start meets a wall
     companion_response.draw(tables).draw_without_rendering()
 
 

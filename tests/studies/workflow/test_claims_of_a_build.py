@@ -23,13 +23,8 @@ CHAOTIC = tuple(
     f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "coupling")
 )
 LARGEST_OF_FEW = (
-    *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "balls, best kappa", "one ball")),
-    *(
-        f'absorber.csv | quantity == "{quantity}"'
-        for quantity in ("lowest peak", "frequencies won", "least", "greatest")
-    ),
-    'absorber.csv | quantity == "stroke" and who == "balls, best kappa"',
-    'impact_shares.csv | source == "balls"',
+    *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "balls, best kappa")),
+    *(f'absorber.csv | quantity == "{quantity}"' for quantity in ("lowest peak", "greatest", "impact share")),
 )
 """What comes from a few runs, most of them chaotic."""
 LONG = tuple(

@@ -15,10 +15,7 @@ COMPANIONS = {
     },
     "companion_absorber": {
         "case": "sweeps.clearance.case",
-        "settings": [
-            *(f"sweeps.clearance.{name}" for name in ("band", "starts", "seed", "cycles", "settle")),
-            "regimes.observation",
-        ],
+        "settings": [f"sweeps.clearance.{name}" for name in ("band", "seed", "cycles", "settle")],
         "inputs": {
             "response": "results/sweeps/frequency_response.csv",
             "clearance": "results/sweeps/clearance.csv",

@@ -21,35 +21,20 @@ QUANTILE = 0.99
 
 
 @dataclass(frozen=True)
-class Peak:
-    """Peak displacement in a band of frequencies, dimensionless.
-
-    value: the peak, see `peak_of`. error: standard error of the value. largest: largest |X_i| in all cycles, which for
-    chaotic motions grows with the number of cycles. at: index, along the band, of the system with the peak.
-    """
-
-    value: float
-    error: float
-    largest: float
-    at: int
-
-
-@dataclass(frozen=True)
 class CycleMaxima:
     """Results of runs of m systems, each from n states, cycle by cycle.
 
-    largest: largest |X_i| of both boxes in each cycle, (m, n, cycles); nan for unfinished runs. final: final states,
-    (m, n, 8). rms: largest root mean square of X_1 or X_2 in any run. unfinished: number of unfinished runs.
+    largest: largest |X_i| of both boxes in each cycle, (m, n, cycles); nan for unfinished runs. rms: largest
+    root mean square of X_1 or X_2 in any run. unfinished: number of unfinished runs.
     """
 
     largest: np.ndarray
-    final: np.ndarray
     rms: float
     unfinished: int
 
 
-def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> Peak:
-    """Return the peak displacement in a band of frequencies.
+def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> tuple[float, float]:
+    """Return the peak displacement in a band of frequencies, dimensionless, and its standard error.
 
     `systems` holds one system per frequency. Each system runs from every state of `states`, (n, 8).
 
@@ -68,9 +53,7 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
     runs = by_cycle(systems, states, cycles, settle)
     if runs.unfinished:
         raise ArithmeticError(f"the peak is unknown, since {runs.unfinished} runs could not be finished")
-    heights = peak_of(runs.largest)
-    at = int(heights.argmax())
-    return Peak(float(heights[at]), standard_error(runs.largest), float(runs.largest.max()), at)
+    return float(peak_of(runs.largest).max()), standard_error(runs.largest)
 
 
 def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> CycleMaxima:
@@ -87,10 +70,10 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
         raise ValueError(f"cycles: {cycles} is not above settle = {settle}, so that no cycle is left to observe")
     systems, states = np.array(systems, dtype=object), np.array([inactive_at_rest(one, states) for one in systems])
     runs = ensemble(systems[:, None], states, cycles, settle=settle, by_cycle=True)
-    largest, final, squares = runs["largest"].max(axis=-1), runs["final"][..., -1, :], runs["mean_square"].sum(axis=-2)
-    lost = np.isnan(final).any(axis=-1)
+    largest, squares = runs["largest"].max(axis=-1), runs["mean_square"].sum(axis=-2)
+    lost = np.isnan(runs["final"][..., -1, :]).any(axis=-1)
     rms = np.sqrt(np.max(squares[~lost], initial=0.0) / (cycles - settle))
-    return CycleMaxima(largest, final, float(rms), int(np.count_nonzero(lost)))
+    return CycleMaxima(largest, float(rms), int(np.count_nonzero(lost)))
 
 
 def peak_of(largest: ArrayLike) -> np.ndarray:

@@ -3,7 +3,6 @@
 Peaks and clearances are divided by the static deflection: X / f and 1 / f, with f = epsilon f10_hat.
 """
 
-from collections import Counter
 from itertools import takewhile
 
 import numpy as np
@@ -23,8 +22,6 @@ from vibroimpact.studies.figures.companion_response import (
     ratios,
 )
 from vibroimpact.studies.regimes.classification import starts as spread_starts
-from vibroimpact.studies.regimes.settling import Observation
-from vibroimpact.studies.regimes.settling import settle as settled
 from vibroimpact.studies.sweeps.grid import axis
 
 SPEC = {
@@ -39,7 +36,7 @@ SPEC = {
         "above, the one of the best linear absorbers at half the height of the lower valley.",
     "method": "points of three sweeps; linear systems in closed form; absorbers tuned by optimisation",
     "sweeps": {"clearance": {"along": [["f10_hat", "f20_hat"]],
-        "observe": ["peaks", "amplitudes", "energy", "regimes"]},
+        "observe": ["peaks", "amplitudes", "regimes"]},
         "design": {"along": [["kappa"], ["f10_hat", "f20_hat"]], "observe": ["peaks"]}},
     "columns": {
         "sweep": {"meaning": "sweep of the config", "unit": "text", "values": ["clearance", "design"]},
@@ -48,9 +45,6 @@ SPEC = {
             "compared": "algebra"},
         "ratio": {"meaning": r"peak of $\lvert X_i\rvert/f$ in the band for the box that moves more: value exceeded in "
             "1 % of the cycles of all starts", "unit": "dimensionless", "compared": "extremes"},
-        "one_ball": {"meaning": "the same for the start from rest, if only one ball ever hits its walls; otherwise "
-            "blank",
-            "unit": "dimensionless", "compared": "extremes"},
     },
     "tables": {
         "summary": {
@@ -62,68 +56,48 @@ SPEC = {
                     "lowest peak: the same at each kappa of the sweep `design`. plateau: largest kappa up to which all "
                     "lowest peaks are at most 1.2 times the lowest of all; plateau from, plateau to: the least and the "
                     r"greatest of these peaks. stroke: largest $\lvert X_i - Y_i\rvert/f$ in the band, the room that "
-                    "linear absorbers need on each side; for balls, the clearance. For balls compared with `who` at "
-                    "one force: frequencies won, share of frequencies at which the boxes move less with balls; least "
-                    r"and greatest, extremes of the ratio of the largest $\lvert X_i\rvert$ to that of `who`",
+                    "linear absorbers need on each side. For all frequencies at one force: greatest, the largest "
+                    r"ratio of the largest $\lvert X_i\rvert$ with balls to that of `who`; impact share, the median "
+                    "share of the work of the forces that impacts dissipate",
                     "unit": "text", "values": ["peak", "lowest peak", "plateau", "plateau from", "plateau to",
-                    "stroke", "frequencies won", "least", "greatest"]},
+                    "stroke", "greatest", "impact share"]},
                 "who": {"meaning": "balls at the kappa of the config, balls at the best kappa of the sweep `design`, "
-                    "one ball at the kappa of the config while the other hits no wall, or the linear system for "
-                    "comparison",
-                    "unit": "text", "values": ["balls", "balls, best kappa", "one ball", "without balls", "balls fixed",
+                    "or the linear system for comparison",
+                    "unit": "text", "values": ["balls", "balls, best kappa", "without balls",
                     "absorbers of the textbook", "best absorbers"]},
                 "value": {"meaning": "value of the quantity. For a peak with balls, the two lowest peaks of the sweep "
                     "are measured again, from rest and seven other starts, also at frequencies half-way between; the "
-                    "value is the lower result. For one ball, it is the peak of the sweep, from rest",
-                    "unit": "dimensionless", "compared": {
-                    "without balls": "algebra", "balls fixed": "algebra",
-                    "absorbers of the textbook": "trajectory", "best absorbers": "trajectory",
-                    "frequencies won": "shares", "least": "extremes", "greatest": "extremes", "others": "peaks"}},
+                    "value is the lower result",
+                    "unit": "dimensionless", "compared": {"greatest": "extremes", "impact share": "extremes",
+                    "without balls": "algebra", "absorbers of the textbook": "trajectory",
+                    "best absorbers": "trajectory", "others": "peaks"}},
                 "spread": {"meaning": "standard error of `value` by the jackknife, with one start left out at a time",
                     "unit": "dimensionless", "compared": "spreads"},
-                "largest": {"meaning": r"largest $\lvert X_i\rvert/f$ in the same cycles. For a chaotic motion it "
-                    "increases with their number, in contrast to `value`", "unit": "dimensionless",
-                    "compared": "peaks"},
-                "of_absorbers, of_without": {"meaning": "for a peak, ratio of the value to that of the best absorbers, "
-                    "and to that without balls", "unit": "dimensionless", "compared": "peaks"},
-                "swept": {"meaning": "peak at the same point in the sweep", "unit": "dimensionless",
-                    "compared": "extremes"},
                 "kappa": {"compared": {"lowest peak": "algebra", "others": "places"}},
                 "f10_hat, f20_hat": {"compared": {"peak": "places", "lowest peak": "places", "others": "algebra"}},
-                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6), at the peak",
+                "clearance": {"meaning": "$1/f = k_1L/F$, clearance over static deflection, at the lowest peak",
                     "unit": "dimensionless", "compared": "places"},
-                "clearance, narrowest, widest": {"meaning": "$1/f = k_1L/F$, clearance over static deflection, at the "
-                    "lowest peak, and the ends of the range around it, on the grid of the sweep, in which the peak is "
-                    "at most 1.25 times as high", "unit": "dimensionless", "compared": "places"},
-                "regime": {"meaning": "`regime` that most starts reach there", "unit": "text",
-                    "compared": "places"},
             },
         },
     },
 }  # fmt: skip
 
-BALLS, ONE_BALL, BEST_KAPPA = "balls", "one ball", "balls, best kappa"
-PEAK, LOWEST, PLATEAU, STROKE = "peak", "lowest peak", "plateau", "stroke"
-"""Names of quantities in the summary; `_response_ratios` defines further names."""
+BALLS, BEST_KAPPA = "balls", "balls, best kappa"
+PEAK = "peak"
+"""Names of rows and of a quantity in the summary."""
 LIGHT = "#D55E00"
 STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgewidth": 0.4, "linestyle": "none"}
 """LIGHT is the colour of the best restitution coefficient, STAR the marker of the lowest peaks."""
-MARGIN_FACTOR = 1.25
-"""The margin of the best clearance is the range of clearances with peaks up to MARGIN_FACTOR times the lowest peak."""
 PLATEAU_FACTOR = 1.2
 """The plateau is the range of small kappa with lowest peaks of at most PLATEAU_FACTOR times the lowest of all."""
-FROM, TO = "plateau from", "plateau to"
 REMEASURED_PEAKS = 2
 """Number of the lowest peaks of a sweep that are measured again."""
 REMEASURED_STARTS = 8
 """Number of starts, rest among them, in the second measurement of a lowest peak."""
-PLACE = "kappa", *FORCES, "sigma_e_hat", "clearance"
-SUMMARY_COLUMNS = ["quantity", "who", "value", "spread", "largest", "swept", *PLACE, "narrowest", "widest", "regime"]
+SUMMARY_COLUMNS = ["quantity", "who", "value", "spread", "kappa", *FORCES, "clearance"]
 
 
-def compute(
-    system, response, clearance, design, band: dict, observation: dict, starts: int, seed: int, cycles: int, settle: int
-) -> dict:
+def compute(system, response, clearance, design, band: dict, seed: int, cycles: int, settle: int) -> dict:
     """Return the peaks with balls per unit force, and a summary that compares them with linear systems.
 
     The lowest peak of a sweep is biased: the lowest of many values with random errors is too low. So the
@@ -136,96 +110,61 @@ def compute(
     system
         System of the sweeps, for the parameters that do not vary.
     response
-        Table of a sweep over sigma_e_hat, then both forces, with regimes and amplitudes.
+        Table of a sweep over sigma_e_hat, then both forces, with regimes, amplitudes and energy.
     clearance, design
         Tables of two sweeps with the peaks along `band`: `clearance` over both forces, `design` over kappa and then
         both forces.
     band : dict
         Arguments of `sweeps.grid.axis`, along sigma_e_hat.
-    observation, starts
-        Arguments of `regimes.settling.Observation`, and number of starts, to find the regime at a lowest peak.
     seed : int
         Seed of the starts in the sweeps.
     cycles, settle : int
         Forcing periods of each run in the sweeps, and how many of them are left out at its start.
 
-    Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f), one_ball; and "summary":
-    columns quantity, who, value, ... (see SPEC).
+    Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f); and "summary": columns
+    quantity, who, value, ... (see SPEC).
     """
     linear = linear_systems(system, (1.0, 1.0), band)
     peaks = {name: one.peak(frequencies(system, band)) / system.epsilon for name, one in linear.items()}
     clearance, design = (_peaks(system, table) for table in (clearance, design))
-    alone = clearance.assign(ratio=clearance["one_ball"]).dropna(subset="ratio")
     again = {"band": band, "states": spread_starts(REMEASURED_STARTS, seed + 1), "cycles": cycles, "settle": settle}
     own = _lowest_again(system, clearance, **again)
     restitution = [_lowest_again(system, mine, **again) for _, mine in design.dropna(subset="ratio").groupby("kappa")]
     best = min(restitution, key=lambda place: place["value"])
-    optima = {BALLS: own, BEST_KAPPA: best}
-    if len(alone):  # this peak is for the start from rest, so it is not measured again with other starts
-        (one_ball,) = _lowest(alone, 1)
-        optima[ONE_BALL] = {**one_ball, "value": one_ball["swept"], "sigma_e_hat": one_ball["peak_at"]}
 
     rows = [{"quantity": PEAK, "who": name, "value": peak} for name, peak in peaks.items()]
-    for who, place in optima.items():
-        there = system.with_(**{name: place[name] for name in ("kappa", *FORCES, "sigma_e_hat")})
-        begun = spread_starts(1 if who == ONE_BALL else starts, seed)
-        regimes = Counter(regime.name for regime in settled(there, begun, Observation(**observation)))
-        rows.append({"quantity": PEAK, "who": who, **place, "regime": regimes.most_common(1)[0][0]})
-    rows += [{"quantity": LOWEST, "who": BALLS, **place} for place in restitution]
-    named = zip((PLATEAU, FROM, TO), plateau(restitution), strict=True)
+    rows += [{"quantity": PEAK, "who": who, **place} for who, place in ((BALLS, own), (BEST_KAPPA, best))]
+    rows += [{"quantity": "lowest peak", "who": BALLS, **place} for place in restitution]
+    named = zip(("plateau", "plateau from", "plateau to"), plateau(restitution), strict=True)
     rows += [{"quantity": quantity, "who": BALLS, "value": value} for quantity, value in named]
-    strokes = {
-        name: linear[name].stroke(frequencies(system, band)) / system.epsilon
-        for name in ("absorbers of the textbook", "best absorbers")
-    }
-    strokes |= {who: optima[who]["clearance"] for who in (BALLS, BEST_KAPPA)}
-    rows += [{"quantity": STROKE, "who": who, "value": stroke} for who, stroke in strokes.items()]
-    rows += _response_ratios(system, per_force(system, response), band)
-    summary = pd.DataFrame(rows, columns=SUMMARY_COLUMNS)
-    for column, name in (("of_without", "without balls"), ("of_absorbers", "best absorbers")):
-        summary.insert(5, column, (summary["value"] / peaks[name]).where(summary["quantity"] == PEAK))
+    stroke = linear["best absorbers"].stroke(frequencies(system, band)) / system.epsilon
+    rows.append({"quantity": "stroke", "who": "best absorbers", "value": stroke})
+    rows += _over_frequencies(system, per_force(system, response), band)
     swept = pd.concat([clearance.assign(sweep="clearance"), design.assign(sweep="design")])
-    return {"csv": swept[["sweep", "kappa", "clearance", "ratio", "one_ball"]], "summary": summary}
+    return {
+        "csv": swept[["sweep", "kappa", "clearance", "ratio"]],
+        "summary": pd.DataFrame(rows, columns=SUMMARY_COLUMNS),
+    }
 
 
 def _peaks(system, table):
     """Return the table with the clearance 1 / f and the peaks divided by f = epsilon f10_hat."""
-    force = system.epsilon * table["f10_hat"]
-    kappa = table.get("kappa", system.kappa)
-    return table.assign(
-        clearance=1 / force, kappa=kappa, ratio=table["peak"] / force, one_ball=table["peak_one_ball"] / force
-    )
-
-
-def _lowest(table, number):
-    """Return the `number` points with the lowest peaks in a sweep over the clearance.
-
-    Each point has the margin of its clearance (see MARGIN_FACTOR) as "narrowest" and "widest".
-    """
-    beside, places = table.sort_values("clearance").reset_index(drop=True), []
-    for here in beside["ratio"].nsmallest(number).index:
-        place = beside.loc[here].to_dict()
-        far = ~(beside["ratio"] <= MARGIN_FACTOR * place["ratio"]).to_numpy()
-        first, last = np.flatnonzero(np.r_[True, far[:here]])[-1], here + int(np.argmax(np.r_[far[here:], True])) - 1
-        margin = {"narrowest": beside["clearance"][first], "widest": beside["clearance"][last]}
-        places.append({**place, "swept": place["ratio"], **margin})
-    return places
+    force, kappa = system.epsilon * table["f10_hat"], table.get("kappa", system.kappa)
+    return table.assign(clearance=1 / force, kappa=kappa, ratio=table["peak"] / force)
 
 
 def _lowest_again(system, table, band, states, cycles, settle):
     """Measure the REMEASURED_PEAKS lowest peaks of a sweep again, and return the point with the lowest result.
 
-    Its new entries are value, spread and largest, all divided by the force, and the sigma_e_hat of the peak.
+    Its new entries are value and spread, both divided by the force.
     """
     detunings = np.sort(np.ravel(axis(**band).values))
     detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
-    places = []
-    for place in _lowest(table, REMEASURED_PEAKS):
+    places = table.nsmallest(REMEASURED_PEAKS, "ratio").to_dict("records")
+    for place in places:
         there = system.with_(**{name: place[name] for name in ("kappa", *FORCES)})
-        found = peak([there.with_(sigma_e_hat=float(value)) for value in detunings], states, cycles, settle)
-        measured = {"value": found.value, "spread": found.error, "largest": found.largest}
-        measured = {name: value * place["clearance"] for name, value in measured.items()}
-        places.append({**place, **measured, "sigma_e_hat": float(detunings[found.at])})
+        value, error = peak([there.with_(sigma_e_hat=float(value)) for value in detunings], states, cycles, settle)
+        place |= {"value": value * place["clearance"], "spread": error * place["clearance"]}
     return min(places, key=lambda place: place["value"])
 
 
@@ -242,17 +181,13 @@ def plateau(places):
     return (on[-1]["kappa"], min(peaks), max(peaks)) if on else (float("nan"),) * 3
 
 
-def _response_ratios(system, response, band):
-    """For each pair of forces and each linear system, yield statistics of a ratio over the frequencies.
-
-    The ratio is the response with balls divided by the response of the linear system.
-    """
+def _over_frequencies(system, response, band):
+    """For each pair of forces, yield two rows on all frequencies: greatest ratio, and median impact share."""
     for pair, rows in response.groupby(FORCES, sort=False):
-        for name, one in linear_systems(system, pair, band).items():
-            times = rows["ratio"] / ratios(system, one, rows["sigma_e_hat"])
-            measures = {"frequencies won": (times < 1).mean(), "least": times.min(), "greatest": times.max()}
-            place = dict(zip(FORCES, pair, strict=True))
-            yield from ({"quantity": q, "who": name, "value": v, **place} for q, v in measures.items())
+        without, place = linear_systems(system, pair, band)["without balls"], dict(zip(FORCES, pair, strict=True))
+        greatest = (rows["ratio"] / ratios(system, without, rows["sigma_e_hat"])).max()
+        yield {"quantity": "greatest", "who": "without balls", "value": greatest, **place}
+        yield {"quantity": "impact share", "who": BALLS, "value": rows["impact_share"].median(), **place}
 
 
 @styled

@@ -24,7 +24,6 @@ from vibroimpact.figures.plotting.style import (
 from vibroimpact.studies.absorbers.references import compared
 from vibroimpact.studies.figures.sweep import SYMBOLS
 from vibroimpact.studies.regimes.classification import IDLE, NO_IMPACTS, PERIODIC, REGIMES
-from vibroimpact.studies.regimes.one_to_one import by_exact_orbits, by_theory
 from vibroimpact.studies.sweeps.grid import axis
 from vibroimpact.tables import curve
 
@@ -38,7 +37,7 @@ SPEC = {
         "circles lie below it near resonance and above it elsewhere. A flat line of the best absorbers lies below "
         "nearly all circles. d: with increasing force, the circles fall from the line without balls to a minimum "
         "near force 1 and rise slowly.",
-    "method": "points of two sweeps; fixed points, exact symmetric orbits and linear systems in closed form",
+    "method": "points of two sweeps; linear systems in closed form",
     "sweeps": {"frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
         "observe": ["amplitudes", "energy", "regimes"]}},
     "columns": {
@@ -48,7 +47,6 @@ SPEC = {
         "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless", "compared": "algebra"},
         "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ over all starts, for the box that moves more",
             "unit": "dimensionless", "compared": "extremes"},
-        "impact_share": {"compared": "extremes"},
     },
     "tables": {
         "linear": {
@@ -56,8 +54,7 @@ SPEC = {
             "about": "Linear systems to which `companion_response` compares the balls.",
             "columns": {
                 "panel": {"meaning": "against the frequency, or against the force", "values": ["frequency", "force"]},
-                "series": {"meaning": "linear system", "values": ["without balls", "balls fixed",
-                    "absorbers of the textbook", "best absorbers"]},
+                "series": {"meaning": "linear system", "values": ["without balls", "best absorbers"]},
                 "f10_hat, f20_hat": {"compared": "algebra"},
                 "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
                     "compared": "algebra"},
@@ -65,45 +62,12 @@ SPEC = {
                     "compared": {"best absorbers": "trajectory", "others": "algebra"}},
             },
         },
-        "one_to_one": {
-            "file": "results/figures/companion_response.one_to_one.csv",
-            "about": "Symmetric 1:1 responses at the points of the sweeps of `companion_response`.",
-            "columns": {
-                "panel": {"meaning": "sweep over the frequency, or over the force", "values": ["frequency",
-                    "force"]},
-                "series": {"meaning": "response by the theory, or exact orbit", "values": ["theory",
-                    "symmetric orbits"]},
-                "f10_hat, f20_hat": {"compared": "algebra"},
-                "sigma_e_hat": {"meaning": "detuning of the forcing, (10.6)", "unit": "dimensionless",
-                    "compared": "algebra"},
-                "ratio": {"meaning": r"largest $\lvert X_i\rvert/f$ of the box that moves more",
-                    "unit": "dimensionless", "compared": "roots"},
-                "impact_share": {"compared": "roots"},
-                "stable": {"meaning": "True if all multipliers of the orbit are inside the unit circle; for the "
-                    "theory, if the fixed point is stable by Masri's analysis and in the slow flow",
-                    "unit": "true or false"},
-            },
-        },
-        "shares": {
-            "file": "results/impact_shares.csv",
-            "about": "Share of the work of the forces that impacts dissipate, over the frequencies of "
-                "`companion_response`.",
-            "columns": {
-                "source": {"meaning": "simulation with balls, or symmetric 1:1 responses, stable or not, by the theory "
-                    "or exact", "unit": "text", "values": ["balls", "theory", "symmetric orbits"]},
-                "f10_hat, f20_hat": {},
-                "points": {"meaning": "number of frequencies, or of responses at all frequencies", "unit": "number"},
-                "least, middle, greatest": {"meaning": "smallest, median and largest share", "unit": "share"
-                    },
-            },
-        },
     },
 }  # fmt: skip
 
 FORCES = ["f10_hat", "f20_hat"]
 PLACE = [*FORCES, "sigma_e_hat"]
-OF_BALLS = ["label", *PLACE, "ratio", "impact_share"]
-ONE_TO_ONE = {"theory": by_theory, "symmetric orbits": by_exact_orbits}
+OF_BALLS = ["panel", "label", *PLACE, "ratio"]
 LINES = {
     "without balls": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
     "best absorbers": {"color": BLACK, "linestyle": (0, (4.5, 2.5)), "linewidth": 0.9},
@@ -116,7 +80,7 @@ LINE_POINTS = 451
 
 
 def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) -> dict:
-    """Return displacements per unit force: with balls in two sweeps, in 1:1 responses, and of linear systems.
+    """Return displacements per unit force: with balls in two sweeps, and of linear systems.
 
     Parameters
     ----------
@@ -125,18 +89,16 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
     frequency : DataFrame
         Table of a sweep over sigma_e_hat, then both forces.
     force : DataFrame
-        Table of a sweep over two equal forces. Both tables have regimes, amplitudes and energy.
+        Table of a sweep over two equal forces. Both tables have regimes and amplitudes.
     band : dict
         Arguments of `sweeps.grid.axis`, along sigma_e_hat, for the band in which the best absorbers are tuned.
 
     Returns "csv", responses with balls: columns panel ("frequency" or "force"), label (the regime of most starts),
-    f10_hat, f20_hat, sigma_e_hat, ratio (X / f), impact_share. "linear", linear
-    systems: panel, series, f10_hat, f20_hat, sigma_e_hat, ratio. "one_to_one", symmetric 1:1 responses: the columns of
-    "linear", and impact_share, stable. "shares", statistics of impact_share over the frequencies: source, f10_hat,
-    f20_hat, points, least, middle, greatest.
+    f10_hat, f20_hat, sigma_e_hat, ratio (X / f); "linear", linear systems: panel, series, f10_hat, f20_hat,
+    sigma_e_hat, ratio.
     """
     sweeps = {"frequency": frequency, "force": force.assign(sigma_e_hat=system.sigma_e_hat)}
-    balls = pd.concat([per_force(system, table)[OF_BALLS].assign(panel=name) for name, table in sweeps.items()])
+    balls = pd.concat([per_force(system, table).assign(panel=name)[OF_BALLS] for name, table in sweeps.items()])
     lines = [
         ("frequency", pair, np.linspace(detunings.min(), detunings.max(), LINE_POINTS))
         for pair, detunings in frequency.groupby(FORCES, sort=False)["sigma_e_hat"]
@@ -147,19 +109,9 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
         curve(panel, name, **dict(zip(PLACE, (*pair, detunings), strict=True)), ratio=ratios(system, one, detunings))
         for panel, pair, detunings in lines
         for name, one in linear_systems(system, pair, band).items()
+        if name in LINES
     ]
-    one_to_one = pd.concat(
-        _one_to_one(system, name, series, table) for name, table in sweeps.items() for series in ONE_TO_ONE
-    )
-    known = pd.concat([balls.assign(series="balls"), one_to_one]).query("panel == 'frequency' and impact_share.notna()")
-    shares = known.groupby(["series", *FORCES], sort=False)["impact_share"]
-    shares = shares.agg(points="size", least="min", middle="median", greatest="max").reset_index()
-    return {
-        "csv": balls[["panel", *OF_BALLS]],
-        "linear": pd.concat(linear).sort_values(["panel", "series"], kind="stable"),
-        "one_to_one": one_to_one,
-        "shares": shares.rename(columns={"series": "source"}),
-    }
+    return {"csv": balls, "linear": pd.concat(linear).sort_values(["panel", "series"], kind="stable")}
 
 
 def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
@@ -190,17 +142,6 @@ def frequencies(system, band: dict) -> tuple[float, float]:
 def ratios(system, linear, detunings):
     """Return the larger |X_i| / f of both boxes at each detuning, in a linear system with max(f10_hat, f20_hat) = 1."""
     return linear.amplitudes(1.0 + system.epsilon * np.asarray(detunings)).max(axis=-1) / system.epsilon
-
-
-def _one_to_one(system, panel, series, table):
-    """Return a row for each symmetric 1:1 response, by the method `series` of ONE_TO_ONE, at each point of a sweep."""
-    rows = []
-    for place in table[PLACE].to_dict("records"):
-        force = system.epsilon * max(place[name] for name in FORCES)
-        for found in ONE_TO_ONE[series](system.with_(**place)):
-            measures = {"ratio": found.largest.max() / force, "impact_share": found.impact_share}
-            rows.append({"panel": panel, "series": series, **place, **measures, "stable": found.stable})
-    return pd.DataFrame(rows, columns=["panel", "series", *PLACE, "ratio", "impact_share", "stable"])
 
 
 @styled

@@ -51,23 +51,19 @@ def _amplitudes(system, states, spec):
 
 
 def _peaks(system, states, spec):
-    """Return the highest peak along the band, over all starts (`absorbers.peaks`), and four other values.
+    """Return the highest peak along the band, over all starts (`absorbers.peaks`), and three other values.
 
-    The four others are the largest root mean square of X_1 or X_2, the value of the first parameter in `spec.band` at
-    the highest peak, the highest peak of the runs from rest if exactly one ball is idle in all of these runs (else
-    nan), and the number of unfinished runs.
+    The three others are the largest root mean square of X_1 or X_2, the value of the first parameter in `spec.band` at
+    the highest peak, and the number of unfinished runs.
     """
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
     runs = by_cycle(systems, states, spec.cycles, spec.settle)
     if runs.unfinished == len(systems) * len(states):
-        return np.nan, np.nan, np.nan, np.nan, runs.unfinished
+        return np.nan, np.nan, np.nan, runs.unfinished
     peaks = peak_of(runs.largest)
     at = next(iter(band.place(int(np.nanargmax(peaks))).values()))
-    both = {module for one in systems for module in one.modules} == {1, 2}
-    idle = [not runs.final[:, 0, [1 + 2 * module, 5 + 2 * module]].any() for module in (0, 1)]
-    one_ball = peak_of(runs.largest[:, :1]).max() if both and sum(idle) == 1 else np.nan
-    return np.nanmax(peaks), runs.rms, at, one_ball, runs.unfinished
+    return np.nanmax(peaks), runs.rms, at, runs.unfinished
 
 
 def _energy(system, states, spec):
@@ -95,7 +91,7 @@ OBSERVATIONS = {
         ("largest_X1", "largest_X2", "rms_X1", "rms_X2", "ball_speed_1", "ball_speed_2", "unfinished"),
         _amplitudes,
     ),
-    "peaks": (("peak", "peak_rms", "peak_at", "peak_one_ball", "peak_unfinished"), _peaks),
+    "peaks": (("peak", "peak_rms", "peak_at", "peak_unfinished"), _peaks),
     "energy": (("impact_share", "starts_without_impacts"), _energy),
     "fixed_points": (("fixed_points", "stable_points"), lambda system, states, spec: fixed_point_counts(system)),
 }
