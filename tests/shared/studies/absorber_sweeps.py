@@ -13,13 +13,12 @@ FORCES = ["f10_hat", "f20_hat"]
 def tables_of(system, observation):
     """Return the sweeps frequency_response (as "response"), clearance and design, each with two starts."""
     runs = {"starts": 2, "seed": 1, "cycles": 60, "settle": 40, "observation": observation}
-    observed, detunings = ("amplitudes", "energy", "regimes"), axis(["sigma_e_hat"], (-1.0, 1.0), 5)
-    peaks = Spec(("peaks",), band=BAND, **runs)
+    detunings, peaks = axis(["sigma_e_hat"], (-1.0, 1.0), 5), Spec(("peaks",), band=BAND, **runs)
     clearances = axis(FORCES, (0.2, 5.0), 4, "logarithmic")
     forces = axis(FORCES, tuples=[[0.4, 0.4], [0.0, 1.0]])
     spec = {
-        "response": ([detunings, forces], Spec(observed, **runs)),
-        "clearance": ([clearances], Spec(("peaks", *observed), band=BAND, **runs)),
+        "response": ([detunings, forces], Spec(("amplitudes", "energy", "regimes"), **runs)),
+        "clearance": ([clearances], peaks),
         "design": ([axis(["kappa"], listed=[0.2, 0.4, 0.65]), axis(FORCES, (0.2, 3.0), 4, "logarithmic")], peaks),
     }
     grids = {name: (Grid(system, axes), what) for name, (axes, what) in spec.items()}

@@ -35,8 +35,10 @@ SPEC = {
         "coefficient is half as high as that of the chapter's. Of two level lines, the one without balls lies far "
         "above, the one of the best linear absorbers at half the height of the lower valley.",
     "method": "points of three sweeps; linear systems in closed form; absorbers tuned by optimisation",
-    "sweeps": {"clearance": {"along": [["f10_hat", "f20_hat"]],
-        "observe": ["peaks", "amplitudes", "regimes"]},
+    "sweeps": {
+        "frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
+            "observe": ["amplitudes", "energy", "regimes"]},
+        "clearance": {"along": [["f10_hat", "f20_hat"]], "observe": ["peaks"]},
         "design": {"along": [["kappa"], ["f10_hat", "f20_hat"]], "observe": ["peaks"]}},
     "columns": {
         "sweep": {"meaning": "sweep of the config", "unit": "text", "values": ["clearance", "design"]},

@@ -38,8 +38,10 @@ SPEC = {
         "nearly all circles. d: with increasing force, the circles fall from the line without balls to a minimum "
         "near force 1 and rise slowly.",
     "method": "points of two sweeps; linear systems in closed form",
-    "sweeps": {"frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
-        "observe": ["amplitudes", "energy", "regimes"]}},
+    "sweeps": {
+        "frequency_response": {"along": [["sigma_e_hat"], ["f10_hat", "f20_hat"]],
+            "observe": ["amplitudes", "regimes"]},
+        "clearance": {"along": [["f10_hat", "f20_hat"]], "observe": ["amplitudes", "regimes"]}},
     "columns": {
         "panel": {"meaning": "sweep over the frequency, or over the force", "values": ["frequency", "force"]},
         "label": {"meaning": "`regime` that most starts reach", "unit": "text", "compared": "few outcomes"},
