@@ -8,7 +8,7 @@
 - `largest_lyapunov`, `lyapunov_spectrum`: Lyapunov exponents with errors.
 - `attractors`, `basins`: the attractors of a system; their basins on a plane of initial states.
 - `sections`: stroboscopic sections of many runs, such as a bifurcation diagram.
-- `branches`, `bifurcation_curves`: continuation in one parameter; folds and symmetry breaking in two parameters.
+- `branches`: continuation of 1:1 motions in one parameter.
 - `sweep`: observations over a grid of parameters.
 - `design`: choice of the ball for a machine.
 - `to_frame`, `to_dataset`: results as tables.
@@ -26,7 +26,7 @@ _NAMES = {
     "exact.orbits.search": "orbits Orbit prove",
     "exact.periodic": "periodic_orbit PeriodicOrbit",
     "frames": "to_frame to_dataset",
-    "studies.public.continuation": "branches bifurcation_curves",
+    "studies.public.continuation": "branches",
     "studies.public.sweeps": "sweep",
     "studies.public.sections": "sections",
     "studies.regimes.attractors": "attractors basins Basins Attractor",

@@ -16,7 +16,6 @@ from vibroimpact.frames import to_dataset as to_dataset
 from vibroimpact.frames import to_frame as to_frame
 from vibroimpact.studies.one_machine import Design as Design
 from vibroimpact.studies.one_machine import design as design
-from vibroimpact.studies.public.continuation import bifurcation_curves as bifurcation_curves
 from vibroimpact.studies.public.continuation import branches as branches
 from vibroimpact.studies.public.sections import sections as sections
 from vibroimpact.studies.public.sweeps import sweep as sweep

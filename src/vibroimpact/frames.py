@@ -24,8 +24,7 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     Parameters
     ----------
     result : object
-        A run (its events become the rows), an ensemble, basins, or a list of fixed points, orbits, branches,
-        bifurcation curves or rows.
+        A run (its events become the rows), an ensemble, basins, or a list of fixed points, orbits, branches or rows.
 
     Returns
     -------

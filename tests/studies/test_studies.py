@@ -8,19 +8,14 @@ import pytest
 
 import vibroimpact as vi
 from chapter import PARAMETERS
-from vibroimpact.studies.regimes.bifurcation_curves import Plane, bifurcation_curves
-from vibroimpact.studies.regimes.branches import Path, branches
 from vibroimpact.studies.regimes.classification import starts
-from vibroimpact.studies.regimes.families import FOLD, SYMMETRY_BREAKING, SymmetricOrbits
 from vibroimpact.studies.regimes.lyapunov import Spectrum
 from vibroimpact.studies.sweeps.observations import OBSERVATIONS
 from vibroimpact.system import progress
-from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 
 SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
 REST = [0.0] * 8
-EXAMPLES = ["branches", "bifurcation_curves", "sweep", "sections"]
-EXAMPLES += ["attractors", "basins", "largest_lyapunov", "lyapunov_spectrum"]
+EXAMPLES = ["branches", "sweep", "sections", "attractors", "basins", "largest_lyapunov", "lyapunov_spectrum"]
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -150,66 +145,16 @@ SPECTRUM, SINGLE_CYCLE = (Spectrum(np.zeros((n, 8)), np.zeros(n), np.zeros(n)) f
         (lambda: vi.basins(SYSTEM, {"Z": [1]}), "axes"), (lambda: vi.basins(SYSTEM, {}), "axes"),
         (lambda: vi.basins(SYSTEM, {"W1": [1.5]}), "initial state 0"), (lambda: vi.Observation(blocks=1), "blocks"),
         (lambda: vi.sections(SYSTEM, REST, 5, settle=5), "settle"), (lambda: vi.sections(SYSTEM, [1.0], 5), "states"),
-        (lambda: vi.bifurcation_curves(SYSTEM, "kappa", [(0, 1)] * 2), "along"),
         (lambda: vi.branches(SYSTEM, "f20", (0.8, 0.9)), "f20"),
         (lambda: vi.branches(SYSTEM, "f20_hat", 0.9), "between"),
         (lambda: vi.branches(SYSTEM, "f20_hat", (0.9, 0.8)), "between"),
         (lambda: vi.branches(SYSTEM, "kappa", (0.5, 1.5)), "between"),
         (lambda: vi.branches(SYSTEM, "kappa", (0.5, 0.6), "all"), "of"),
-        (lambda: vi.bifurcation_curves(SYSTEM, ("kappa", "mass"), [(0, 1)] * 2), "mass"),
-        (lambda: vi.bifurcation_curves(SYSTEM, ("f10_hat", "f20_hat"), (0.8, 1.2)), "between, f10_hat"),
-        (lambda: vi.bifurcation_curves(SYSTEM, ("f10_hat", "kappa"), [(0.8, 1.2), (0.5, 1.5)]), "between"),
-        (lambda: vi.bifurcation_curves(SYSTEM, ("f10_hat", "kappa"), [(0.8, 1.2), (0.5, 0.6)], of="all"), "of"),
     ],
 )  # fmt: skip
 def test_a_wrong_argument_is_named_in_one_line(call, told):
     with pytest.raises(ValueError, match=rf"^{told}: [^\n]+$"):
         call()
-
-
-# Continuation
-
-
-def test_the_theory_s_folds_bound_the_number_of_fixed_points_in_the_plane():
-    """On one side there are two points less, as a search at that side counts."""
-    names, limits = ("f20_hat", "f10_hat"), [(0.6, 1.0), (0.98, 1.2)]
-    found = vi.bifurcation_curves(SYSTEM, names, limits, seeds=1)
-    [fold] = [curve for curve in found if curve.kind == FOLD]
-    for f20, f10 in fold.points[1:-1:4]:
-        counts = [len(vi.fixed_points(SYSTEM.with_(f10_hat=f10, f20_hat=f20 + side))) for side in (-1e-4, 1e-4)]
-        assert abs(counts[0] - counts[1]) == 2
-    frame = vi.to_frame(found)
-    assert frame.columns.tolist() == ["family", "curve", "special", *names, "C1", "C2"]
-    for name, (low, high) in zip(names, limits, strict=True):
-        assert frame[name].between(low - 1e-9, high + 1e-9).all()
-
-
-def test_the_theory_breaks_the_symmetry_where_masri_s_upper_limit_is():
-    found = vi.bifurcation_curves(SYSTEM, ("f10_hat", "f20_hat"), [(0.9, 1.1), (0.95, 1.05)], seeds=1)
-    [curve] = [curve for curve in found if curve.kind == f"{SYMMETRY_BREAKING}, module 2"]
-    for (f10, f20), C in zip(curve.points[::4], curve.amplitudes[::4], strict=True):
-        points = vi.fixed_points(SYSTEM.with_(f10_hat=f10, f20_hat=f20))
-        assert min(np.abs(point.C - C).max() for point in points) < 1e-9
-        assert C[1] == pytest.approx(SYMMETRY_BREAKING_C, abs=1e-10)
-
-
-@pytest.mark.parametrize(
-    ("kind", "interval", "seed"), [(FOLD, (0.72, 0.75), 0.745), (SYMMETRY_BREAKING, (1.2, 1.22), 1.21)]
-)
-def test_exact_curves_pass_the_special_points_of_other_branches(kind, interval, seed):
-    """Found there by the multipliers, which the equations of the curve do not know."""
-
-    def special(f10):
-        path = Path(SYSTEM.with_(f10_hat=f10), ("f20_hat",))
-        found = branches(SymmetricOrbits, path, interval, [seed], 0.01)
-        return [(branch, node) for branch in found for node in branch.special if node.kind == kind]
-
-    [(branch, _)] = special(1.0)
-    plane = Plane(SYSTEM, ("f20_hat", "f10_hat"), np.array([interval, (0.995, 1.005)]))
-    [curve] = [one for one in bifurcation_curves(plane, [(1.0, branch)], 0.002) if one.kind == kind]
-    [(_, node)] = special(1.002)
-    order = np.argsort(curve.points[:, 1])
-    assert np.interp(1.002, curve.points[order, 1], curve.points[order, 0]) == pytest.approx(node.p, abs=1e-6)
 
 
 def test_progress_is_told_on_a_terminal_only(monkeypatch, capsys):

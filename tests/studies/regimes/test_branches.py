@@ -4,10 +4,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq, linear_sum_assignment
+from scipy.optimize import linear_sum_assignment
 
 import vibroimpact as vi
-from single_machines import MACHINE
 from vibroimpact.exact.orbits.search import half_period_multipliers
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.studies.regimes import families as kinds
@@ -278,43 +277,3 @@ def test_branches_of_more_random_systems_are_the_motions_at_any_value():
     for seed in range(200):
         check_random_path(seed, "theory", [FixedPoints])
         check_random_path(seed, "exact", [SymmetricOrbits, AsymmetricOrbits])
-
-
-def test_a_motion_of_two_periods_is_followed_from_one_period_doubling_to_the_next():
-    """At the first a multiplier of the motion of one period is -1; beyond the second, runs settle on four periods."""
-    system = MACHINE.with_(f10_hat=1.9)
-    motion = vi.periodic_orbit(system, vi.simulate(system, np.zeros(8), 3000).final, 2)
-    (doubled,) = vi.branches(system, "f10_hat", (1.78, 2.02), of=motion, progress=False)
-    once = vi.periodic_orbit(system.with_(f10_hat=1.81), motion.state)
-    sought = (lambda p: 1 + vi.periodic_orbit(system.with_(f10_hat=p), once.state).multipliers[0].real), 1.8, 1.81
-    begin, end = (node.p for node in doubled.special)
-    assert {node.kind for node in doubled.special} == {kinds.PERIOD_DOUBLING}
-    assert doubled.nodes[0].p == begin == pytest.approx(brentq(*sought), abs=1e-7)
-    for node in doubled.nodes:
-        assert node.stable in (node.p < end, None)
-    for f10_hat, periods in ((end - 0.003, 2), (end + 0.003, 4)):
-        there = system.with_(f10_hat=f10_hat)
-        vi.periodic_orbit(there, vi.simulate(there, np.zeros(8), 3000).final, periods)
-    with pytest.raises(ValueError, match=r"\Aof: the system of the motion and `system` differ in more than f10_hat\Z"):
-        vi.branches(system.with_(kappa=0.5), "f10_hat", (1.78, 2.02), of=motion)
-    with pytest.raises(ValueError, match=r"\Aof: the motion is at f10_hat = 1.9, .* \(1.91, 2.0\) of 'between'\Z"):
-        vi.branches(system, "f10_hat", (1.91, 2.0), of=motion)
-
-
-def test_a_motion_without_impacts_is_followed_until_the_box_reaches_the_ball():
-    """The ball rests in the middle; the box moves as a linear oscillator, whose amplitude reaches 1 at the end."""
-    system = MACHINE.with_(f10_hat=0.1)
-    still = vi.periodic_orbit(system, np.zeros(8))
-    (branch,) = vi.branches(system, "f10_hat", (0.05, 5.0), of=still, progress=False)
-    assert [node.kind for node in branch.special] == ["lost"]
-    assert branch.nodes[-1].p == pytest.approx(0.1 / still.amplitudes[0], rel=1e-6)
-
-
-def test_a_branch_of_a_given_motion_ends_at_the_symmetric_motion():
-    """The symmetric orbits of the same parameters, by impulse responses, lose their symmetry there."""
-    system = MACHINE.with_(f10_hat=1.5)
-    motion = next(one for one in vi.orbits(system) if not one.symmetric and one.admissible)
-    given = vi.branches(system, "f10_hat", (1.2, 1.9), of=vi.periodic_orbit(system, motion.state), progress=False)
-    found = branches(SymmetricOrbits, Path(system, ("f10_hat",)), (1.2, 1.9), [1.4], longest=0.1)
-    (begin,), (known,) = ([n.p for n in one.special if n.kind == kinds.SYMMETRY_BREAKING] for (one,) in (given, found))
-    assert begin == pytest.approx(known, abs=1e-6)

@@ -120,15 +120,14 @@ def branches(
     """Return the branches of a family that pass a seed (a value of p), and those that emanate from them.
 
     A branch ends at the ends of the interval, where a ball speed vanishes, or where the continuation loses it. A branch
-    of asymmetric motions also ends at a symmetric motion, where it meets its mirror image, and a branch of motions of
-    several periods at a motion with a shorter period, where it meets itself shifted in time. Only one of the images is
+    of asymmetric motions also ends at a symmetric motion, where it meets its mirror image. Only one of the images is
     followed. A branch that neither passes a seed nor emanates from another branch is missed. A seed at which the search
     for roots fails is skipped with a warning.
 
     Parameters
     ----------
     family
-        One of `families.FAMILIES`, or a `families.PeriodicOrbits`.
+        One of `families.FAMILIES`.
     path : Path
         Function that returns the system at p.
     longest : float
@@ -170,12 +169,12 @@ def branches(
     return found
 
 
-def equations(family, path: Callable) -> Callable:
-    """Return the function of x and parameters p that gives residual and Jacobian of the equations of `family`."""
+def equations(family, path: Path) -> Callable:
+    """Return the function of x and p that gives residual and Jacobian of the equations of `family`."""
 
-    def at(x, *p):
+    def at(x, p):
         try:
-            return family.equations(path(*p), x)
+            return family.equations(path(p), x)
         except ValueError as error:
             raise Lost(str(error)) from None
 

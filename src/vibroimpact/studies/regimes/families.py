@@ -15,16 +15,12 @@ from itertools import combinations
 
 import numpy as np
 
-from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.orbits import asymmetric, symmetric
 from vibroimpact.exact.orbits.asymmetric import AsymmetricConditions, asymmetric_solutions
 from vibroimpact.exact.orbits.search import asymmetric_orbit, half_period_multipliers, symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import SymmetricConditions, symmetric_solutions, wrapped
-from vibroimpact.exact.periodic import PeriodicOrbit, determined
-from vibroimpact.studies.regimes.classification import OTHER, Regime
 from vibroimpact.studies.regimes.continuation import Lost
 from vibroimpact.system.amplitude import path_of, sawtooth_amplitude
-from vibroimpact.system.state import MODULES
 from vibroimpact.theory import slow_flow
 from vibroimpact.theory.fixed_points.symmetric_points import FixedPoint, fixed_points
 from vibroimpact.theory.manifold import C_min, rho, slope
@@ -36,7 +32,7 @@ SYMMETRY_BREAKING, PERIOD_DOUBLING = "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
-_EQUAL, _MERGED = 1e-6, 1e-5  # largest differences of flight fractions, and of states of a motion, that count as 0
+_EQUAL = 1e-6  # largest difference of flight fractions that counts as 0
 _HELD = 1e-12
 
 
@@ -158,89 +154,6 @@ class AsymmetricOrbits(SymmetricOrbits):
     def tests(system, orbit) -> dict[str, float]:
         """Return the values of the test functions, by kind of special point."""
         return _tests(orbit.multipliers, PERIOD_DOUBLING) | {GRAZING: 1 - orbit.excursion}
-
-
-class PeriodicOrbits(AsymmetricOrbits):
-    """Motions of any period near a PeriodicOrbit: x = state (8,) at its stroboscopic instant, between events.
-
-    Coordinates of inactive modules and of balls that hit no wall keep their values.
-    """
-
-    angles, modules, rest = slice(0, 0), MODULES, np.zeros(8)
-
-    def __init__(self, orbit):
-        self.orbit, self.name = orbit, f"motion of period {orbit.periods}"
-        self._determined = determined(orbit.run)
-        self._own = self._equal_images(orbit.system, orbit.run.start)
-
-    def roots(self, system) -> np.ndarray:
-        """Return the state of the given motion, shape (1, 8)."""
-        return self.orbit.run.start[None]
-
-    def images(self, system, x) -> list[np.ndarray]:
-        """Return the states of the motion x and of its mirror image at the stroboscopic instants of all its periods."""
-        begin, halves = self._begin(system), np.arange(2 * self.orbit.periods)
-        states = simulate(system, x, self.orbit.periods, begin, begin + halves * system.period / 2).samples
-        return list(states * (-1.0) ** halves[:, None])
-
-    def merging(self, system, x) -> str:
-        """Return the kind of special point if x equals one of its `images`, or "".
-
-        Images that are equal to the state of the given motion are left out. The kind is PERIOD_DOUBLING if x equals an
-        image that is shifted by forcing periods, and SYMMETRY_BREAKING if x equals a mirror image.
-        """
-        images = self._equal_images(system, x) & ~self._own
-        return PERIOD_DOUBLING if images[::2].any() else SYMMETRY_BREAKING if images.any() else ""
-
-    def _equal_images(self, system, x):
-        return np.array([np.abs(image - x).max() < _MERGED for image in self.images(system, x)])
-
-    def equations(self, system, x):
-        """Return final state minus x after the periods of the motion, (8,), and the Jacobian (8, 8) of this residual.
-
-        Raises
-        ------
-        Lost
-            If a module becomes active or inactive, or a ball begins or ceases to impact.
-        """
-        run = self._run(system, x)
-        if (determined(run) != self._determined).any():
-            raise Lost("a ball begins or ceases to hit its walls")
-        residual = np.where(self._determined, run.final - x, x - self.orbit.run.start)
-        return residual, np.where(self._determined[:, None], run.jacobian - np.eye(8), np.eye(8))
-
-    @staticmethod
-    def speed(x) -> float:
-        """Return 1, since no unknown vanishes if a ball speed vanishes."""
-        return 1.0
-
-    def amplitudes(self, system, x) -> np.ndarray:
-        """Return the amplitudes C_i, shape (2,), from half of the mean distance that each ball covers per cycle."""
-        return _of_modules(system, Regime(self._run(system, x), OTHER, None).mean_amplitudes)
-
-    @staticmethod
-    def tests(system, orbit) -> dict[str, float]:
-        """Return the values of the test functions, by kind of special point.
-
-        There is no test function for grazing, since the branch is lost there.
-        """
-        return _tests(orbit.multipliers, PERIOD_DOUBLING)
-
-    @staticmethod
-    def stable(system, orbit) -> bool | None:
-        """Return True if the motion is stable, False if it is unstable, None if its stability is undecided."""
-        return orbit.stable
-
-    def member(self, system, x):
-        """Return the PeriodicOrbit of a root."""
-        return PeriodicOrbit(system, self.orbit.periods, x, self._run(system, x))
-
-    def _run(self, system, x):
-        return simulate(system, x, self.orbit.periods, self._begin(system), [self._begin(system)])
-
-    def _begin(self, system):
-        """Return the time tau of the stroboscopic instant in `system`, at the forcing phase of the given motion."""
-        return self.orbit.run.tau0 / self.orbit.system.period * system.period
 
 
 class FixedPoints(_OwnImage):
