@@ -42,18 +42,14 @@ def branched():
     return branches.compute(SYSTEMS["unequal"], paths, 0.1, 2, attractors, OBSERVATION, SYSTEMS)
 
 
-def test_folds_ends_and_losses_of_stability_are_marked_and_no_other_special_point(branched):
-    """A loss of stability is where a bold line ends within the axes."""
-    special = branched["special_points"]
-    for axes, theory in zip(branches.draw(branched).axes, (True, False), strict=False):
+def test_bold_lines_end_at_special_points_and_cover_the_stable_nodes(branched):
+    table = branched["csv"].query("admissible == True")
+    special = set(branched["special_points"][["p", "C2"]].itertuples(index=False, name=None))
+    for axes, theory in zip(branches.draw(branched).axes, (True, False), strict=True):
         bold = [line.get_xydata() for line in axes.lines if line.get_linestyle() == "-" and line.get_linewidth() > 1.5]
-        ends = {tuple(line[k]) for line in bold for k in (0, -1)}
-        mine = special[(special["family"] == "fixed point") == theory].query("0.7 <= p <= 1.2 and admissible")
-        turning = mine[mine["kind"].isin(branches.ENDS)][["p", "C2"]].itertuples(index=False, name=None)
-        marks = [line for line in axes.lines if line.get_label() in branches.MARKERS]
-        marked = {tuple(place) for line in marks for place in line.get_xydata()}
-        assert {place for place in ends if 0.7 < place[0] < 1.2} | set(turning) == marked
-        assert len(marked) < len(mine)
+        assert {tuple(line[k]) for line in bold for k in (0, -1) if 0.7 < line[k, 0] < 1.2} <= special
+        stable = table[((table["series"] == "fixed point") == theory) & table["stable"].eq(True)]
+        assert np.unique(np.concatenate(bold), axis=0).tolist() == np.unique(stable[["p", "C2"]], axis=0).tolist()
 
 
 def test_simulated_attractors_lie_on_the_stable_branch(branched):

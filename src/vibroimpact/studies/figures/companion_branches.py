@@ -23,32 +23,18 @@ from vibroimpact.studies.regimes import onset
 from vibroimpact.studies.regimes.branches import Path, branches
 from vibroimpact.studies.regimes.classification import APERIODIC, ASYMMETRIC, SYMMETRIC, UNSETTLED
 from vibroimpact.studies.regimes.classification import starts as spread_starts
-from vibroimpact.studies.regimes.families import (
-    FAMILIES,
-    FOLD,
-    GRAZING,
-    HOPF,
-    MANIFOLD_FOLD,
-    NEIMARK_SACKER,
-    PERIOD_DOUBLING,
-    SPEED_ZERO,
-    SYMMETRY_BREAKING,
-    AsymmetricOrbits,
-    FixedPoints,
-    SymmetricOrbits,
-)
+from vibroimpact.studies.regimes.families import FAMILIES, AsymmetricOrbits, FixedPoints, SymmetricOrbits
 from vibroimpact.studies.regimes.settling import Observation, settle
 
 SPEC = {
     "title": "Branches of 1:1 responses and attractors",
     "caption": "Amplitude :math:`C_2` of 1:1 responses against the forcing, by the theory (top) and exact (bottom): "
         "stable (by the theory: in impacts and slow flow) bold solid, unstable dashed. Left: one force varies, and "
-        "the other is that of the case. Markers: folds, ends, and points where stability changes; all other special "
-        "points are in `special_points.csv`. Vertical lines: the cases. Dots: attractors, from simulations from "
-        "several starts.",
+        "the other is that of the case. Right: both forces vary together. Dots: attractors, from simulations from "
+        "several starts. Vertical lines: the cases. `special_points.csv` has all special points of the curves.",
     "alt": "Curves of the saw-tooth amplitude C2 against the forcing amplitude: theory and exact branches, stable bold "
-        "solid and unstable dashed, symmetric ones blue and asymmetric ones green, both labelled, with marked special "
-        "points, thin vertical lines at the cases, and dots for the attractors of simulations from several starts.",
+        "solid and unstable dashed, symmetric ones blue and asymmetric ones green, both labelled, with thin vertical "
+        "lines at the cases, and large or small grey dots for periodic or other attractors of simulations.",
     "method": "continuation of fixed points and exact 1:1 responses; attractors by direct integration of (10.1) from "
         "many starts, until the motion repeats",
     "columns": {
@@ -122,23 +108,11 @@ SPEC = {
     },
 }  # fmt: skip
 
-ENDS = FOLD, GRAZING, SPEED_ZERO
-MARKERS = {
-    "fold": ("o", (FOLD,)),
-    "end, by grazing or at speed zero": ("X", (GRAZING, SPEED_ZERO)),
-    "stability changes": ("D", (SYMMETRY_BREAKING, PERIOD_DOUBLING, NEIMARK_SACKER, HOPF, MANIFOLD_FOLD)),
-}
-"""Legend name -> marker and kinds of special points; kinds that are not in ENDS are marked only at a stable piece."""
-_SPECIAL = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.7, "markersize": 3.4}
-_SPECIAL |= {"zorder": 4, "clip_on": False}
-REPEATING, PASSING, VARYING = "simulated, periodic or idle", "simulated, unsettled", "simulated, not periodic"
 DOTS = {
-    REPEATING: {"linestyle": "none", "marker": "o", "markeredgewidth": 0, "markersize": 4.4, "color": "0.8"},
-    VARYING: {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "markersize": 3.0, "color": GREY},
-    PASSING: {"linestyle": "none", "marker": "+", "markeredgewidth": 0.7, "markersize": 4.4, "color": BLACK},
+    "simulated, periodic or idle": {"marker": "o", "markersize": 4.4, "color": "0.8"},
+    "simulated, any other motion": {"marker": ".", "markersize": 3.0, "color": GREY},
 }
-"""Style of the dots by the kind of regime in which a simulation ends."""
-KINDS = {UNSETTLED: PASSING, **dict.fromkeys(APERIODIC, VARYING)}
+"""Style of the dots by the kind of motion in which a simulation ends."""
 CASE = {"color": GREY, "linewidth": 0.6, "zorder": 0.7}
 HUES = {
     FixedPoints.name: BLACK,
@@ -147,8 +121,6 @@ HUES = {
 }
 NAMES = {SymmetricOrbits.name: "symmetric", AsymmetricOrbits.name: "asymmetric"}
 """Names of the branches of exact orbits; branches of the theory are named by their stability."""
-CROWDED_FRACTION, INSET = 0.1, (0.03, 0.72, 0.36, 0.25)
-"""Fraction of each axis within which three marks count as crowded, and place of the inset that enlarges them."""
 NODES = ["family", "special", "branch", "piece", "p", "C1", "C2", "stable", "admissible"]
 """Columns of `Branch.rows` that are kept."""
 
@@ -223,37 +195,27 @@ def _special_points(nodes, names):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: C_2 along each path; stable bold solid, unstable dashed, special points marked."""
+    """Draw the tables of `compute`: C_2 along each path, theory above exact; stable bold solid, unstable dashed."""
     nodes, attractors, cases = tables["csv"], tables["attractors"], tables["cases"]
     panels = list(dict.fromkeys(attractors["panel"]))
-    figure = new_figure(DOUBLE_COLUMN, 118.0)
+    figure = new_figure(DOUBLE_COLUMN, 112.0)
     grid = figure.subplots(2, len(panels), sharex="col", sharey=True, squeeze=False)
     names = {}
     for column, (panel, along) in enumerate(zip(panels, dict.fromkeys(tables["special_points"]["path"]), strict=True)):
-        mine, simulated = (table[table["panel"] == panel] for table in (nodes, attractors))
+        mine, simulated, marked = (table[table["panel"] == panel] for table in (nodes, attractors, cases))
+        top, bottom = grid[:, column]
+        top.set(xlim=simulated["p"].agg(["min", "max"]), ylim=(0.0, 2.6))
+        _attractor_dots(bottom, simulated)
+        _cases(top, bottom, marked)
         theory = mine["series"] == FixedPoints.name
-        grid[0, column].set(xlim=simulated["p"].agg(["min", "max"]), ylim=(0.0, 2.6))
-        exact = mine[~theory & mine["admissible"].eq(True)]
-        _attractor_dots(grid[1, column], simulated)
-        _cases(*grid[:, column], cases[cases["panel"] == panel])
-        names[grid[0, column]] = _branches(grid[0, column], mine[theory])
-        names[grid[1, column]] = _branches(grid[1, column], exact)
-        if window := _crowded(grid[1, column], exact):
-            inset = grid[1, column].inset_axes(INSET, xticks=[], yticks=[], **window)
-            grid[1, column].indicate_inset(
-                (window["xlim"][0], window["ylim"][0], *np.ptp([*window.values()], axis=1)), edgecolor=BLACK
-            )
-            _attractor_dots(inset, simulated)
-            _branches(inset, exact)
-        grid[1, column].set_xlabel(f"${' = '.join(SYMBOLS[name].strip('$') for name in along.split())}$")
-        varied = " = ".join(name.removesuffix("_hat") for name in along.split())
-        for row, words in enumerate(("theory", "exact orbits and simulations")):
-            heading(grid[row, column], ascii_lowercase[row * len(panels) + column], f"{words}, over {varied}")
+        names[top] = _branches(top, mine[theory])
+        names[bottom] = _branches(bottom, mine[~theory & mine["admissible"].eq(True)])
+        bottom.set_xlabel(f"${' = '.join(SYMBOLS[name].strip('$') for name in along.split())}$")
+        heading(top, ascii_lowercase[column], "theory")
+        heading(bottom, ascii_lowercase[len(panels) + column], "exact orbits, simulations")
     for axes in grid[:, 0]:
-        axes.set_ylabel("$C_2$")
-    drawn = {line.get_label(): line for axes in grid.flat for line in axes.lines if len(line.get_xdata())}
-    handles = {name: drawn[name] for name in (*DOTS, *MARKERS) if name in drawn}
-    figure.legend(handles.values(), handles, fontsize=9, columnspacing=1.0, loc="outside lower center", ncols=3)
+        axes.set_ylabel("amplitude $C_2$")
+    figure.legend(handles=bottom.lines[: len(DOTS)], fontsize=9, loc="outside lower center", ncols=2)
     name_curves(figure, names)
     return figure
 
@@ -268,48 +230,19 @@ def _cases(theory, exact, cases):
 
 
 def _branches(axes, nodes):
-    """Draw all pieces of branches with their marks; return each branch name with the line of one of its pieces.
-
-    That piece is the longest stable one, or the longest one if none is stable.
-    """
+    """Draw all pieces of branches; return each branch name with its stable lines, or with all if none is stable."""
     named = {}
     # Successive pieces of the same stability are one line: dashes that start again at each piece would look solid.
     begins = nodes[["series", "stable", "branch"]].ne(nodes[["series", "stable", "branch"]].shift()).any(axis=1)
     begins |= nodes.index.to_series().diff().ne(1)  # rows that are not admissible were left out in between
     for (family, stable, _), piece in nodes.groupby(["series", "stable", begins.cumsum()], sort=False):
         line = axes.plot(piece["p"], piece["C2"], **(STABLE if stable else UNSTABLE) | {"color": HUES[family]})
-        name, length = NAMES.get(family, "stable" if stable else "unstable"), np.ptp(piece["p"].clip(*axes.get_xlim()))
-        named.setdefault(name, []).append((stable, length, line))
-    for name, (marker, rows) in _marks(axes, nodes).items():
-        axes.plot(rows["p"], rows["C2"], marker=marker, label=name, **_SPECIAL)
-    return [(name, max(pieces, key=lambda one: one[:2])[2]) for name, pieces in named.items()]
-
-
-def _marks(axes, nodes):
-    """For each name in MARKERS, return the marker and its special points within the limits of the p axis."""
-    special = nodes[nodes["label"].ne("") & nodes["p"].between(*axes.get_xlim())]
-    found = {}
-    for name, (marker, kinds) in MARKERS.items():
-        rows = special[special["label"].str.split(",").str[0].isin(kinds)]  # some labels also name a module
-        rows = rows[rows["stable"].eq(True) | (set(kinds) <= {*ENDS})]
-        found[name] = marker, rows.drop_duplicates(["series", "branch", "p"])
-    return found
-
-
-def _crowded(axes, nodes):
-    """Return xlim and ylim of a window around the densest group of three or more marks, or None if there is none."""
-    marks = pd.concat([rows[["p", "C2"]] for _, rows in _marks(axes, nodes).values()]).to_numpy(float)
-    size = CROWDED_FRACTION * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
-    near = (np.abs(marks[:, None] - marks) < size).all(axis=2)
-    if not len(marks) or near.sum(axis=1).max() < 3:
-        return None
-    inside = marks[near[near.sum(axis=1).argmax()]]
-    low, high = inside.min(axis=0) - size / 2, np.minimum(inside.max(axis=0) + size / 2, [axes.get_xlim()[1], np.inf])
-    return {"xlim": (low[0], high[0]), "ylim": (low[1], high[1])}
+        name = NAMES.get(family, "stable" if stable else "unstable")
+        named.setdefault(name, {True: [], False: []})[stable].extend(line)
+    return [(name, lines[True] or lines[False]) for name, lines in named.items()]
 
 
 def _attractor_dots(axes, attractors):
-    kinds = attractors["label"].map(lambda name: KINDS.get(name, REPEATING))
-    for kind, style in DOTS.items():
-        rows = attractors[kinds == kind]
-        axes.plot(rows["p"], rows["C2"], zorder=1, **style, label=kind)
+    varying = attractors["label"].isin([UNSETTLED, *APERIODIC])
+    for (kind, style), rows in zip(DOTS.items(), (attractors[~varying], attractors[varying]), strict=True):
+        axes.plot(rows["p"], rows["C2"], linestyle="none", markeredgewidth=0, zorder=1, **style, label=kind)
