@@ -169,5 +169,5 @@ def test_progress_is_told_on_a_terminal_only(monkeypatch, capsys):
 
     assert told(False) == told(True, progress=False) == ""
     assert all(
-        words in told(True) for words in ("things 2/2\n", "fixed point: f20_hat = ", "initial states, round 1: 2/2\n")
+        words in told(True) for words in ("things 2/2\n", "branches: family 1/1\n", "initial states, round 1: 2/2\n")
     )

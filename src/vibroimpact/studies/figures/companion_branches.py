@@ -159,7 +159,7 @@ def compute(
     names = {panel: " ".join(settings["along"]) for panel, settings in zip(ascii_lowercase, paths, strict=False)}
     for panel, settings in zip(names, paths, strict=True):
         path, interval = Path(system, tuple(settings["along"])), settings["range"]
-        for family in FAMILIES.values():
+        for family in FAMILIES["both"]:
             found = branches(family, path, interval, np.linspace(*interval, seeds), longest_step)
             nodes += [{"panel": panel, **row} for number, branch in enumerate(found) for row in branch.rows(number)]
         values = np.linspace(*interval, attractors["values"])

@@ -1,23 +1,18 @@
 """Continue branches of motions in one parameter."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 
 import numpy as np
 
 from vibroimpact.studies.regimes import branches as one_parameter
 from vibroimpact.studies.regimes.branches import Branch, Path
-from vibroimpact.studies.regimes.families import AsymmetricOrbits, FixedPoints, SymmetricOrbits
+from vibroimpact.studies.regimes.families import FAMILIES
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, pair, whole
-from vibroimpact.system.progress import wants_progress, write_line
+from vibroimpact.system.progress import track
 from vibroimpact.system.representation import Found
 
-FAMILIES = {
-    "theory": (FixedPoints,),
-    "exact": (SymmetricOrbits, AsymmetricOrbits),
-    "both": (SymmetricOrbits, AsymmetricOrbits, FixedPoints),
-}
 _MOST_SEEDS = 1000
 _STEPS = 10
 """Length of the range divided by the longest step along a branch."""
@@ -53,7 +48,7 @@ def branches(
         Number of values in `between` at which to search for motions. Branches that pass none of these values and
         emanate from no other branch are missed.
     progress : bool, default True
-        Report family and parameter on standard error, if it is a terminal; "exact" takes about ten seconds.
+        Count the families on standard error, if it is a terminal; "exact" takes about ten seconds.
 
     Returns
     -------
@@ -94,11 +89,8 @@ def branches(
         except ValueError as error:
             raise ValueError(f"between: at {end}, {error}") from None
     found = []
-    for family in FAMILIES[of]:
-        report = _report(f"{family.name}: {' = '.join(names)} =", progress)
-        found += one_parameter.branches(family, path, (low, high), values, (high - low) / _STEPS, report, found)
-    if wants_progress(progress):
-        write_line("", last=False)
+    for family in track(FAMILIES[of], "branches: family", progress):
+        found += one_parameter.branches(family, path, (low, high), values, (high - low) / _STEPS, found)
     return Found(found, one_parameter.COLUMNS)
 
 
@@ -108,8 +100,3 @@ def check_parameters(system, names) -> None:
     for name in names:
         if name not in known:
             raise ValueError(f"{name}: not a parameter of System; expected one of {', '.join(known)}")
-
-
-def _report(words, progress) -> Callable:
-    """Return a function of p that, if `progress`, writes a progress line: `words`, then p."""
-    return lambda p: wants_progress(progress) and write_line(f"{words} {p:.4g}")

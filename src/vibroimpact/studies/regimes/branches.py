@@ -109,13 +109,7 @@ class Branch(Representation):
 
 
 def branches(
-    family,
-    path: Path,
-    interval,
-    seeds: Iterable[float],
-    longest: float,
-    report: Callable = lambda p: None,
-    symmetric: Iterable[Branch] = (),
+    family, path: Path, interval, seeds: Iterable[float], longest: float, symmetric: Iterable[Branch] = ()
 ) -> list[Branch]:
     """Return the branches of a family that pass a seed (a value of p), and those that emanate from them.
 
@@ -127,13 +121,11 @@ def branches(
     Parameters
     ----------
     family
-        One of `families.FAMILIES`.
+        `SymmetricOrbits`, `AsymmetricOrbits` or `FixedPoints`.
     path : Path
         Function that returns the system at p.
     longest : float
         Longest step along the curve.
-    report : callable, optional
-        Called with p at each seed and node, to report progress.
     symmetric : iterable of Branch, default ()
         Branches of symmetric orbits, from which branches of asymmetric orbits start.
     """
@@ -142,13 +134,13 @@ def branches(
         return [np.append(x, z[-1]) for x in images(family, path(z[-1]), z[:-1], near[:-1])]
 
     curve = Curve(equations(family, path), same)
-    half = partial(_half, family, path, interval, curve, longest, report)
-    starts = deque(_seeds(family, path, seeds, report))
+    half = partial(_half, family, path, interval, curve, longest)
+    starts = deque(_seeds(family, path, seeds))
     for branch in symmetric if family is AsymmetricOrbits else ():
         breaking = [node for node in branch.special if node.kind == SYMMETRY_BREAKING]
         for node in breaking if branch.family is SymmetricOrbits else ():
             arms = curve.arms(np.append(asymmetric_root(path(node.p), node.x), node.p))
-            starts += [z for z in arms if not family.merging(path(z[-1]), z[:-1])]
+            starts += [z for z in arms if not family.is_symmetric(path(z[-1]), z[:-1])]
     found, crossings = [], []
     while starts:
         z = starts.popleft()
@@ -186,16 +178,17 @@ def images(family, system, x, near) -> list[np.ndarray]:
 
     The angles of the returned roots differ by at most half a turn from those of the root `near`.
     """
-    found, turn = family.images(system, x.copy()), family.turn(system)
+    found, turn = [x.copy()], family.turn(system)
+    if family is AsymmetricOrbits:
+        found.append(family.mirror_image(system, x))
     for image in found:
         image[family.angles] += turn * np.rint((near - image)[family.angles] / turn)
     return found
 
 
-def _seeds(family, path, seeds, report):
+def _seeds(family, path, seeds):
     """Yield all roots of `family` as z = (x, p), for each seed p."""
     for p in seeds:
-        report(p)
         try:
             roots = family.roots(path(p))
         except (ValueError, ArithmeticError) as error:
@@ -205,18 +198,17 @@ def _seeds(family, path, seeds, report):
         yield from (np.append(root, p) for root in roots)
 
 
-def _half(family, path, interval, curve, longest, report, start):
+def _half(family, path, interval, curve, longest, start):
     """Return the nodes and the Places of a branch from the Place `start` on, along its tangent."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
         z = place.z
-        report(float(z[-1]))
         system = path(z[-1])
         if place.determinant == 0:
-            end, kind = family.merging(system, z[:-1]), BRANCH_POINT
-            nodes.append(_node(family, path, z, kind=end or kind))
-            if end:
+            kind = _crossing(family, system, z)
+            nodes.append(_node(family, path, z, kind=kind))
+            if kind == SYMMETRY_BREAKING:
                 return nodes, [*places, place]
             continue
         before, tests_before = places[-1] if places else None, tests
@@ -233,9 +225,14 @@ def _half(family, path, interval, curve, longest, report, start):
         kind = ""
     z = places[-1].z
     if low + _EQUAL < z[-1] < high - _EQUAL and not places[-1].closing:
-        end = family.merging(path(z[-1]), z[:-1]) or BRANCH_POINT
-        nodes.append(_node(family, path, z, kind=end if curve.singular(z) else LOST))
+        nodes.append(_node(family, path, z, kind=_crossing(family, path(z[-1]), z) if curve.singular(z) else LOST))
     return nodes, places
+
+
+def _crossing(family, system, z):
+    """Return the kind of special point of a branch point z: SYMMETRY_BREAKING where asymmetric motions begin."""
+    merging = family is AsymmetricOrbits and family.is_symmetric(system, z[:-1])
+    return SYMMETRY_BREAKING if merging else BRANCH_POINT
 
 
 def _node(family, path, z, kind="", member=None):

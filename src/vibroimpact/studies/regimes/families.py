@@ -36,21 +36,7 @@ _EQUAL = 1e-6  # largest difference of flight fractions that counts as 0
 _HELD = 1e-12
 
 
-class _OwnImage:
-    """Family of motions each of which is its own mirror image."""
-
-    @staticmethod
-    def images(system, x) -> list[np.ndarray]:
-        """Return [x]: a motion that is its own mirror image needs only its own root x."""
-        return [x]
-
-    @staticmethod
-    def merging(system, x) -> str:
-        """Return "": the branch does not end at a motion that is its own image, since all its motions are."""
-        return ""
-
-
-class SymmetricOrbits(_OwnImage):
+class SymmetricOrbits:
     """Symmetric exact orbits: x = (tau_1, tau_2, C_1, C_2), where ball i meets wall +1 at tau_i."""
 
     name, angles = "symmetric orbit", slice(0, 2)
@@ -134,15 +120,15 @@ class AsymmetricOrbits(SymmetricOrbits):
         return np.where(_inactive(cls, system), cls.rest, asymmetric_solutions(system)[0])
 
     @classmethod
-    def images(cls, system, x) -> list[np.ndarray]:
-        """Return the roots of the motion x and of its mirror image."""
+    def mirror_image(cls, system, x) -> np.ndarray:
+        """Return the root of the mirror image of the motion x."""
         image = np.concatenate([x[[1, 0, 3, 2]] + system.period / 2, x[4:]])
-        return [x, np.where(_inactive(cls, system), x, image)]
+        return np.where(_inactive(cls, system), x, image)
 
     @staticmethod
-    def merging(system, x) -> str:
-        """Return SYMMETRY_BREAKING if all flights are equal, where a branch meets its mirror image, or ""."""
-        return SYMMETRY_BREAKING if (abs(flight_fractions(system, x) - 0.5) < _EQUAL).all() else ""
+    def is_symmetric(system, x) -> bool:
+        """Return True if all flights of the motion x are equal, where a branch meets its mirror image."""
+        return bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
     @staticmethod
     def amplitudes(system, x) -> np.ndarray:
@@ -156,7 +142,7 @@ class AsymmetricOrbits(SymmetricOrbits):
         return _tests(orbit.multipliers, PERIOD_DOUBLING) | {GRAZING: 1 - orbit.excursion}
 
 
-class FixedPoints(_OwnImage):
+class FixedPoints:
     """Fixed points of the slow flow: x = (C_1, psi_1, C_2, psi_2)."""
 
     name, angles = "fixed point", slice(1, 4, 2)
@@ -238,7 +224,11 @@ class FixedPoints(_OwnImage):
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
 
 
-FAMILIES = {family.name: family for family in (SymmetricOrbits, AsymmetricOrbits, FixedPoints)}
+FAMILIES = {
+    "theory": (FixedPoints,),
+    "exact": (SymmetricOrbits, AsymmetricOrbits),
+    "both": (SymmetricOrbits, AsymmetricOrbits, FixedPoints),
+}
 
 
 def flight_fractions(system, x) -> np.ndarray:
