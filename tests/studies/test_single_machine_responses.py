@@ -8,7 +8,7 @@ from single_machines import FIRST, MACHINE, MACHINES, SECOND, company, holds, pa
 from vibroimpact.exact.orbits.search import half_period_multipliers
 from vibroimpact.studies.completeness import orbits as certify
 from vibroimpact.studies.completeness import points as completeness_proof
-from vibroimpact.studies.regimes.branches import Path, branches
+from vibroimpact.studies.regimes.branches import Path, branches, images
 from vibroimpact.studies.regimes.continuation import Lost
 from vibroimpact.studies.regimes.families import AsymmetricOrbits, FixedPoints, SymmetricOrbits
 from vibroimpact.studies.theory import asymmetric_points
@@ -123,7 +123,7 @@ def test_the_response_of_one_module_is_not_followed_where_both_take_part(family)
     assert np.abs(family.equations(SECOND, root)[0]).max() < 1e-9
     with pytest.raises(Lost, match="both modules are active"):
         family.equations(company(SECOND), root)
-    assert all(np.abs(family.equations(SECOND, image)[0]).max() < 1e-9 for image in family.images(SECOND, root))
+    assert all(np.abs(family.equations(SECOND, image)[0]).max() < 1e-9 for image in images(family, SECOND, root, root))
 
 
 def test_an_undamped_resonance_of_the_module_at_rest_is_no_obstacle():

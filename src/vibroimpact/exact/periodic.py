@@ -18,7 +18,7 @@ from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, whole
 from vibroimpact.system.representation import Representation, brief
 from vibroimpact.system.state import BALLS, IMPACT, MODULES, active_mask, inactive_at_rest
-from vibroimpact.system.verdict import STABLE, UNDECIDED, UNSTABLE
+from vibroimpact.system.verdict import STABLE, UNDECIDED
 
 SAME = 1e-6
 """Largest difference between states that count as equal; near a bifurcation, errors are about sqrt(rounding)."""
@@ -76,17 +76,12 @@ class PeriodicOrbit(Representation):
         It is undecided if a multiplier is on the unit circle within its error and none is outside. It is also undecided
         if a ball hits no wall, so that two multipliers are 1, and none is outside.
         """
-        part = determined(self.run)
+        part = _determined(self.run)
         states, rows = self._impacts["state"], np.arange(len(self._impacts))
         boxes = 2 * self._impacts["module"] + 2
         slowest = np.abs(states[rows, boxes] - states[rows, boxes + 1]).min(initial=1.0)  # relative speed after impacts
         verdict = by_multipliers(self.run.jacobian[part][:, part], self.residual, slowest)
         return UNDECIDED if verdict == STABLE and len(self.multipliers) > part.sum() else verdict
-
-    @property
-    def stable(self) -> bool | None:
-        """True if stable, False if unstable, None if undecided."""
-        return {STABLE: True, UNSTABLE: False}.get(self.stability)
 
     @property
     def impacts(self) -> np.ndarray:
@@ -104,11 +99,6 @@ class PeriodicOrbit(Representation):
     def grazing(self) -> bool:
         """True if a ball touches a wall at zero relative speed; where this becomes an impact, a multiplier diverges."""
         return _grazes(self.run)
-
-    @property
-    def admissible(self) -> bool:
-        """True if each ball is on the wall at its impacts, as in every completed run."""
-        return self.run.certificate.wall_residual <= _TOUCH
 
     @property
     def residual(self) -> float:
@@ -196,7 +186,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
     begin = float(edges[longest : longest + 2].mean())  # the middle of the longest interval without events
     run = start = _with_free_balls_at_rest(system, _state_at(run, begin), periods, begin)
     for _ in range(_STEPS):
-        part, step = determined(run), np.zeros(8)
+        part, step = _determined(run), np.zeros(8)
         restoring = (np.eye(8) - run.jacobian)[part][:, part]
         step[part] = np.linalg.lstsq(restoring, (run.final - run.start)[part])[0]
         size = np.abs(step).max() / (1 + np.abs(run.start).max())
@@ -215,7 +205,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
     )
 
 
-def determined(run):
+def _determined(run):
     """Return a mask (8,) of the coordinates of active modules (`System.modules`), without those of neutral balls.
 
     A neutral ball hits no wall or has an immense mass, so that its position is a free parameter of the motion.
@@ -239,9 +229,9 @@ def _nearer(run, step):
 
 
 def _with_free_balls_at_rest(system, x, periods, begin):
-    """Return the run from x with neutral balls (`determined`) at rest, since otherwise they drift away."""
+    """Return the run from x with neutral balls (`_determined`) at rest, since otherwise they drift away."""
     run = simulate(system, x, periods, begin)
-    free = _BALL_VELOCITIES & ~determined(run)
+    free = _BALL_VELOCITIES & ~_determined(run)
     return simulate(system, np.where(free, 0.0, x), periods, begin) if x[free].any() else run
 
 

@@ -2,7 +2,7 @@
 
 import warnings
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -130,10 +130,16 @@ def branches(
         Branches of symmetric orbits, from which branches of asymmetric orbits start.
     """
 
+    def equations(x, p):
+        try:
+            return family.equations(path(p), x)
+        except ValueError as error:
+            raise Lost(str(error)) from None
+
     def same(z, near):
         return [np.append(x, z[-1]) for x in images(family, path(z[-1]), z[:-1], near[:-1])]
 
-    curve = Curve(equations(family, path), same)
+    curve = Curve(equations, same)
     half = partial(_half, family, path, interval, curve, longest)
     starts = deque(_seeds(family, path, seeds))
     for branch in symmetric if family is AsymmetricOrbits else ():
@@ -159,18 +165,6 @@ def branches(
                     crossings.append(crossing)
                     starts += curve.arms(crossing)
     return found
-
-
-def equations(family, path: Path) -> Callable:
-    """Return the function of x and p that gives residual and Jacobian of the equations of `family`."""
-
-    def at(x, p):
-        try:
-            return family.equations(path(p), x)
-        except ValueError as error:
-            raise Lost(str(error)) from None
-
-    return at
 
 
 def images(family, system, x, near) -> list[np.ndarray]:
