@@ -180,11 +180,11 @@ def refined(system, state, periods) -> PeriodicOrbit:
     ArithmeticError
         If a run could not be finished.
     """
-    run = simulate(system, inactive_at_rest(system, state), periods)
+    run = given = simulate(system, inactive_at_rest(system, state), periods)
     edges = np.array([run.tau0, *run.events["tau"], float(run.end)])
     longest = np.diff(edges).argmax()
     begin = float(edges[longest : longest + 2].mean())  # the middle of the longest interval without events
-    run = start = _with_free_balls_at_rest(system, _state_at(run, begin), periods, begin)
+    run = _with_free_balls_at_rest(system, _state_at(run, begin), periods, begin)
     for _ in range(_STEPS):
         part, step = _determined(run), np.zeros(8)
         restoring = (np.eye(8) - run.jacobian)[part][:, part]
@@ -198,7 +198,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
         tau = run.cycles * system.period  # the end of the last period; tau = 0 is before the run
         at_zero = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
         return PeriodicOrbit(system, periods, at_zero[-1].copy() if len(at_zero) else _state_at(run, tau), run)
-    grazes = "; a ball grazes a wall" if _grazes(start) or _grazes(run) else ""
+    grazes = "; a ball grazes a wall" if _grazes(given) or _grazes(run) else ""
     raise ValueError(
         f"state: Newton's method found no motion with periods={periods} near this state; where it stopped, the states "
         f"at the start and the end still differ by {_gap(run):.2g}{grazes}"
