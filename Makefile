@@ -40,7 +40,7 @@ check-studies: set-up  ## compare the figures of the studies with the reference 
 report: development  ## build figures, studies and the report: results/report/index.html, and an article as PDF
 	@$(BUILD) -- report
 
-archive: development  ## pack sources, results and metadata into one citable file, in results/archive/
+archive: development  ## build figures and studies; pack sources, results and metadata into one citable file, in results/archive/
 	@$(BUILD) -- archive
 
 accept: export REASON := $(REASON)

@@ -2,10 +2,9 @@
 
 import gzip
 import io
-import json
 import tarfile
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
 
@@ -42,45 +41,6 @@ def results_behind(targets: list[str]) -> list[Path]:
 
 def _job(record):
     return record.get("rule"), record.get("wildcards")
-
-
-def made_otherwise(targets: list[str], now: Callable[[str, dict], tuple[dict, list[str]]]) -> Iterator[str]:
-    """For each result that the current rules would make differently, yield a line with the reason.
-
-    The targets and all existing results on which they depend are checked. A result of which only an input has changed
-    comes last, since the line of another result may state why the input has changed.
-
-    Parameters
-    ----------
-    targets
-        Paths of results.
-    now
-        Function of a rule name and wildcards that returns the current params and inputs of the rule. It raises
-        LookupError if the rule no longer exists.
-    """
-    known, seen, pending, following = records(), set(), list(targets), []
-    while pending:
-        path = pending.pop(0)
-        if path in seen or path not in known:
-            continue
-        seen.add(path)
-        record, inputs = known[path], known[path].get("inputs", {})
-        try:
-            params, paths = now(record["rule"], record["wildcards"])
-        except LookupError:
-            yield f"{path}: its record names no rule of this checkout"
-            continue
-        if inputs.keys() != {*paths}:
-            yield f"{path}: the inputs of its rule have changed"
-            continue
-        if other := [one for one in inputs if one in known and known[one].get("sha256") != inputs[one]]:
-            following.append(f"{path}: its input {other[0]} has changed")
-        else:
-            for place, was, is_now in differences(record["params"], json.loads(json.dumps(params))):
-                yield f"{path}: {place} was {was}, is now {is_now}"
-                break
-        pending += inputs
-    yield from following
 
 
 def differences(one, other, place: str = "") -> Iterator[tuple]:

@@ -46,7 +46,7 @@ def running(job) -> Iterator[SimpleNamespace]:
             if behind["of"] and code.changed(behind):
                 raise Refused("the code has changed since the build began; rerun the build")
             inputs = checked_digests(job.input)
-            made_with = {"rule": job.rule, "wildcards": dict(job.wildcards.items()), "params": dict(job.params.items())}
+            made_with = {"rule": job.rule, "wildcards": dict(job.wildcards.items())}
             partial = {name: partial_path(path) for name, path in job.output.items()}
             for path in partial.values():
                 stack.callback(shutil.rmtree, path.parent)

@@ -1,7 +1,7 @@
 """Write results atomically, and for each result a record of its content and origin.
 
 The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`. It contains the SHA-256 of the result, the
-rule with wildcards and params, and the SHA-256 of every input. Records are not in results/ but in the folder of
+rule with wildcards, and the SHA-256 of every input. Records are not in results/ but in the folder of
 Snakemake's own records, so that results copied from another build have no record.
 """
 

@@ -75,7 +75,7 @@ def test_outputs_and_their_records_are_put_in_place_together(job):
     assert OUTPUT.read_text() == "2"
     record = result_records.read_record(OUTPUT)
     assert record["inputs"] == {str(INPUT): result_records.digest_of(INPUT)}
-    assert (record["rule"], record["wildcards"], record["params"]) == ("rule", {}, job.params)
+    assert (record["rule"], record["wildcards"]) == ("rule", {})
     assert not list(Path("results").glob(f"{result_records.PARTIAL}*"))
 
 

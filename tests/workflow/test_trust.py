@@ -208,8 +208,6 @@ def test_a_build_that_was_stopped_is_taken_up_by_the_next(held, built, stop):
     before = pd.read_csv(built / FIXED_POINTS)["C2"].max()
     held.snakemake(FIXED_POINTS)
     assert abs(pd.read_csv(held / FIXED_POINTS)["C2"].max() - before) > 0.01
-    record = json.loads((held / f".snakemake/sums/{FIXED_POINTS}.json").read_text())
-    assert record["params"]["system"]["f20_hat"] == 0.97
     assert not list((held / "results").rglob(".partial-*"))
 
 

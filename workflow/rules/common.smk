@@ -39,12 +39,11 @@ elif importlib.util.find_spec("vibroimpact_pipeline") is None:
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
-from vibroimpact_pipeline.git import committed
 from vibroimpact_pipeline.specs import at, case_parameters, module_of, spec_of, specs, with_model
 from vibroimpact_pipeline.cases import title_of, with_cases
 from vibroimpact_pipeline.code import INSTALLED, ROOT, code_of
 from vibroimpact_pipeline.environment import missing_libraries
-from vibroimpact_pipeline.result_records import PARTIAL, distrust, is_result
+from vibroimpact_pipeline.result_records import PARTIAL, distrust
 
 for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/**/*.*")):
     name = path.relative_to(ROOT / "workflow").as_posix()
@@ -283,34 +282,6 @@ def study_titles(wildcards):
     """Return the title of each existing figure of the studies by name."""
     others = [name for name in ALL_FIGURES if name not in config["figures"]]
     return {name: spec(name)["title"] for name in others if os.path.isfile(f"results/figures/{name}.svg")}
-
-
-def current_origin(name, wildcards):
-    """Return the current params of a rule, and the paths of those inputs that are results (see `made_otherwise`)."""
-    if not hasattr(rules, name):
-        raise LookupError(name)
-    made_by, given = getattr(rules, name), SimpleNamespace(**wildcards)
-    params = {key: value(given) if callable(value) else value for key, value in made_by.params.items()}
-    return params, [path for path in expand(made_by.input, **wildcards) if is_result(path)]
-
-
-def results_of_a_commit(wildcards):
-    """Return the results of figures and studies; exit before any job runs if the results do not match the commit."""
-    from vibroimpact_pipeline.archive import differences, made_otherwise
-    from vibroimpact_pipeline.config import checked, merged, read
-
-    try:
-        committed(ROOT)
-    except ValueError as error:
-        refuse(f"archive: {error}")
-    of_commit = checked(merged([(file, read(ROOT / file)) for file in COMMITTED_CONFIG]))
-    for place, there, here in differences(of_commit, {key: config[key] for key in config if key != "captions"}):
-        refuse(f"archive: {place} is {here}, but {there} in {' and '.join(COMMITTED_CONFIG)}. Build without --config.")
-    targets = [*rules.all.input, *(rules.studies.input if STUDIES else ())]
-    if others := list(made_otherwise(targets, current_origin)):
-        more = f" ({len(others) - 1} more)" if others[1:] else ""
-        refuse(f"archive: {others[0]}{more}. Rebuild first: make figures{' studies' if STUDIES else ''}")
-    return targets
 
 
 # All rules defined up to here belong to another workflow, which includes this workflow as a module.

@@ -46,12 +46,11 @@ def test_every_result_has_a_record_and_every_record_its_result(studied):
 
 @pytest.mark.thorough
 def test_the_archive_has_both_layers(studied, tmp_path):
-    """And is refused where a result was made with another setting."""
+    """After a changed setting, the figures that depend on it are built first."""
     tree = checkout(studied, tmp_path / "tree")
     tree.snakemake("archive")
     packed = unpacked(archive_of(tree), tmp_path)
     assert all((packed / f"results/{name}").is_file() for name in ("claims.json", "fixed_points.csv"))
     tree.edit("config/studies.yaml", "fit_below: 0.005", "fit_below: 0.006")
     commit(tree.path)
-    said = tree.dry_run("--rerun-triggers", "mtime", "--", "archive")
-    assert re.search(r"fit_below was 0.005, is now 0.006.*\. Rebuild first: make figures studies", said)
+    assert tree.planned("archive") == {"companion_epsilon", "claims", "archive"}
