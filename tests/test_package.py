@@ -47,9 +47,8 @@ def test_a_users_script_passes_a_strict_type_checker_and_runs(tmp_path):
 def wheel(tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
     sources = copied(ROOT, folder / "sources")
-    for name in ("notebooks", "docs", "workflow/scripts", "src/vibroimpact"):
-        (sources / name / ".ipynb_checkpoints").mkdir()
-        (sources / name / ".ipynb_checkpoints/copy.py").touch()
+    (sources / "src/vibroimpact/.ipynb_checkpoints").mkdir()
+    (sources / "src/vibroimpact/.ipynb_checkpoints/copy.py").touch()
     build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
     subprocess.run(build, cwd=sources.path, check=True, capture_output=True)
     [path] = folder.glob("*.whl")
@@ -128,6 +127,7 @@ def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
     assert metadata["License-Expression"] == "MIT"
     shipped = ("figures/plotting/vibroimpact.mplstyle", "py.typed", "__init__.pyi")
     assert {f"vibroimpact/{name}" for name in shipped} <= {*names}
+    assert {re.split("[/-]", name)[0] for name in names} == {"vibroimpact"}  # the library and its metadata
     assert not [name for name in names if "__pycache__" in name or ".ipynb_checkpoints" in name]
 
 

@@ -12,12 +12,9 @@ from functools import cache
 from pathlib import Path
 
 SOURCES = Path(__file__).resolve().parents[1]
-"""Folder that contains the packages: `src` of a checkout, or the installation folder."""
-PACKAGED = Path(__file__).resolve().with_name("checkout")
-"""Folder in a wheel that contains the files of the checkout outside its packages (listed in pyproject.toml)."""
-INSTALLED = PACKAGED.is_dir()
-ROOT = PACKAGED if INSTALLED else SOURCES.parent
-"""Root of the checkout; for an installed pipeline, the folder that contains files of the checkout."""
+"""Folder that contains the packages, `src` of the checkout."""
+ROOT = SOURCES.parent
+"""Root of the checkout."""
 PACKAGES = "vibroimpact", "vibroimpact_pipeline"
 CODE = ".py", ".pyi", ".typed"
 DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
@@ -48,19 +45,13 @@ def code_files(*roots: str) -> list[Path]:
 def fingerprint(*roots: str) -> str:
     """Return the fingerprint of the files of `code_files`; for folders, the fingerprint covers every byte."""
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
-    for name, path in sorted((_name(path), path) for path in code_files(*roots)):
+    for path in code_files(*roots):
         if path in listed or path.suffix != ".py":
             content = path.read_bytes()
         else:
             content = _parsed(path, path.stat().st_ctime_ns)[0].encode()
-        digest.update(f"{name}\n".encode() + content)
+        digest.update(f"{path.relative_to(ROOT)}\n".encode() + content)
     return digest.hexdigest()[:16]
-
-
-def _name(path: Path) -> str:
-    """Return a path relative to the checkout, or to `src` for a module; the result is the same in a wheel."""
-    top = SOURCES if path.is_relative_to(SOURCES) and not path.is_relative_to(PACKAGED) else ROOT
-    return path.relative_to(top).as_posix()
 
 
 def change_times(*roots: str) -> dict[Path, int]:
@@ -76,9 +67,7 @@ def _paths(root: str) -> list[Path]:
     if not top.exists():
         raise FileNotFoundError(f"{root}: not found, expected a module of this project or a file of the checkout")
     found = [top] if top.is_file() else (path for path in top.rglob("*") if is_source(path.relative_to(top)))
-    return [
-        path for path in found if path.is_file() and (not path.is_relative_to(PACKAGED) or top.is_relative_to(PACKAGED))
-    ]
+    return [path for path in found if path.is_file()]
 
 
 def is_source(path: Path) -> bool:
@@ -90,7 +79,7 @@ def is_source(path: Path) -> bool:
 def modules() -> dict[str, Path]:
     """Return the file of each module of this project by the name of the module."""
     files = [path for package in PACKAGES for path in (SOURCES / package).rglob("*.py")]
-    names = {path: path.relative_to(SOURCES) for path in files if not path.is_relative_to(PACKAGED)}
+    names = {path: path.relative_to(SOURCES) for path in files}
     return {
         ".".join(name.with_suffix("").parts).removesuffix(".__init__"): path
         for path, name in names.items()

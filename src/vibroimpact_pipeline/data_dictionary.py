@@ -7,6 +7,7 @@ from pathlib import Path
 
 import yaml
 
+from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.specs import columns, each, specs
 
 DATA = "report/data.yaml"
@@ -52,10 +53,9 @@ def stands_for(pattern: str, path: str) -> bool:
     return re.fullmatch(r"[\w-]+".join(map(re.escape, re.split(r"\{\w+\}", pattern))), path) is not None
 
 
-def read(root) -> tuple[dict, dict]:
+def read() -> tuple[dict, dict]:
     """Return the SPEC of every figure by name, and the content of report/data.yaml."""
-    checkout = root if Path(root, "src").is_dir() else None
-    return specs(checkout), yaml.safe_load(Path(root, DATA).read_text(encoding="utf-8"))
+    return specs(), yaml.safe_load((ROOT / DATA).read_text(encoding="utf-8"))
 
 
 def files(known: dict, data: dict) -> list[File]:

@@ -26,18 +26,17 @@ def missing_libraries() -> list[str]:
     return [name for name in REQUIRED if importlib.util.find_spec(name) is None]
 
 
-def set_environment(checkout: Path | None) -> None:
+def set_environment(checkout: Path) -> None:
     """Set library path, cache folders and one thread per job in the environment of this process and its jobs.
 
-    The cache folders are in the checkout, or in the working directory if the checkout is missing or not writable.
+    The cache folders are in the checkout, or in the working directory if the checkout is not writable.
     """
-    cache_folder = (checkout if checkout and os.access(checkout, os.W_OK) else Path.cwd()) / ".cache"
+    cache_folder = (checkout if os.access(checkout, os.W_OK) else Path.cwd()) / ".cache"
     for variable, folder in CACHES.items():
         (cache_folder / folder).mkdir(parents=True, exist_ok=True)
         os.environ[variable] = str(cache_folder / folder)
-    if checkout:
-        paths = [str(checkout / "src"), *filter(None, os.getenv("PYTHONPATH", "").split(os.pathsep))]
-        os.environ["PYTHONPATH"] = os.pathsep.join(dict.fromkeys(paths))
+    paths = [str(checkout / "src"), *filter(None, os.getenv("PYTHONPATH", "").split(os.pathsep))]
+    os.environ["PYTHONPATH"] = os.pathsep.join(dict.fromkeys(paths))
     for variable in [name for name in os.environ if name.startswith(REMOVED)]:
         del os.environ[variable]
     os.environ |= {"OMP_NUM_THREADS": "1", "JUPYTER_PREFER_ENV_PATH": "1"}

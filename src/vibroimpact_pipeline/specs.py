@@ -19,7 +19,6 @@ describes both columns.
 
 import ast
 from functools import cache
-from pathlib import Path
 
 from vibroimpact_pipeline.cases import case_overrides
 from vibroimpact_pipeline.code import SOURCES, modules
@@ -31,14 +30,13 @@ PACKAGES = "vibroimpact.figures", "vibroimpact.studies.figures"
 
 
 @cache
-def specs(root=None) -> dict[str, dict]:
-    """Return the SPEC of every figure by name, from the checkout `root` if given, with all shared entries filled in.
+def specs() -> dict[str, dict]:
+    """Return the SPEC of every figure by name, with all shared entries filled in.
 
     In the `tables` of a SPEC, the key "csv" stands for the plotted table.
     """
     found = {}
-    top = Path(root, "src") if root else SOURCES
-    for path in sorted(path for package in PACKAGES for path in (top / package.replace(".", "/")).glob("*.py")):
+    for path in sorted(path for package in PACKAGES for path in (SOURCES / package.replace(".", "/")).glob("*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "SPEC":
                 found[path.stem] = ast.literal_eval(node.value)

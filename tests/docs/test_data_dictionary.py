@@ -1,9 +1,8 @@
 """Test the page of the data dictionary; the tests of the studies compare the dictionary with the files of a build."""
 
-from pipeline_trees import ROOT
 from vibroimpact_pipeline.data_dictionary import files, page, read, stands_for
 
-SPECS, DATA = read(ROOT)
+SPECS, DATA = read()
 FILES = files(SPECS, DATA)
 
 

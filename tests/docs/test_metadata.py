@@ -1,4 +1,4 @@
-"""Test the metadata of the project: citation, deposit, catalog, changelog, and the files in .github."""
+"""Test the metadata of the project: citation, deposit, changelog, and the files in .github."""
 
 import json
 import re

@@ -2,7 +2,6 @@
 
 from chapter import FORCES, PARAMETERS
 from configs import GOOD, SOFT, edited
-from pipeline_trees import ROOT
 from vibroimpact_pipeline.cases import title_of
 from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.config import checked
@@ -24,7 +23,7 @@ def test_its_words_say_in_what_it_differs():
     assert title_of(CONFIG, "soft") == "soft (epsilon = 0.05, kappa = 0.5)"
     assert title_of(CONFIG, "weak") == "weak"
     assert title_of(checked(edited("cases.weak.title = Faint & cases.weak.kappa = 0.5")), "weak") == "Faint"
-    texts = figure_texts(ROOT, CONFIG)
+    texts = figure_texts(CONFIG)
     assert texts["soft_motion"]["title"] == "Simulated motion of case soft (epsilon = 0.05, kappa = 0.5)"
 
 
@@ -32,7 +31,7 @@ def test_a_case_of_the_chapter_with_a_parameter_of_its_own_is_a_departure():
     changed = checked(edited("cases.weak.kappa = 0.5"))
     assert departures(checked(GOOD)) == departures(CONFIG) == []
     assert departures(changed) == ["cases.weak.kappa is 0.5 instead of 0.65"]
-    title = figure_texts(ROOT, changed)["fig10_11"]["title"]
+    title = figure_texts(changed)["fig10_11"]["title"]
     assert title.startswith("Figure 10.11 for other parameters. ")
 
 

@@ -70,46 +70,6 @@ def with_tree_read_only(elsewhere, tree, *arguments, **environment):
     elsewhere.snakemake(*arguments, prefix=["unshare", "--mount", "sh", "-c", mounted, tree.path], **environment)
 
 
-OUTER = """
-configfile: "config/config.yaml"
-module vibroimpact:
-    snakefile: "{snakefile}"
-    config: config["vibration"]
-use rule * from vibroimpact as chapter_*
-module weaker:
-    snakefile: "{snakefile}"
-    config: {{"system": {{"kappa": 0.6}}}}
-    prefix: "weaker"
-use rule * from weaker as weaker_*
-"""
-
-
-def test_as_a_module_of_another_workflow(tree, built, tmp_path):
-    """The outer workflow includes it twice, with two sets of parameters, and has its own, unrelated config."""
-    outer = Tree(tmp_path / "another workflow")
-    (outer / "config").mkdir(parents=True)
-    (outer / "config/config.yaml").write_text("samples: 3\nvibration: {system: {kappa: 0.65}}\n")
-    (outer / "Snakefile").write_text(OUTER.format(snakefile=tree / "workflow/Snakefile"))
-    outer.snakemake(f"chapter_{FIGURE}", f"weaker_{FIGURE}", prefix=[interpreter_in(outer)])
-    assert_same(FIGURE, outer / "results", built)
-    weaker = record_of(FIGURE, outer / "weaker/results")
-    assert weaker["config"]["system.kappa"] == 0.6
-    assert files_of(FIGURE, outer / "weaker/results") != files_of(FIGURE, outer / "results")
-
-
-@pytest.mark.thorough
-def test_index_and_check_of_a_module_stay_below_its_prefix(tree, tmp_path):
-    outer = Tree(tmp_path / "outer")
-    outer.path.mkdir()
-    module = OUTER.format(snakefile=tree / "workflow/Snakefile").partition("module weaker:")
-    (outer / "Snakefile").write_text("".join(module[1:]))
-    with_library = [interpreter_in(outer)]
-    outer.snakemake("weaker_index", "weaker_figure_check", prefix=with_library, check=False)  # its figures differ
-    for page in ("index.html", "figure_check/index.html"):
-        assert (outer / f"weaker/results/{page}").is_file()
-    assert not (outer / "results").exists()
-
-
 @pytest.mark.thorough
 def test_in_a_long_path_with_a_space_and_letters_that_the_locale_lacks(tree, built, tmp_path):
     """Names of sockets have at most 107 characters, and the first line of a script 127 or 255."""

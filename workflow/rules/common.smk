@@ -13,10 +13,6 @@ from types import SimpleNamespace
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import listfiles, validate
 
-# In a workflow that is included as a module, `__name__` is the name of the module. In the main workflow, it is
-# "snakemake.workflow", or None since Snakemake 9.27.
-IS_MODULE = __name__ not in ("snakemake.workflow", None)
-
 
 def refuse(message):
     """Exit with a message instead of a traceback."""
@@ -29,26 +25,17 @@ def checkout_path(path):
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
-# Use the library of this checkout. If the rules come from a git source without src/, use the installed library.
-SRC = Path(inspect.currentframe().f_code.co_filename).parents[2] / "src"
-if SRC.is_dir():
-    sys.path.insert(0, str(SRC))
-elif importlib.util.find_spec("vibroimpact_pipeline") is None:
-    refuse("vibroimpact_pipeline: not installed. Install vibroimpact[pipeline] of the same commit with pip.")
+# Use the library of the checkout that contains this file.
+sys.path.insert(0, str(Path(inspect.currentframe().f_code.co_filename).parents[2] / "src"))
 # Quote the path of Python, since it may contain spaces.
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
 from vibroimpact_pipeline.specs import at, case_parameters, module_of, spec_of, specs, with_model
 from vibroimpact_pipeline.cases import title_of, with_cases
-from vibroimpact_pipeline.code import INSTALLED, ROOT, code_of
+from vibroimpact_pipeline.code import ROOT, code_of
 from vibroimpact_pipeline.environment import missing_libraries
 from vibroimpact_pipeline.result_records import PARTIAL, distrust
-
-for path in [] if SRC.is_dir() else sorted((ROOT / "workflow").glob("*/**/*.*")):
-    name = path.relative_to(ROOT / "workflow").as_posix()
-    if path.read_text("utf-8").rstrip() != Path(workflow.source_path(f"../{name}")).read_text("utf-8").rstrip():
-        refuse(f"workflow/{name}: differs from the installed vibroimpact. Install vibroimpact of the same commit.")
 
 if not os.access(".", os.W_OK):
     refuse(f"{os.getcwd()}: not writable. Select another working directory with --directory.")
@@ -61,7 +48,7 @@ STUDIES = (ROOT / "workflow/rules/studies").is_dir()
 # Config files are config/config.yaml and config/studies.yaml. Each is read from the working directory or, if it is
 # missing there, from the checkout. Entries of --configfile and --config override the entries of these files.
 def config_file(path):
-    return path if Path(path).is_file() and not IS_MODULE else checkout_path(path)
+    return path if Path(path).is_file() else checkout_path(path)
 
 
 CONFIG_FILES = [config_file(f"config/{name}.yaml") for name in ("config", "studies")[: 1 + STUDIES]]
@@ -70,8 +57,6 @@ CONFIG_FILES = [config_file(f"config/{name}.yaml") for name in ("config", "studi
 def config_files():
     """Return the paths of all config files to read; later files override earlier files."""
     given = workflow.config_settings
-    if IS_MODULE:
-        return CONFIG_FILES
     return given.configfiles if given.replace_workflow_config else [*CONFIG_FILES, *given.configfiles]
 
 
@@ -87,8 +72,7 @@ def checked_config(given):
         given = {name: entry for name, entry in given.items() if name not in rest}
         validate(given, schema=str(schemas / "config.schema.json"))
         return given | rest
-    last = (f"config of module {__name__}", given) if IS_MODULE else ("--config", dict(workflow.config_settings.config))
-    sources = [*SOURCES, last]
+    sources = [*SOURCES, ("--config", dict(workflow.config_settings.config))]
     try:
         return checked(merged(sources), sources)
     except ConfigError as error:
@@ -284,13 +268,9 @@ def study_titles(wildcards):
     return {name: spec(name)["title"] for name in others if os.path.isfile(f"results/figures/{name}.svg")}
 
 
-# All rules defined up to here belong to another workflow, which includes this workflow as a module.
-OUTER_RULES = {rule.name for rule in workflow.rules}
-
-
 def existing_outputs():
-    """Return the outputs of all rules of this workflow; for outputs with wildcards, only the existing files."""
-    patterns = [output for rule in workflow.rules if rule.name not in OUTER_RULES for output in rule.output]
+    """Return the outputs of all rules; for outputs with wildcards, only the existing files."""
+    patterns = [output for rule in workflow.rules for output in rule.output]
     found = [path for pattern in patterns if "{" in pattern for path, _ in listfiles(pattern) if PARTIAL not in path]
     return [pattern for pattern in patterns if "{" not in pattern] + found
 

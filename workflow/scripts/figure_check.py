@@ -12,16 +12,15 @@ from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.result_records import replacing
 from vibroimpact_pipeline.specs import spec_of, specs
 
-BUILD = Path(snakemake.input[0].rpartition("results/")[0])  # the prefix, if the workflow is a module that has one
-FOLDER = BUILD / snakemake.params.page
+FOLDER = Path(snakemake.params.page)
 REFERENCE = ROOT / snakemake.params.reference
 TERMINAL = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
 
 with running(snakemake):
     figures = {figure: spec_of(figure, scene, specs()) for figure, scene in snakemake.params.figures.items()}
-    found = check_all(figures, REFERENCE, BUILD, snakemake.threads)
+    found = check_all(figures, REFERENCE, Path("."), snakemake.threads)
     texts = {
-        "index.html": page(found, REFERENCE, BUILD),
+        "index.html": page(found, REFERENCE, Path(".")),
         "figure_check.json": json.dumps(found, indent=1, allow_nan=False) + "\n",
         "summary.md": "### Figure check\n\n" + "".join(f"- {line}\n" for line in lines(found)),
     }

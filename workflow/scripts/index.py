@@ -2,13 +2,12 @@
 
 from pathlib import Path
 
-from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.html.figure_texts import figure_texts
 from vibroimpact_pipeline.jobs import running
 from vibroimpact_pipeline.results_page import page
 
 with running(snakemake) as out:
-    texts = figure_texts(ROOT, snakemake.params.config)
+    texts = figure_texts(snakemake.params.config)
     chapter, results = snakemake.params.config["figures"], Path(snakemake.output.html).parent
     groups = {
         "The chapter": {name: texts[name]["title"] for name in chapter},

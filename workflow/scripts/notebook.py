@@ -72,8 +72,6 @@ def parameters_of(config: dict) -> dict:
     return given
 
 
-BUILD = snakemake.output[0].rpartition("results/")[0]  # the prefix, if the workflow is a module that has one
-
 with running(snakemake) as out:
     for figure, shown in snakemake.params.pages.items():
         texts = words(figure, shown["scene"], shown["system"] or {})
@@ -81,8 +79,7 @@ with running(snakemake) as out:
         given = {"figure": figure, "alt": texts["alt"], **case, **parameters_of(shown["config"])}
         executed = Path(snakemake.log[0]).with_name(f"{figure}.ipynb")
         print(f"Executed notebook: {executed}")
-        inputs = {name: BUILD + path for name, path in shown["inputs"].items()}
-        done = execute(snakemake.input.notebook, executed, given | {"inputs": inputs})
+        done = execute(snakemake.input.notebook, executed, given | {"inputs": shown["inputs"]})
         injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
         injected.id = "injected-parameters"  # a random id would change the page in every build
         others = snakemake.params.pages.keys() - {figure}  # a cell with a figure as tag is for the page of that figure

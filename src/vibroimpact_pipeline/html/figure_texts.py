@@ -13,9 +13,9 @@ TEXTS = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", tex
 """For each text of a figure, the function that escapes inserted values; captions are reStructuredText."""
 
 
-def figure_texts(root, config: dict) -> dict[str, dict]:
+def figure_texts(config: dict) -> dict[str, dict]:
     """Return the SPEC of every figure by name, filled in for a config (see `words`)."""
-    known, data = read(root)
+    known, data = read()
     texts = {name: spec for name, spec in known.items() if not name.startswith("fig10_")}
     for figure, scene in config["figures"].items():
         case = scene.get("case")

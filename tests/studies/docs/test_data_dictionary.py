@@ -5,11 +5,10 @@ import json
 import pandas as pd
 import pytest
 
-from pipeline_trees import ROOT
 from vibroimpact_pipeline.data_dictionary import files, read, stands_for
 from vibroimpact_pipeline.specs import each
 
-SPECS, DATA = read(ROOT)
+SPECS, DATA = read()
 FILES = files(SPECS, DATA)
 PATHS = [path for file in FILES for path in file.paths if path not in file.on_demand]
 SEPARATORS = {".csv": ",", ".tsv": "\t"}

@@ -13,7 +13,6 @@ import pandas as pd
 import pytest
 
 from pipeline_trees import ROOT, copied, whole_copy
-from vibroimpact_pipeline.data_dictionary import page, read
 
 RECIPES = dict(
     section.split("\n", 1) for section in (ROOT / "docs/howto.md").read_text(encoding="utf-8").split("\n## ")[1:]
@@ -78,7 +77,9 @@ def test_a_figure_can_be_added(project):
     folder = project / "results/figures"
     record = json.loads((folder / "companion_mine.provenance.json").read_text())
     assert set(record["config"]) == {"system.kappa", "figures.fig10_04.C_max"}
-    assert "| `speed` | $W_i'$ just before an impact, (10.12) | dimensionless |" in page(*read(project.path))
+    dictionary = "from vibroimpact_pipeline.data_dictionary import page, read; print(page(*read()))"
+    described = run(f'python -c "{dictionary}"', project)
+    assert "| `speed` | $W_i'$ just before an impact, (10.12) | dimensionless |" in described
     drawn = "companion_mine.png", "companion_mine.pdf", "companion_mine.svg", "strong_planes.png", "strong_motion.png"
     assert min((folder / name).stat().st_size for name in drawn) > 1000
 

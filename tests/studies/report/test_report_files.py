@@ -116,7 +116,7 @@ def test_the_article_is_a_pdf_with_its_numbers_and_pictures(site):
     assert re.search(r"Built from (commit .* of \d{4}-\d\d-\d\d|a copy without git history)\.", words)
     assert "numbers.yaml" not in words
     assert len(document) < 20
-    titles = [figure_texts(ROOT, CONFIG)[f"fig10_{number:02d}"]["title"] for number in range(2, 12)]
+    titles = [figure_texts(CONFIG)[f"fig10_{number:02d}"]["title"] for number in range(2, 12)]
     assert [title for title in titles if title.split(". ")[0] + "." not in words] == []
     assert "press" not in words
     drawn = [kind.type for page in document for kind in page.get_objects()]

@@ -42,7 +42,7 @@ def test_a_table_has_a_line_for_each_row():
 
 
 def test_captions_fill_from_the_config():
-    captions = {name: about["caption"] for name, about in figure_texts(ROOT, CONFIG).items()}
+    captions = {name: about["caption"] for name, about in figure_texts(CONFIG).items()}
     assert [name for name, text in captions.items() if len(text) < 20 or re.search(r"\{\w+_hat\}", text)] == []
     assert str(CONFIG["cases"]["unequal"]["f20_hat"]) in captions["fig10_09"]
 

@@ -17,9 +17,7 @@ rule report:
             {table["file"] for one in ALL_FIGURES for name, table in spec(one)["tables"].items() if name != "csv"}
         ),
         config={name: config[name] for name in ("system", "cases", "figures", "regimes", "stability", "sweeps")},
-        code=code(
-            "studies/report", "development.lock", "docs", "report", *(["src/vibroimpact"] if SRC.is_dir() else [])
-        ),
+        code=code("studies/report", "development.lock", "docs", "report", "src/vibroimpact"),
     log:
         "results/logs/report/report.log",
     conda:

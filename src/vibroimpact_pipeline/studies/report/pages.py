@@ -61,7 +61,7 @@ class Pages:
         self.names = sorted(path.stem for path in (self.root / TEMPLATES).glob("*.md"))
         self.chapter = shown.get("chapter", [])
         self.pictures = {figure for group in shown.values() for figure in group}
-        self.about = figure_texts(self.root, config)
+        self.about = figure_texts(config)
         self.places = yaml.safe_load((self.root / "docs/studies/numbers.yaml").read_text(encoding="utf-8"))
         self.environment = jinja2.Environment(
             loader=jinja2.FileSystemLoader(self.root / "report"),
@@ -82,7 +82,7 @@ class Pages:
             "equations": yaml.safe_load((self.root / "report/report.yaml").read_text(encoding="utf-8"))["equations"],
             "table": table,
             "data": data,
-            "dictionary": lambda of_figures: data_dictionary.page(*data_dictionary.read(self.root), of_figures),
+            "dictionary": lambda of_figures: data_dictionary.page(*data_dictionary.read(), of_figures),
             "live_data": lambda: live_data(config),
             "map_data": lambda: map_data(results, config),
             "verdict_data": lambda: verdict_data(results, config),
