@@ -18,7 +18,7 @@ REMOVED = ("JUPYTER_", "MPLBACKEND", "PYTHONSTARTUP")
 """Prefixes of variables to remove, since they change kernels, page templates, the backend or start-up code."""
 
 REQUIRED = ("numpy", "scipy", "numba", "matplotlib", "pandas", "papermill", "pydantic", "flint", "mpmath", "yaml")
-"""Modules that jobs need; parsing, linting and listing the workflow needs only Snakemake."""
+"""Modules that the workflow and its jobs need."""
 
 
 def missing_libraries() -> list[str]:

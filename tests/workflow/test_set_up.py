@@ -338,6 +338,16 @@ def test_the_extra_pipeline_brings_what_a_build_asks_for():
     assert {distributions.get(name, name) for name in environment.REQUIRED} <= brought
 
 
+def test_the_workflow_names_packages_that_are_not_installed(tree):
+    hidden = tree / "hidden/sitecustomize.py"
+    hidden.parent.mkdir()
+    hidden.write_text("import sys\n\nsys.modules |= {'papermill': None, 'flint': None}\n", encoding="utf-8")
+    said = tree.snakemake("fig10_04", check=False, PYTHONPATH=str(hidden.parent))
+    assert tree.returncode != 0
+    assert said.splitlines()[-1].startswith("Packages not installed: papermill, flint. Run `make set-up`")
+    assert "Traceback" not in said
+
+
 def compiled_files(tree) -> dict[str, int]:
     """Return the modification time of each file of compiled code."""
     return {str(path): path.stat().st_mtime_ns for path in (tree / "src").rglob("*.nb[ic]")}

@@ -4,7 +4,6 @@ import tomllib
 
 from vibroimpact_pipeline.git import GitRefused, committed, git
 
-COMMITTED_CONFIG = [f"config/{name}.yaml" for name in ("config", "studies")[: 1 + STUDIES]]
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
 try:
     COMMIT = git("rev-parse", "--short=12", "HEAD", root=ROOT)
@@ -15,15 +14,14 @@ except GitRefused:
 def results_of_a_commit(wildcards):
     """Return the results of figures and studies; exit before any job runs unless checkout and config are committed."""
     from vibroimpact_pipeline.archive import differences
-    from vibroimpact_pipeline.config import checked, merged, read
 
     try:
         committed(ROOT)
     except ValueError as error:
         refuse(f"archive: {error}")
-    of_commit = checked(merged([(file, read(ROOT / file)) for file in COMMITTED_CONFIG]))
+    of_commit = checked(merged([(file, read(ROOT / file)) for file in CONFIG_FILES]))
     for place, there, here in differences(of_commit, {key: config[key] for key in config if key != "captions"}):
-        refuse(f"archive: {place} is {here}, but {there} in {' and '.join(COMMITTED_CONFIG)}. Build without --config.")
+        refuse(f"archive: {place} is {here}, but {there} in {' and '.join(CONFIG_FILES)}. Build without --config.")
     return [*rules.all.input, *(rules.studies.input if STUDIES else ())]
 
 

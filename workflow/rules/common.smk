@@ -1,8 +1,6 @@
 # Definitions for all rules: paths, the validated config, fingerprints of code, and the SPECs of figures.
 
-import importlib.util
 import inspect
-import json
 import os
 import re
 import shlex
@@ -11,7 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from snakemake.exceptions import WorkflowError
-from snakemake.utils import listfiles, validate
+from snakemake.utils import listfiles
 
 
 def refuse(message):
@@ -31,10 +29,15 @@ sys.path.insert(0, str(Path(inspect.currentframe().f_code.co_filename).parents[2
 if os.path.exists(sys.executable):
     sys.executable = shlex.quote(sys.executable)
 
-from vibroimpact_pipeline.specs import at, case_parameters, module_of, spec_of, specs, with_model
-from vibroimpact_pipeline.cases import title_of, with_cases
-from vibroimpact_pipeline.code import ROOT, code_of
 from vibroimpact_pipeline.environment import missing_libraries
+
+if missing := missing_libraries():
+    refuse(f"Packages not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip.")
+
+from vibroimpact_pipeline.specs import at, case_parameters, module_of, spec_of, specs, with_model
+from vibroimpact_pipeline.cases import title_of
+from vibroimpact_pipeline.code import ROOT, code_of
+from vibroimpact_pipeline.config import ConfigError, checked, merged, read
 from vibroimpact_pipeline.result_records import PARTIAL, distrust
 
 if not os.access(".", os.W_OK):
@@ -51,44 +54,26 @@ def config_file(path):
     return path if Path(path).is_file() else checkout_path(path)
 
 
-CONFIG_FILES = [config_file(f"config/{name}.yaml") for name in ("config", "studies")[: 1 + STUDIES]]
+CONFIG_FILES = [f"config/{name}.yaml" for name in ("config", "studies")[: 1 + STUDIES]]
 
 
 def config_files():
     """Return the paths of all config files to read; later files override earlier files."""
     given = workflow.config_settings
-    return given.configfiles if given.replace_workflow_config else [*CONFIG_FILES, *given.configfiles]
+    return given.configfiles if given.replace_workflow_config else [*map(config_file, CONFIG_FILES), *given.configfiles]
 
 
-def checked_config(given):
-    """Return the validated config with defaults; without Pydantic, it is validated with the JSON Schemas."""
-    if not WITH_MODEL:
-        given, rest = with_cases(given), {}
-        schemas = ROOT / "workflow/schemas"
-        if STUDIES:
-            chapter = json.loads((schemas / "config.schema.json").read_text("utf-8"))["properties"]
-            rest = {name: entry for name, entry in given.items() if name not in chapter}
-            validate(rest, schema=str(schemas / "studies/config.schema.json"))
-        given = {name: entry for name, entry in given.items() if name not in rest}
-        validate(given, schema=str(schemas / "config.schema.json"))
-        return given | rest
-    sources = [*SOURCES, ("--config", dict(workflow.config_settings.config))]
+def validated_config():
+    """Return the validated config with defaults; exit with one line for each invalid entry."""
     try:
+        sources = [(file, read(file)) for file in config_files()]
+        sources.append(("--config", dict(workflow.config_settings.config)))
         return checked(merged(sources), sources)
     except ConfigError as error:
         refuse(error)
 
 
-WITH_MODEL = all(map(importlib.util.find_spec, ("pydantic", "numpy")))
-if WITH_MODEL:
-    from vibroimpact_pipeline.config import ConfigError, checked, merged, read
-
-    try:
-        SOURCES = [
-            (file, read(file)) for file in config_files()
-        ]  # read here, before Snakemake reads them, whose error messages are longer
-    except ConfigError as error:
-        refuse(error)
+config = validated_config()
 
 
 def code(script, *others):
@@ -273,10 +258,3 @@ def existing_outputs():
     patterns = [output for rule in workflow.rules for output in rule.output]
     found = [path for pattern in patterns if "{" in pattern for path, _ in listfiles(pattern) if PARTIAL not in path]
     return [pattern for pattern in patterns if "{" not in pattern] + found
-
-
-onstart:
-    if missing := missing_libraries():
-        refuse(
-            f"Packages not installed: {', '.join(missing)}. Run `make set-up`, or install environment.lock with pip."
-        )
