@@ -17,7 +17,6 @@ from pathlib import Path
 
 import pip
 import pytest
-import yaml
 from packaging.requirements import Requirement
 
 from chapter import PARAMETERS
@@ -322,14 +321,6 @@ def test_builds_import_packages_of_their_lock_only_and_other_jobs_say_what_they_
         known = {"vibroimpact", "vibroimpact_pipeline"}.union(*(ast.literal_eval(f"({names},)") for names in named))
         for name in (imported(path) & installed.keys()) - known:
             assert {one.lower().replace("_", "-") for one in installed[name]} & for_builds, (path, name)
-
-
-def test_the_conda_environment_has_what_jobs_import():
-    """The library comes from the checkout of the rules, and Snakemake from the environment that starts the jobs."""
-    environment = yaml.safe_load((ROOT / "workflow/envs/vibroimpact.yaml").read_text(encoding="utf-8"))
-    *_, packages = environment["dependencies"]
-    needed = requirements("pipeline", "integrators", "report", "archive")
-    assert {*packages["pip"]} == {one for one in needed if not one.startswith("snakemake")}
 
 
 def test_the_extra_pipeline_brings_what_a_build_asks_for():

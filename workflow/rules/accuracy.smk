@@ -15,8 +15,6 @@ rule grazing:
     priority: 30
     log:
         "results/logs/accuracy/grazing.log",
-    conda:
-        "../envs/vibroimpact.yaml"
     script:
         "../scripts/figure.py"
 
@@ -91,8 +89,6 @@ rule method_comparison:
         code=code("method_comparison"),
     log:
         "results/logs/accuracy/method_comparison.log",
-    conda:
-        "../envs/vibroimpact.yaml"
     script:
         "../scripts/method_comparison.py"
 

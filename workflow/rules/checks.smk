@@ -14,8 +14,6 @@ rule figure_check:
     threads: ALL_CORES
     log:
         "results/logs/figure_check.log",
-    conda:
-        "../envs/vibroimpact.yaml"
     script:
         "../scripts/figure_check.py"
 

@@ -38,6 +38,7 @@ from vibroimpact_pipeline.specs import at, case_parameters, module_of, spec_of, 
 from vibroimpact_pipeline.cases import title_of
 from vibroimpact_pipeline.code import ROOT, code_of
 from vibroimpact_pipeline.config import ConfigError, checked, merged, read
+from vibroimpact_pipeline.git import committed
 from vibroimpact_pipeline.result_records import PARTIAL, distrust
 
 if not os.access(".", os.W_OK):
@@ -251,6 +252,20 @@ def study_titles(wildcards):
     """Return the title of each existing figure of the studies by name."""
     others = [name for name in ALL_FIGURES if name not in config["figures"]]
     return {name: spec(name)["title"] for name in others if os.path.isfile(f"results/figures/{name}.svg")}
+
+
+def results_of_a_commit(wildcards):
+    """Return the results of figures and studies; exit before any job runs unless checkout and config are committed."""
+    from vibroimpact_pipeline.archive import differences
+
+    try:
+        committed(ROOT)
+    except ValueError as error:
+        refuse(f"archive: {error}")
+    of_commit = checked(merged([(file, read(ROOT / file)) for file in CONFIG_FILES]))
+    for place, there, here in differences(of_commit, {key: config[key] for key in config if key != "captions"}):
+        refuse(f"archive: {place} is {here}, but {there} in {' and '.join(CONFIG_FILES)}. Build without --config.")
+    return [*rules.all.input, *(rules.studies.input if STUDIES else ())]
 
 
 def existing_outputs():

@@ -26,8 +26,6 @@ rule fig10_01:
     priority: 10
     log:
         "results/logs/figures/fig10_01.log",
-    conda:
-        "../envs/vibroimpact.yaml"
     script:
         "../scripts/figure.py"
 
@@ -149,8 +147,6 @@ for figure in (name for name, own_scene in config["figures"].items() if "like" i
         priority: 10
         log:
             f"results/logs/figures/{figure}.log",
-        conda:
-            "../envs/vibroimpact.yaml"
         script:
             "../scripts/figure.py"
 
@@ -182,8 +178,6 @@ for notebook, shown in by_notebook(SCENES).items():
             code=code("notebook", NOTEBOOKS[notebook], *(spec(figure)["module"] for figure in shown)),
         log:
             f"results/logs/notebooks/{notebook}.log",
-        conda:
-            "../envs/vibroimpact.yaml"
         script:
             "../scripts/notebook.py"
 

@@ -12,8 +12,6 @@ rule fixed_points:
     priority: 20
     log:
         "results/logs/fixed_points/{case}.log",
-    conda:
-        "../envs/vibroimpact.yaml"
     script:
         "../scripts/fixed_points.py"
 
@@ -30,7 +28,5 @@ rule gather:
         code=code("gather"),
     log:
         "results/logs/gather.log",
-    conda:
-        "../envs/vibroimpact.yaml"
     script:
         "../scripts/gather.py"

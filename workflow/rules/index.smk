@@ -15,7 +15,5 @@ rule index:
         code=code("index", "report/data.yaml", *map(module_of, SPECS)),
     log:
         "results/logs/index.log",
-    conda:
-        "../envs/vibroimpact.yaml"
     script:
         "../scripts/index.py"

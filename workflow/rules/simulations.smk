@@ -14,7 +14,5 @@ rule simulation:
     priority: 10
     log:
         "results/logs/simulations/{case}/{model}.log",
-    conda:
-        "../envs/vibroimpact.yaml"
     script:
         "../scripts/simulate.py"

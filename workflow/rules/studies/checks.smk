@@ -13,8 +13,6 @@ rule study_check:
     threads: ALL_CORES
     log:
         "results/logs/study_check.log",
-    conda:
-        "../../envs/vibroimpact.yaml"
     script:
         "../../scripts/figure_check.py"
 

@@ -34,7 +34,5 @@ rule claims:
         code=code("studies/claims", "docs/studies/claims.yaml"),
     log:
         "results/logs/claims.log",
-    conda:
-        "../../envs/vibroimpact.yaml"
     script:
         "../../scripts/studies/claims.py"

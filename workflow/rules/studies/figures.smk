@@ -83,8 +83,6 @@ for figure, found in STUDY_FIGURES.items():
             **found.params,
         log:
             f"results/logs/figures/{figure}.log",
-        conda:
-            "../../envs/vibroimpact.yaml"
         script:
             "../../scripts/figure.py"
 

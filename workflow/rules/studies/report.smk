@@ -20,7 +20,5 @@ rule report:
         code=code("studies/report", "development.lock", "docs", "report", "src/vibroimpact"),
     log:
         "results/logs/report/report.log",
-    conda:
-        "../../envs/vibroimpact.yaml"
     script:
         "../../scripts/studies/report.py"

@@ -12,8 +12,6 @@ rule proofs:
         code=code("studies/proofs"),
     log:
         "results/logs/proofs.log",
-    conda:
-        "../../envs/vibroimpact.yaml"
     script:
         "../../scripts/studies/proofs.py"
 
@@ -30,8 +28,6 @@ rule verdict_grid:
         "results/logs/verdict_grid.log",
     benchmark:
         "results/benchmarks/verdict_grid.tsv"
-    conda:
-        "../../envs/vibroimpact.yaml"
     script:
         "../../scripts/studies/verdict_grid.py"
 
@@ -48,8 +44,6 @@ rule modulation:
         code=code("studies/modulation"),
     log:
         "results/logs/modulation.log",
-    conda:
-        "../../envs/vibroimpact.yaml"
     script:
         "../../scripts/studies/modulation.py"
 
@@ -64,8 +58,6 @@ rule verdicts_by_epsilon:
         code=code("studies/verdicts_by_epsilon"),
     log:
         "results/logs/verdicts_by_epsilon.log",
-    conda:
-        "../../envs/vibroimpact.yaml"
     script:
         "../../scripts/studies/verdicts_by_epsilon.py"
 

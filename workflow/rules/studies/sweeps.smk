@@ -26,8 +26,6 @@ for name, sweep in SWEEPS.items():
             f"results/logs/sweeps/{name}/{{scatteritem}}.log",
         benchmark:
             f"results/benchmarks/sweeps/{name}/{{scatteritem}}.tsv"
-        conda:
-            "../../envs/vibroimpact.yaml"
         script:
             "../../scripts/studies/sweep_tile.py"
 
@@ -45,8 +43,6 @@ for name, sweep in SWEEPS.items():
             code=code("studies/sweep_table"),
         log:
             f"results/logs/sweeps/{name}/table.log",
-        conda:
-            "../../envs/vibroimpact.yaml"
         script:
             "../../scripts/studies/sweep_table.py"
 
@@ -65,8 +61,6 @@ for name, sweep in SWEEPS.items():
             code=code("figure", module_of("sweep")),
         log:
             f"results/logs/sweeps/{name}/figure.log",
-        conda:
-            "../../envs/vibroimpact.yaml"
         script:
             "../../scripts/figure.py"
 
