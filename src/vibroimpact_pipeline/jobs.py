@@ -20,6 +20,7 @@ from vibroimpact_pipeline.result_records import (
 )
 
 PR_SET_PDEATHSIG = 1
+LOGS = Path("results/logs")
 
 
 class Refused(RuntimeError):
@@ -31,15 +32,16 @@ def running(job) -> Iterator[SimpleNamespace]:
     """Run the body of a `with` statement as the script of a Snakemake job; yield a temporary path for each output.
 
     The paths are attributes with the names of the outputs, such as `out.json`. Everything that the script prints is
-    written to the log of the job. If the code differs from `params.code` (see `code.code_of`), if an input differs from
-    its record, or if either changes while the job runs, the job fails with one line and replaces no output. An invalid
-    config value also gives one line.
+    written to the log of the job (see `log_of`). If the code differs from `params.code` (see `code.code_of`), if an
+    input differs from its record, or if either changes while the job runs, the job fails with one line and replaces no
+    output. An invalid config value also gives one line.
     """
     if sys.platform == "linux":  # make the kernel terminate this process when its parent ends
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    in_snakemake = type(job).__module__.startswith("snakemake.")
     with ExitStack() as stack:
-        if job.log:
-            stack.enter_context(logging_to(job.log[0]))
+        if in_snakemake:
+            stack.enter_context(logging_to(log_of(job)))
         try:
             behind = job.params.get("code", {"of": ()})
             before = code.change_times(*behind["of"])
@@ -64,9 +66,15 @@ def running(job) -> Iterator[SimpleNamespace]:
             if line := with_key(error, job.params.get("config") or {}):
                 sys.exit(line)
             raise
-    if type(job).__module__.startswith("snakemake."):  # skip the shutdown of the interpreter, which takes 0.3 s
+    if in_snakemake:  # skip the shutdown of the interpreter, which takes 0.3 s
         sys.stdout.flush()
         os._exit(0)
+
+
+def log_of(job) -> Path:
+    """Return the path of the log of a job: results/logs/RULE.log, or results/logs/RULE/WILDCARD.log."""
+    folder = LOGS.joinpath(job.rule, *job.wildcards)
+    return folder.with_name(f"{folder.name}.log")
 
 
 def with_key(error, decided: dict) -> str | None:

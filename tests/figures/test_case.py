@@ -35,7 +35,7 @@ def made(tmp_path_factory):
         "simulate": Given(samples="samples.csv", events="events.csv", strobe="strobe.csv", summary="summary.json"),
     }
     for name, paths in outputs.items():
-        job = SimpleNamespace(log=[], threads=1, rule=name, input=[], output=paths)
+        job = SimpleNamespace(threads=1, rule=name, input=[], output=paths)
         job.params, job.wildcards = Given(system=EQUAL, settings=RUN), Given(case="equal")
         with contextlib.chdir(folder):
             runpy.run_path(str(ROOT / f"workflow/scripts/{name}.py"), init_globals={"snakemake": job})

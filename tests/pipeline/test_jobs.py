@@ -37,7 +37,7 @@ def job(tmp_path, monkeypatch):
     PAGE.write_text("{}")
     params = {"code": code.code_of(str(SCRIPT), str(PAGE))}
     yield SimpleNamespace(
-        log=[], input=[str(INPUT), str(PAGE)], output={"csv": str(OUTPUT)}, params=params, wildcards={}, rule="rule"
+        input=[str(INPUT), str(PAGE)], output={"csv": str(OUTPUT)}, params=params, wildcards={}, rule="rule"
     )
     code.modules.cache_clear(), code.module_files.cache_clear()
 
@@ -121,7 +121,7 @@ def test_an_output_that_was_not_written_fails_the_job(job):
 def test_a_job_ends_with_the_process_that_started_it():
     """The parent is killed by SIGKILL, so that it cannot stop the job itself, which inherits its output."""
     child = "import time, types; from vibroimpact_pipeline.jobs import running\n"
-    child += "job = types.SimpleNamespace(log=[], params={}, input=[], output={}, rule='any', wildcards={})\n"
+    child += "job = types.SimpleNamespace(params={}, input=[], output={}, rule='any', wildcards={})\n"
     child += "with running(job): print('started', flush=True); time.sleep(600)"
     parent = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {child!r}])"
     process = subprocess.Popen([sys.executable, "-c", parent], stdout=subprocess.PIPE)

@@ -128,10 +128,11 @@ def test_the_report_of_snakemake_needs_no_number_of_cores(built, tmp_path):
 
 
 def test_the_linter_finds_nothing_else(tree):
-    """It does not know that all jobs run in the environment of environment.lock."""
+    """It does not know that all jobs run in the environment of environment.lock and write a log (`jobs.log_of`)."""
     _, output = run_module(tree.path, "snakemake", "--lint")
     found = {line for line in output.splitlines() if line.startswith("    * ")}
-    assert found == {"    * Specify a conda environment or container for each rule.:"}, output
+    excepted = "Specify a conda environment or container for each rule.:", "No log directive defined:"
+    assert found == {f"    * {line}" for line in excepted}, output
 
 
 @pytest.mark.thorough

@@ -13,8 +13,6 @@ rule grazing:
     params:
         **chart("grazing"),
     priority: 30
-    log:
-        "results/logs/accuracy/grazing.log",
     script:
         "../scripts/figure.py"
 
@@ -24,10 +22,6 @@ use rule grazing as stress_tests with:
         **files("stress_tests", "Accuracy and speed", folder="accuracy"),
     params:
         **chart("stress_tests", {"full": FULL}, {"accuracy.effort": ACCURACY["effort"]}),
-    log:
-        "results/logs/accuracy/stress_tests.log",
-    benchmark:
-        "results/benchmarks/accuracy/stress_tests.tsv"
 
 
 use rule grazing as work_precision with:
@@ -48,10 +42,6 @@ use rule grazing as work_precision with:
             | {f"cases.{problem['case']}": system_of(problem["case"]) for problem in ACCURACY["problems"].values()},
         ),
     threads: ALL_CORES
-    log:
-        "results/logs/accuracy/work_precision.log",
-    benchmark:
-        "results/benchmarks/accuracy/work_precision.tsv"
 
 
 # Figures whose config entry selects a model.
@@ -74,8 +64,6 @@ use rule grazing as models with:
             *(spec(figure)["module"] for figure in MODELLED),
         ),
     threads: ALL_CORES
-    log:
-        "results/logs/accuracy/models.log",
 
 
 rule method_comparison:
@@ -87,8 +75,6 @@ rule method_comparison:
         choices="results/accuracy/choices.csv",
     params:
         code=code("method_comparison"),
-    log:
-        "results/logs/accuracy/method_comparison.log",
     script:
         "../scripts/method_comparison.py"
 

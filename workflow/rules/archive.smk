@@ -18,7 +18,5 @@ rule archive:
         archive=f"results/archive/vibroimpact-{VERSION}-{COMMIT}.tar.gz",
     params:
         code=code("archive", "development.lock"),
-    log:
-        "results/logs/archive.log",
     script:
         "../scripts/archive.py"

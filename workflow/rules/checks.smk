@@ -12,8 +12,6 @@ rule figure_check:
         strict=False,
         code=code("figure_check"),
     threads: ALL_CORES
-    log:
-        "results/logs/figure_check.log",
     script:
         "../scripts/figure_check.py"
 
@@ -22,8 +20,6 @@ rule figure_check:
 use rule figure_check as figure_check_strict with:
     params:
         strict=True,
-    log:
-        "results/logs/figure_check_strict.log",
 
 
 if STUDIES:

@@ -24,8 +24,6 @@ rule fig10_01:
     params:
         **scene("fig10_01"),
     priority: 10
-    log:
-        "results/logs/figures/fig10_01.log",
     script:
         "../scripts/figure.py"
 
@@ -35,8 +33,6 @@ use rule fig10_01 as fig10_02 with:
         **files("fig10_02"),
     params:
         **scene("fig10_02"),
-    log:
-        "results/logs/figures/fig10_02.log",
 
 
 use rule fig10_01 as fig10_03 with:
@@ -44,8 +40,6 @@ use rule fig10_01 as fig10_03 with:
         **files("fig10_03"),
     params:
         **scene("fig10_03"),
-    log:
-        "results/logs/figures/fig10_03.log",
 
 
 use rule fig10_01 as fig10_04 with:
@@ -53,8 +47,6 @@ use rule fig10_01 as fig10_04 with:
         **files("fig10_04"),
     params:
         **scene("fig10_04", "system.kappa"),
-    log:
-        "results/logs/figures/fig10_04.log",
 
 
 use rule fig10_01 as fig10_05 with:
@@ -62,8 +54,6 @@ use rule fig10_01 as fig10_05 with:
         **files("fig10_05"),
     params:
         **scene("fig10_05"),
-    log:
-        "results/logs/figures/fig10_05.log",
 
 
 use rule fig10_01 as fig10_06 with:
@@ -73,8 +63,6 @@ use rule fig10_01 as fig10_06 with:
         **files("fig10_06"),
     params:
         **scene("fig10_06"),
-    log:
-        "results/logs/figures/fig10_06.log",
 
 
 use rule fig10_01 as fig10_07 with:
@@ -84,8 +72,6 @@ use rule fig10_01 as fig10_07 with:
         **files("fig10_07"),
     params:
         **scene("fig10_07"),
-    log:
-        "results/logs/figures/fig10_07.log",
 
 
 use rule fig10_01 as fig10_08 with:
@@ -95,8 +81,6 @@ use rule fig10_01 as fig10_08 with:
         **files("fig10_08"),
     params:
         **scene("fig10_08"),
-    log:
-        "results/logs/figures/fig10_08.log",
 
 
 use rule fig10_01 as fig10_09 with:
@@ -106,8 +90,6 @@ use rule fig10_01 as fig10_09 with:
         **files("fig10_09"),
     params:
         **scene("fig10_09"),
-    log:
-        "results/logs/figures/fig10_09.log",
 
 
 use rule fig10_01 as fig10_10 with:
@@ -117,8 +99,6 @@ use rule fig10_01 as fig10_10 with:
         **files("fig10_10"),
     params:
         **scene("fig10_10"),
-    log:
-        "results/logs/figures/fig10_10.log",
 
 
 use rule fig10_01 as fig10_11 with:
@@ -128,8 +108,6 @@ use rule fig10_01 as fig10_11 with:
         **files("fig10_11"),
     params:
         **scene("fig10_11"),
-    log:
-        "results/logs/figures/fig10_11.log",
 
 
 # Figures of your own, each drawn like a figure of the chapter.
@@ -145,8 +123,6 @@ for figure in (name for name, own_scene in config["figures"].items() if "like" i
         params:
             **scene(figure),
         priority: 10
-        log:
-            f"results/logs/figures/{figure}.log",
         script:
             "../scripts/figure.py"
 
@@ -176,8 +152,6 @@ for notebook, shown in by_notebook(SCENES).items():
         params:
             pages=given,
             code=code("notebook", NOTEBOOKS[notebook], *(spec(figure)["module"] for figure in shown)),
-        log:
-            f"results/logs/notebooks/{notebook}.log",
         script:
             "../scripts/notebook.py"
 

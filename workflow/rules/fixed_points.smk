@@ -10,8 +10,6 @@ rule fixed_points:
         system=lambda wildcards: system_of(wildcards.case),
         code=code("fixed_points"),
     priority: 20
-    log:
-        "results/logs/fixed_points/{case}.log",
     script:
         "../scripts/fixed_points.py"
 
@@ -26,7 +24,5 @@ rule gather:
         orbits=report("results/orbits.csv", category="Tables", labels={"name": "orbits", "kind": "csv"}),
     params:
         code=code("gather"),
-    log:
-        "results/logs/gather.log",
     script:
         "../scripts/gather.py"

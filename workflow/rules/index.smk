@@ -13,7 +13,5 @@ rule index:
         charts=ALL_CHARTS,
         studies=study_titles,
         code=code("index", "report/data.yaml", *map(module_of, SPECS)),
-    log:
-        "results/logs/index.log",
     script:
         "../scripts/index.py"

@@ -12,7 +12,5 @@ rule simulation:
         settings=lambda wildcards: config["cases"][wildcards.case]["simulation"] | {"model": wildcards.model},
         code=code("simulate"),
     priority: 10
-    log:
-        "results/logs/simulations/{case}/{model}.log",
     script:
         "../scripts/simulate.py"

@@ -1,13 +1,13 @@
 """Write one page for each figure of a notebook: execute the notebook with the parameters and files of the figure.
 
-Each executed notebook is saved next to the log after every cell, so that it shows which cell failed.
+Each executed notebook is saved in results/logs/notebooks after every cell, so that it shows which cell failed.
 """
 
 from pathlib import Path
 
 from vibroimpact_pipeline.html.figure_texts import words
 from vibroimpact_pipeline.html.offline import page
-from vibroimpact_pipeline.jobs import running
+from vibroimpact_pipeline.jobs import LOGS, running
 
 import papermill
 from ipykernel.inprocess import InProcessKernelManager
@@ -73,11 +73,12 @@ def parameters_of(config: dict) -> dict:
 
 
 with running(snakemake) as out:
+    (LOGS / "notebooks").mkdir(exist_ok=True)
     for figure, shown in snakemake.params.pages.items():
         texts = words(figure, shown["scene"], shown["system"] or {})
         case = {"case": shown["case"]} if shown["case"] else {}
         given = {"figure": figure, "alt": texts["alt"], **case, **parameters_of(shown["config"])}
-        executed = Path(snakemake.log[0]).with_name(f"{figure}.ipynb")
+        executed = LOGS / f"notebooks/{figure}.ipynb"
         print(f"Executed notebook: {executed}")
         done = execute(snakemake.input.notebook, executed, given | {"inputs": shown["inputs"]})
         injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))

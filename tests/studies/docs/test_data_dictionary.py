@@ -11,13 +11,12 @@ from vibroimpact_pipeline.specs import each
 SPECS, DATA = read()
 FILES = files(SPECS, DATA)
 PATHS = [path for file in FILES for path in file.paths if path not in file.on_demand]
-SEPARATORS = {".csv": ",", ".tsv": "\t"}
 
 
 @pytest.fixture(scope="module")
 def made(studied):
     """Return the data files of a build, without copies in the report, by path relative to the checkout."""
-    data = [path for path in (studied / "results").rglob("*") if path.suffix in (*SEPARATORS, ".json")]
+    data = [path for path in (studied / "results").rglob("*") if path.suffix in (".csv", ".json")]
     named = {str(path.relative_to(studied.path)): path for path in sorted(data)}
     return {name: path for name, path in named.items() if not name.startswith("results/report/")}
 
@@ -27,8 +26,8 @@ def tables(made):
     """Return each table, as texts, with its description by its path."""
     found = {}
     for name, path in made.items():
-        if path.suffix in SEPARATORS:
-            table = pd.read_csv(path, sep=SEPARATORS[path.suffix], dtype=str, keep_default_na=False)
+        if path.suffix == ".csv":
+            table = pd.read_csv(path, dtype=str, keep_default_na=False)
             found[name] = table, next(file for file in FILES if file.has(name))
     return found
 

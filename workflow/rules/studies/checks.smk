@@ -11,8 +11,6 @@ rule study_check:
         strict=False,
         code=code("figure_check"),
     threads: ALL_CORES
-    log:
-        "results/logs/study_check.log",
     script:
         "../../scripts/figure_check.py"
 
@@ -20,5 +18,3 @@ rule study_check:
 use rule study_check as study_check_strict with:
     params:
         strict=True,
-    log:
-        "results/logs/study_check_strict.log",

@@ -32,7 +32,5 @@ rule claims:
     params:
         not_judged=NOT_JUDGED,
         code=code("studies/claims", "docs/studies/claims.yaml"),
-    log:
-        "results/logs/claims.log",
     script:
         "../../scripts/studies/claims.py"

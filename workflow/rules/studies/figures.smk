@@ -81,8 +81,6 @@ for figure, found in STUDY_FIGURES.items():
             **found.outputs,
         params:
             **found.params,
-        log:
-            f"results/logs/figures/{figure}.log",
         script:
             "../../scripts/figure.py"
 

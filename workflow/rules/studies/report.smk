@@ -18,7 +18,5 @@ rule report:
         ),
         config={name: config[name] for name in ("system", "cases", "figures", "regimes", "stability", "sweeps")},
         code=code("studies/report", "development.lock", "docs", "report", "src/vibroimpact"),
-    log:
-        "results/logs/report/report.log",
     script:
         "../../scripts/studies/report.py"

@@ -10,8 +10,6 @@ rule proofs:
     params:
         systems=all_systems(),
         code=code("studies/proofs"),
-    log:
-        "results/logs/proofs.log",
     script:
         "../../scripts/studies/proofs.py"
 
@@ -24,10 +22,6 @@ rule verdict_grid:
         system=config["system"] | {"f10_hat": 0.0, "f20_hat": 0.0},  # the grid sets the forces
         settings=config["stability"]["verdict_grid"],
         code=code("studies/verdict_grid"),
-    log:
-        "results/logs/verdict_grid.log",
-    benchmark:
-        "results/benchmarks/verdict_grid.tsv"
     script:
         "../../scripts/studies/verdict_grid.py"
 
@@ -42,8 +36,6 @@ rule modulation:
         systems=all_systems(),
         settings=config["regimes"]["modulation"] | {"observation": config["regimes"]["observation"]},
         code=code("studies/modulation"),
-    log:
-        "results/logs/modulation.log",
     script:
         "../../scripts/studies/modulation.py"
 
@@ -56,8 +48,6 @@ rule verdicts_by_epsilon:
         systems=all_systems(),
         epsilon=config["stability"]["verdict_grid"]["epsilon"],
         code=code("studies/verdicts_by_epsilon"),
-    log:
-        "results/logs/verdicts_by_epsilon.log",
     script:
         "../../scripts/studies/verdicts_by_epsilon.py"
 

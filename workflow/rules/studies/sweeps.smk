@@ -22,10 +22,6 @@ for name, sweep in SWEEPS.items():
             request=sweep_request(sweep),
             code=code("studies/sweep_tile"),
         threads: 1
-        log:
-            f"results/logs/sweeps/{name}/{{scatteritem}}.log",
-        benchmark:
-            f"results/benchmarks/sweeps/{name}/{{scatteritem}}.tsv"
         script:
             "../../scripts/studies/sweep_tile.py"
 
@@ -41,8 +37,6 @@ for name, sweep in SWEEPS.items():
             points=points(sweep["axes"]),
             along=[axis["along"] for axis in sweep["axes"]],
             code=code("studies/sweep_table"),
-        log:
-            f"results/logs/sweeps/{name}/table.log",
         script:
             "../../scripts/studies/sweep_table.py"
 
@@ -59,8 +53,6 @@ for name, sweep in SWEEPS.items():
             settings={"axes": sweep["axes"]},
             config={f"sweeps.{name}": sweep, f"cases.{sweep['case']}": system_of(sweep["case"])},
             code=code("figure", module_of("sweep")),
-        log:
-            f"results/logs/sweeps/{name}/figure.log",
         script:
             "../../scripts/figure.py"
 
