@@ -7,7 +7,7 @@ PIN = $(TEMPORARY) .venv/bin/uv pip compile --universal --generate-hashes --pyth
 	--no-emit-find-links --no-emit-index-url --cache-dir .cache/uv
 unexport PYTHONDONTWRITEBYTECODE PYTHONHOME CDPATH
 export OMP_NUM_THREADS := 1
-export WHEELS
+export WHEELS STRICT
 # Set HOME if it is undefined, since Snakemake fails if neither HOME nor the user database defines a home directory.
 export HOME ?= $(CURDIR)/.cache/home
 
@@ -32,10 +32,10 @@ studies: set-up  ## build the studies (sweeps, maps, companion figures, claims, 
 	@$(BUILD)
 
 check-figures: set-up  ## compare the chapter's figures with the reference set figures/ (STRICT=1: fail if other library versions drew the reference)
-	@$(BUILD) -- figure_check$(if $(STRICT),_strict)
+	@$(BUILD) -- figure_check
 
 check-studies: set-up  ## compare the figures of the studies with the reference set figures/studies/
-	@$(BUILD) -- study_check$(if $(STRICT),_strict)
+	@$(BUILD) -- study_check
 
 report: development  ## build figures, studies and the report: results/report/index.html, and an article as PDF
 	@$(BUILD) -- report

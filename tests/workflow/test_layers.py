@@ -20,7 +20,6 @@ AWARE = {
     "src/vibroimpact_pipeline/figure_check/table_distances.py",
     "src/vibroimpact_pipeline/specs.py",
     "workflow/Snakefile",
-    "workflow/rules/checks.smk",
     "workflow/rules/common.smk",
     "workflow/rules/figures.smk",
 }

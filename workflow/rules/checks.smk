@@ -1,7 +1,8 @@
 # Compare figures with the reference set in figures/. Only `make accept` changes the set, and records the reason.
 
 
-# The figure check has no output file, so that it always runs. It also prints the result on the terminal.
+# The figure check has no output file, so that it always runs. It also prints the result on the terminal. With
+# STRICT=1 in the environment, it also fails if other versions of Matplotlib make pictures incomparable.
 rule figure_check:
     input:
         [getattr(rules, name).output for name in (*config["figures"], *CHARTS)],
@@ -9,19 +10,19 @@ rule figure_check:
         figures=config["figures"] | {name: {} for name in CHARTS},
         reference="figures",
         page="results/figure_check",
-        strict=False,
         code=code("figure_check"),
     threads: ALL_CORES
     script:
         "../scripts/figure_check.py"
 
 
-# The strict check also fails if other versions of Matplotlib make pictures incomparable.
-use rule figure_check as figure_check_strict with:
-    params:
-        strict=True,
-
-
 if STUDIES:
 
-    include: "studies/checks.smk"
+    # The figures of the studies have a reference set of their own.
+    use rule figure_check as study_check with:
+        input:
+            rules.companions.input,
+        params:
+            figures={name: SCENES.get(name, {}) for name in STUDY_DRAWINGS},
+            reference="figures/studies",
+            page="results/study_check",
