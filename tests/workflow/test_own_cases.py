@@ -38,15 +38,6 @@ def test_a_single_case_of_another_name_is_planned_to_the_end(rebuilt):
     assert not {"fig10_09", "fig10_10", "fig10_11"} & rules
 
 
-def test_what_is_left_of_a_figure_that_is_gone_is_named(tree):
-    (tree / "results/figures").mkdir(parents=True)
-    for name in ("my_planes.provenance.json", ".partial-my_motion.provenance.json", "fig10_02.provenance.json"):
-        (tree / "results/figures" / name).write_text("{}", encoding="utf-8")
-    output = tree.snakemake("fig10_01")
-    assert "Figures in results/figures that this config does not define, safe to delete: my_planes" in output
-    assert (tree / "results/figures/my_planes.provenance.json").exists()
-
-
 def test_a_figure_that_the_config_lacks_is_refused_with_its_key(tree):
     (tree / "small.yaml").write_text("figures: {fig10_09: null}", encoding="utf-8")
     output = tree.dry_run("--configfile", "small.yaml", "--", "fig10_09")

@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-from snakemake.exceptions import WorkflowError
 from snakemake.utils import listfiles
 
 
@@ -49,26 +48,20 @@ if not os.access(".", os.W_OK):
 STUDIES = (ROOT / "workflow/rules/studies").is_dir()
 
 
-# Config files are config/config.yaml and config/studies.yaml. Each is read from the working directory or, if it is
-# missing there, from the checkout. Entries of --configfile and --config override the entries of these files.
-def config_file(path):
-    return path if Path(path).is_file() else checkout_path(path)
-
-
 CONFIG_FILES = [f"config/{name}.yaml" for name in ("config", "studies")[: 1 + STUDIES]]
 
 
-def config_files():
-    """Return the paths of all config files to read; later files override earlier files."""
-    given = workflow.config_settings
-    return given.configfiles if given.replace_workflow_config else [*map(config_file, CONFIG_FILES), *given.configfiles]
-
-
 def validated_config():
-    """Return the validated config with defaults; exit with one line for each invalid entry."""
+    """Return the validated config with defaults; exit with one line for each invalid entry.
+
+    Each file of CONFIG_FILES is read from the working directory or, if it is missing there, from the checkout. Entries of
+    --configfile and --config override the entries of these files.
+    """
+    given = workflow.config_settings
+    own = [path if Path(path).is_file() else checkout_path(path) for path in CONFIG_FILES]
     try:
-        sources = [(file, read(file)) for file in config_files()]
-        sources.append(("--config", dict(workflow.config_settings.config)))
+        files = [*([] if given.replace_workflow_config else own), *given.configfiles]
+        sources = [*((file, read(file)) for file in files), ("--config", dict(given.config))]
         return checked(merged(sources), sources)
     except ConfigError as error:
         refuse(error)
@@ -105,8 +98,9 @@ def figure_files(stem, tables):
     return kinds | {name: table["file"] for name, table in tables.items()}
 
 
-def in_report(outputs, category, caption="../../report/caption.rst"):
-    """Mark picture and plotted table for `snakemake --report`; the path `caption` is relative to the file of the rule."""
+def in_report(outputs, category):
+    """Mark picture and plotted table for `snakemake --report`."""
+    caption = str(ROOT / "report/caption.rst")
     marked = {
         kind: report(path, caption=caption, category=category, labels={"name": Path(path).stem, "kind": kind})
         for kind, path in outputs.items()
@@ -142,10 +136,9 @@ def figure_params(figure, paths, case=None, systems=False, decides=()):
     return params | {"code": code("figure", drawn_by, *shared)}
 
 
-def files(figure, *marks, folder="figures"):
-    """Return the outputs of a figure, pictures, provenance record and tables; `marks` are arguments of `in_report`."""
-    made = figure_files(f"results/{folder}/{figure}", spec(figure)["tables"])
-    return in_report(made, *(marks or ("Figures of the chapter",)))
+def files(figure, category="Figures of the chapter", folder="figures"):
+    """Return the outputs of a figure: pictures, provenance record and tables."""
+    return in_report(figure_files(f"results/{folder}/{figure}", spec(figure)["tables"]), category)
 
 
 def chart(figure, settings={}, decides={}, *shown):
@@ -166,25 +159,14 @@ def scene(figure, *others):
     For a simulated motion, model and settings of the run are left out, since they only affect the inputs.
     """
     if figure not in SCENES:
-        return {"settings": absent(figure)}
+        return {
+            "settings": lambda wildcards: refuse(f"figures.{figure}: missing in the config, or its case is missing")
+        }
     case, own_settings = SCENES[figure].get("case"), entries([f"figures.{figure}.*"])
     simulated = spec(figure)["notebook"] == "simulation"
     decides = [f"cases.{case}.simulation.*", f"figures.{figure}.model"] if simulated else []
     paths = [path for path in own_settings if path not in decides]
     return figure_params(figure, [*paths, *others], case, decides=decides)
-
-
-# Paths of notebooks by name.
-NOTEBOOKS = {path.stem: path.relative_to(ROOT).as_posix() for path in (ROOT / "notebooks").rglob("*.ipynb")}
-
-
-def by_notebook(figures):
-    """Return, for each notebook, the given figures for which the notebook makes a page."""
-    found = {}
-    for figure in figures:
-        if notebook := spec(figure).get("notebook"):
-            found.setdefault(notebook, []).append(figure)
-    return found
 
 
 def page_inputs(figure):
@@ -193,21 +175,11 @@ def page_inputs(figure):
     return {"png": f"results/figures/{figure}.png"} | tables | of_case(figure, READ.get(spec(figure)["notebook"], {}))
 
 
-def read_by(notebook, figures):
-    """Return the inputs of the job that executes a notebook for figures: the notebook, and all files that it reads."""
-    read = sorted({path for figure in figures for path in page_inputs(figure).values()})
-    return {"notebook": checkout_path(NOTEBOOKS[notebook]), "read": read}
-
-
-def pages(figures):
-    """Return, for a job that executes a notebook, the page of each figure, and its config entry and parameters."""
-    outputs = {figure: f"results/notebooks/{figure}.html" for figure in figures}
-    given = {}
-    for figure in figures:
-        params = getattr(rules, figure).params
-        given[figure] = {name: params.get(name) for name in ("case", "system", "config")}
-        given[figure] |= {"scene": titled(figure), "inputs": page_inputs(figure)}
-    return outputs, given
+def page_params(figure):
+    """Return the params of the page of a figure: its config entry, parameters and input files."""
+    params = getattr(rules, figure).params
+    known = {name: params.get(name) for name in ("case", "system", "config")}
+    return known | {"scene": titled(figure), "inputs": page_inputs(figure)}
 
 
 def titled(figure):
@@ -225,27 +197,12 @@ def modelled(figure, entry):
     return known | {"system": system_of(entry["case"]), "settings": settings}
 
 
-def absent(figure):
-    """Return an input function that raises an error, for a figure that is missing in the config."""
-
-    def refused(wildcards):
-        raise WorkflowError(f"figures.{figure}: missing in the config, or its case is missing")
-
-    return refused
-
-
 def caption(figure):
     """Return the caption of a figure with all placeholders filled in."""
     params = getattr(rules, figure).params
     known = (titled(figure) if figure in SCENES else {}) | (params.get("system") or config["system"])
     text = with_model(spec(figure)["caption"], known)
     return re.sub(r"\{(\w+)\}", lambda name: str(known.get(name[1], name[0])), text)
-
-
-def left_over():
-    """Return the names of figures that earlier builds made and this config does not define."""
-    found = {wildcards.figure for _, wildcards in listfiles("results/figures/{figure,[^.]+}.provenance.json")}
-    return sorted(found.difference(ALL_FIGURES))
 
 
 def study_titles(wildcards):

@@ -139,21 +139,24 @@ config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
 config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}
 
 # Pages of figures. A job executes one notebook for each of its figures, with the finished tables, picture and inputs.
-for notebook, shown in by_notebook(SCENES).items():
-    pages_of, given = pages(shown)
+for path in sorted((ROOT / "notebooks").rglob("*.ipynb")):
+    notebook = path.relative_to(ROOT).as_posix()
+    shown = [figure for figure in SCENES if spec(figure).get("notebook") == path.stem]
+    if shown:
 
-    rule:
-        name:
-            f"pages_{notebook}"
-        input:
-            **read_by(notebook, shown),
-        output:
-            **pages_of,
-        params:
-            pages=given,
-            code=code("notebook", NOTEBOOKS[notebook], *(spec(figure)["module"] for figure in shown)),
-        script:
-            "../scripts/notebook.py"
+        rule:
+            name:
+                f"pages_{path.stem}"
+            input:
+                notebook=checkout_path(notebook),
+                read=sorted({file for figure in shown for file in page_inputs(figure).values()}),
+            output:
+                **{figure: f"results/notebooks/{figure}.html" for figure in shown},
+            params:
+                pages={figure: page_params(figure) for figure in shown},
+                code=code("notebook", notebook, *(spec(figure)["module"] for figure in shown)),
+            script:
+                "../scripts/notebook.py"
 
 
 rule figures:

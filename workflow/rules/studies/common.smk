@@ -1,8 +1,5 @@
 # Definitions for the rules of the studies.
 
-# Path of the template for captions, relative to the files of the rules.
-CAPTION = "../../../report/caption.rst"
-
 
 def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=(), outputs=None):
     """Return inputs, outputs and params of a figure, or None if the config lacks an entry that the figure needs."""
@@ -14,7 +11,7 @@ def companion(figure, case=None, systems=False, settings=(), inputs={}, needs=()
         params = figure_params(figure, [path.format(case=case) for path in settings], case, systems)
     except LookupError:
         return None
-    return SimpleNamespace(inputs=inputs, outputs=outputs or files(figure, "Companion figures", CAPTION), params=params)
+    return SimpleNamespace(inputs=inputs, outputs=outputs or files(figure, "Companion figures"), params=params)
 
 
 def sweep_request(sweep):

@@ -17,7 +17,7 @@ rule proofs:
 # Verdicts of the theory and of exact orbits at several epsilon, on a grid of forcing amplitudes.
 rule verdict_grid:
     output:
-        **in_report({"csv": "results/verdict_grid.csv"}, "Tables", CAPTION),
+        **in_report({"csv": "results/verdict_grid.csv"}, "Tables"),
     params:
         system=config["system"] | {"f10_hat": 0.0, "f20_hat": 0.0},  # the grid sets the forces
         settings=config["stability"]["verdict_grid"],

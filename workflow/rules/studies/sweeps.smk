@@ -21,7 +21,6 @@ for name, sweep in SWEEPS.items():
         params:
             request=sweep_request(sweep),
             code=code("studies/sweep_tile"),
-        threads: 1
         script:
             "../../scripts/studies/sweep_tile.py"
 
@@ -31,7 +30,7 @@ for name, sweep in SWEEPS.items():
         input:
             getattr(gather, name)(f"results/sweeps/{name}/tiles/{{scatteritem}}.csv"),
         output:
-            **in_report({"csv": f"results/sweeps/{name}.csv"}, "Tables", CAPTION),
+            **in_report({"csv": f"results/sweeps/{name}.csv"}, "Tables"),
             netcdf=f"results/sweeps/{name}.nc",
         params:
             points=points(sweep["axes"]),
