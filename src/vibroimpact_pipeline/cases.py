@@ -1,12 +1,9 @@
-"""Assign a case to every config entry: the case that the entry names, or else `default_case`.
-
-This module needs only the standard library.
-"""
+"""Assign a case to every config entry: the case that the entry names, or else `default_case`."""
 
 import copy
 
-CHAPTER = ("equal", "unequal", "weak")
-"""Cases of the chapter. A config may omit some of them (see `with_cases`)."""
+from vibroimpact.system.chapter import CASES
+
 SINGLE = ("accuracy.benchmark", "regimes.branches", "regimes.basins")
 COLLECTIONS = ("accuracy.problems", "sweeps")
 
@@ -15,7 +12,7 @@ def with_cases(config: dict) -> dict:
     """Return a copy of a config in which every entry that needs a case names its case.
 
     An entry without a case gets `default_case`, or the first case if the config sets no default. The chapter's figures
-    must name their case. If the config omits a case of the chapter (`CHAPTER`), the figures that name it are removed,
+    must name their case. If the config omits a case of the chapter (`CASES`), the figures that name it are removed,
     and also `regimes.epsilon.mixed` if it names it. Other entries that name it get the default case.
     Malformed entries are left unchanged; validation reports them.
     """
@@ -25,7 +22,7 @@ def with_cases(config: dict) -> dict:
         return config
     default = config.get("default_case")
     default = default if default in list(cases) else next(iter(cases))
-    missing = [case for case in CHAPTER if cases.get(case) is None]
+    missing = [case for case in CASES if cases.get(case) is None]
 
     figures = _at(config, "figures")
     for shown in (figures, _at(config, "regimes.epsilon")):

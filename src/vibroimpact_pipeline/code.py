@@ -2,7 +2,7 @@
 
 The `params` of each rule contain the fingerprint. It covers the parsed code without comments and docstrings. Editing a
 comment therefore reruns nothing, and editing a formula reruns every job that imports the module of the formula,
-directly or indirectly. This module needs only the standard library.
+directly or indirectly.
 """
 
 import ast

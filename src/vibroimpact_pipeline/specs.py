@@ -1,7 +1,5 @@
 """Read the SPEC of every figure from the source code, without importing the code.
 
-This module needs only the standard library.
-
 A SPEC is a dictionary literal with the entries below. The inputs and settings of a figure are in its rule, in
 workflow/rules/.
 

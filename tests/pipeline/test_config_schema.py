@@ -7,8 +7,6 @@ import pytest
 from configs import GOOD, TABLE, UNUSUAL, edited
 from pipeline_trees import ROOT
 from schemas import check_of, refused_by_both
-from vibroimpact.system.chapter import CASES
-from vibroimpact_pipeline.cases import CHAPTER
 from vibroimpact_pipeline.config import checked
 from vibroimpact_pipeline.config.model import Config
 from vibroimpact_pipeline.config.schema import TARGETS, schema
@@ -62,10 +60,6 @@ def test_what_the_model_accepts_the_schema_accepts(edits):
 
 def test_what_is_wrong_with_one_value_the_schema_refuses():
     assert refused_by_both(Config, [edited(edits) for edits, _ in TABLE], of_file) > 100
-
-
-def test_the_cases_of_the_chapter_are_known_without_the_library():
-    assert tuple(CASES) == CHAPTER
 
 
 def test_entries_without_a_case_take_the_default_and_those_of_a_removed_case_are_left_out():
