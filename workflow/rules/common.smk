@@ -49,25 +49,32 @@ STUDIES = (ROOT / "workflow/rules/studies").is_dir()
 
 
 CONFIG_FILES = [f"config/{name}.yaml" for name in ("config", "studies")[: 1 + STUDIES]]
+# Each file is read from the working directory or, if it is missing there, from the checkout.
+FOUND = [path if Path(path).is_file() else checkout_path(path) for path in CONFIG_FILES]
 
 
 def validated_config():
     """Return the validated config with defaults; exit with one line for each invalid entry.
 
-    Each file of CONFIG_FILES is read from the working directory or, if it is missing there, from the checkout. Entries of
-    --configfile and --config override the entries of these files.
+    Entries of --configfile and --config override the entries of the files.
     """
     given = workflow.config_settings
-    own = [path if Path(path).is_file() else checkout_path(path) for path in CONFIG_FILES]
     try:
-        files = [*([] if given.replace_workflow_config else own), *given.configfiles]
+        files = [*([] if given.replace_workflow_config else FOUND), *given.configfiles]
         sources = [*((file, read(file)) for file in files), ("--config", dict(given.config))]
         return checked(merged(sources), sources)
     except ConfigError as error:
         refuse(error)
 
 
-config = validated_config()
+validated = validated_config()
+# Snakemake's report lists these files. They are validated first, since Snakemake's error messages are longer.
+for file in FOUND:
+
+    configfile: file
+
+
+config = validated
 
 
 def code(script, *others):
