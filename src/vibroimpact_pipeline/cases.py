@@ -4,7 +4,7 @@ import copy
 
 from vibroimpact.system.chapter import CASES
 
-SINGLE = ("accuracy.benchmark", "regimes.branches", "regimes.basins")
+SINGLE = ("regimes.branches", "regimes.basins")
 COLLECTIONS = ("accuracy.problems", "sweeps")
 
 

@@ -1,15 +1,12 @@
-"""Errors of impact sequences, fitted orders, and rows of the work-precision chart and the benchmark."""
+"""Errors of impact sequences, fitted orders, and rows of the work-precision chart."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
 
 from chapter import PARAMETERS
-from vibroimpact.accuracy import benchmark
 from vibroimpact.accuracy.errors import run_errors
-from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.accuracy.work_precision import Problem, fitted_order, measure
 from vibroimpact.integrators.protocol import IMPACT, REFUSED, Method, MethodRun, failed
 from vibroimpact.system import System
@@ -92,10 +89,3 @@ def test_methods_that_fail_keep_their_rows_and_what_is_compiled_is_compiled_befo
         ("missing", "unavailable", "not installed"),
     ]
     assert refusing.seen == settings
-
-
-def test_unavoidable_error_of_one_cycle_is_the_rounding_of_its_end():
-    once = Problem("once", SYSTEM, PROBLEM.state, 1)
-    mp.dps = 40
-    end = [mpf(x.str(40, radius=False)) for x in reference_run(SYSTEM, PROBLEM.state, 1, 40).final_exact]
-    assert benchmark.unavoidable_error(once) == pytest.approx(float(max(abs(x - float(x)) for x in end)), rel=1e-6)

@@ -31,7 +31,7 @@ SOFT = f"cases.soft = {{f10_hat: 1, f20_hat: 0.9, kappa: 0.5, epsilon: 0.05, {SM
 UNUSUAL = [
     "system.epsilon = 0.000001",
     "system.kappa = 0.001",
-    "system.kappa = '0.4' & cases.weak.simulation.initial_state[0] = 1e-3 & accuracy.benchmark.cycles = '61'",
+    "system.kappa = '0.4' & cases.weak.simulation.initial_state[0] = 1e-3 & accuracy.problems.transient.cycles = '61'",
     "system.alpha12_hat = 0 & system.gamma12_hat = 0",
     UNDAMPED,
     "system.sigma_e_hat = 1000",

@@ -1,49 +1,116 @@
-"""Compare all methods on the same motion: time per impact, its ratio to that of the package's engine, errors."""
+"""Measure the time per impact of every method on one motion, and of ensembles and single runs in typical scenes."""
 
-from fractions import Fraction
+from functools import partial
 
-from vibroimpact.accuracy.reference.run import reference_run
+import numpy as np
+
+from vibroimpact.accuracy.timing import interleaved
 from vibroimpact.accuracy.work_precision import Problem
 from vibroimpact.accuracy.work_precision import measure as work_precision
+from vibroimpact.exact.engine.all_cores import at_most
+from vibroimpact.exact.engine.simulation import simulate
+from vibroimpact.exact.lanes.ensemble import ensemble
+from vibroimpact.integrators import TIMED
+from vibroimpact.system import System
+from vibroimpact.system.chapter import CASES, PARAMETERS
+from vibroimpact.system.state import BALLS, BOXES, IMPACT
 
-DIGITS = 40
-OURS = "this engine"
-COLUMNS = "method", "setting", "us_per_impact", "error_state", "error_time", "missed", "spurious", "reason"
+PROBLEM = Problem(
+    "settled motion, 100 cycles",
+    System(**PARAMETERS, **CASES["equal"]),
+    (-0.0763, 0.3789, -0.4789, -0.7067, -0.1497, -0.6993, -0.3581, -1.2969),
+    100,
+)
+SINGLE_RUNS = 64
+"""Number of single runs per scene that are timed and compared with the ensemble."""
+SHORT = 10
+"""Number of cycles after which final states are compared; rounding errors grow in chaotic motions."""
 
 
-def measure(problem: Problem, methods, seconds: float) -> list[dict]:
-    """Measure every setting of each method on one motion, and return one row per setting.
-
-    Columns: those of COLUMNS, and ratio, the time per impact relative to the fastest setting of the package's engine.
+def methods_table(seconds: float) -> list[dict]:
+    """Return one row per method and setting on PROBLEM: time per impact [us], and errors against the reference.
 
     Parameters
     ----------
     seconds : float
         Time [s] for which the run with each setting is repeated, as in `work_precision.measure`.
     """
-    impacts = len(reference_run(problem.system, problem.state, problem.cycles, DIGITS, exact_floats=False).events)
-    rows = [row for row in work_precision(problem, methods, seconds) if row["outcome"] != "unavailable"]
-    rows = [{**row, "us_per_impact": 1e6 * row["seconds_per_cycle"] * problem.cycles / impacts} for row in rows]
-    ours = min(row["us_per_impact"] for row in rows if row["method"] == OURS)
-    return [{**{name: row[name] for name in COLUMNS}, "ratio": row["us_per_impact"] / ours} for row in rows]
+    run = simulate(PROBLEM.system, PROBLEM.state, PROBLEM.cycles)
+    per_cycle = _impacts(run) / PROBLEM.cycles
+    errors = "error_state", "error_time", "missed", "spurious", "reason"
+    return [
+        {"scene": PROBLEM.name, "method": row["method"], "setting": row["setting"]}
+        | {"us_per_impact": 1e6 * row["seconds_per_cycle"] / per_cycle}
+        | {name: row[name] for name in errors}
+        for row in work_precision(PROBLEM, TIMED, seconds)
+        if row["outcome"] != "unavailable"
+    ]
 
 
-def unavoidable_error(problem: Problem) -> float:
-    """Return the error of an otherwise exact run whose state is rounded to float64 once per forcing cycle.
+def scenes() -> dict[str, tuple]:
+    """Return the scenes, keyed by their descriptions: systems, initial states (n, 8) and number of cycles."""
+    equal, weak = (System(**PARAMETERS, **CASES[case]) for case in ("equal", "weak"))
+    sweep = [
+        equal.with_(sigma_e_hat=detuning, f10_hat=force, f20_hat=force)
+        for detuning in np.linspace(-0.5, 1.0, 20)
+        for force in np.linspace(0.5, 1.5, 15)
+    ]
+    return {
+        "64 starts within 0.01 of a settled motion, 100 cycles": (equal, _around(64, 1e-2), 100),
+        "256 starts within 0.3 of a settled motion, 100 cycles": (equal, _around(256, 0.3), 100),
+        "4000 random starts, 10 cycles": (equal, _random(4000), 10),
+        "200 random starts in the weak case, 500 cycles": (weak, _random(200), 500),
+        "300 systems with 5 random starts, 250 cycles": (np.repeat(sweep, 5), np.tile(_random(5), (300, 1)), 250),
+    }
 
-    The error is the largest difference of a coordinate from the exact motion, over the ends of all cycles. No method
-    with float64 states can avoid this error. It is large where the motion is sensitive to its initial state.
+
+def scenes_table(seconds: float) -> list[dict]:
+    """Return two rows per scene, for `ensemble` and for single runs: time per impact [us] on one core.
+
+    The error of an ensemble is the median difference of its final states from those of single runs after SHORT cycles.
+
+    Parameters
+    ----------
+    seconds : float
+        Time [s] for which each of the two is repeated.
     """
-    exact = rounded = [Fraction(repr(float(value))) for value in problem.state]
-    largest = Fraction(0)
-    for _ in range(problem.cycles):
-        exact = _after_one_cycle(problem.system, exact)
-        rounded = [Fraction(float(value)) for value in _after_one_cycle(problem.system, rounded)]
-        largest = max(largest, *(abs(a - b) for a, b in zip(exact, rounded, strict=True)))
-    return float(largest)
+    with at_most(1):
+        return [row for name, scene in scenes().items() for row in _compared(name, *scene, seconds)]
 
 
-def _after_one_cycle(system, state):
-    """Return the state (8,) one forcing period after `state`, as rational numbers accurate to DIGITS decimals."""
-    final = reference_run(system, state, 1, DIGITS, exact_floats=False).final_exact
-    return [Fraction(value.str(DIGITS, radius=False)) for value in final]
+def _compared(name, systems, states, cycles, seconds):
+    """Return the two rows of a scene."""
+    chosen = np.linspace(0, len(states) - 1, SINGLE_RUNS).astype(int)
+    some = np.broadcast_to(np.asarray(systems, dtype=object), len(states))[chosen]
+    pairs = list(zip(some, states[chosen], strict=True))
+    finals = [simulate(system, state, SHORT).final for system, state in pairs]
+    error = np.median(abs(ensemble(some, states[chosen], SHORT)["final"] - finals).max(axis=1))
+    works = partial(ensemble, systems, states, cycles), lambda: [simulate(*pair, cycles) for pair in pairs]
+    (outcomes, together), (runs, one_by_one) = interleaved(works, seconds)
+    return [
+        {
+            "scene": name,
+            "method": "ensemble",
+            "us_per_impact": 1e6 * together / outcomes["impacts"].sum(),
+            "error_state": error,
+        },
+        {"scene": name, "method": "single runs", "us_per_impact": 1e6 * one_by_one / sum(map(_impacts, runs))},
+    ]
+
+
+def _impacts(run) -> int:
+    return int((run.events["kind"] == IMPACT).sum())
+
+
+def _random(count):
+    states = np.random.default_rng(0).uniform(-0.5, 0.5, (count, 8))
+    states[:, BALLS[:2]] += states[:, BOXES[:2]]
+    return states
+
+
+def _around(count, distance):
+    """Return `count` random states, each coordinate of which differs from that of PROBLEM by at most `distance`."""
+    states = np.array(PROBLEM.state) + np.random.default_rng(1).uniform(-distance, distance, (count, 8))
+    boxes = states[:, BOXES[:2]]
+    states[:, BALLS[:2]] = np.clip(states[:, BALLS[:2]], boxes - 0.99, boxes + 0.99)
+    return states

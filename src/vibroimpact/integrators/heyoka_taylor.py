@@ -51,15 +51,14 @@ class HeyokaTaylor(Method):
             contacts.resolve(tau, s, [module])
 
 
-def right_hand_side(numbers, stuck=(False, False)):
+def _right_hand_side(stuck):
     """Return the state variables, the accelerations of the boxes, and the equations as pairs (variable, derivative).
 
-    The equations include those of the sine and cosine of the forcing phase.
-
-    numbers: the entries of `coefficients`, as floats or parameters of heyoka.
+    The equations include those of the sine and cosine of the forcing phase. Their parameters are the entries of
+    `coefficients`.
     """
     s, (sine, cosine) = heyoka.make_vars(*STATE), heyoka.make_vars("sine", "cosine")
-    q = dict(zip(NAMES, numbers, strict=True))
+    q = {name: heyoka.par[k] for k, name in enumerate(NAMES)}
     force = [
         q["f1"] * sine - q["k11"] * s[0] - q["k12"] * s[2] - q["c11"] * s[4] - q["c12"] * s[6],
         q["f2"] * sine - q["k12"] * s[0] - q["k22"] * s[2] - q["c12"] * s[4] - q["c22"] * s[6],
@@ -78,7 +77,7 @@ class _Integrator:
 
     def __init__(self, tolerance, stuck):
         self.stuck = stuck
-        s, acceleration, equations = right_hand_side([heyoka.par[k] for k in range(len(NAMES))], stuck)
+        s, acceleration, equations = _right_hand_side(stuck)
         events = [event for i in range(2) for event in self._events(i, s[BOXES[i]] - s[BALLS[i]], acceleration[i])]
         self._taylor = heyoka.taylor_adaptive(equations, [0.0] * 9 + [1.0], tol=tolerance, t_events=events)
         self._state = self._taylor.state  # a view of the integrator's memory

@@ -112,12 +112,6 @@ class Problem(Section):
     cycles: fields.count("Length [forcing periods]", 1, 100)
 
 
-class Benchmark(Problem):
-    """The motion that `make benchmark` simulates."""
-
-    cycles: fields.count("Length [forcing periods]", 1, 1000)
-
-
 class Accuracy(Section):
     """Test problems for the integration methods, and durations of timings."""
 
@@ -127,7 +121,6 @@ class Accuracy(Section):
     short_seconds: fields.real("Duration of the repetitions of each timing with effort quick [s]", 1e-3, 1)
     full_seconds: fields.real("Duration of the repetitions of each timing with effort full [s]", 1e-3, 60)
     problems: fields.named(Problem, 1, 3, fields.TITLE) = Field(description="Test problems by title")
-    benchmark: Benchmark
 
 
 class Config(Section):
