@@ -107,7 +107,7 @@ def test_a_table_of_nothing_has_the_columns_of_what_could_be_in_it(call):
 
 
 def test_a_system_in_newtons_is_told_how_to_lose_its_units():
-    plant = vi.PhysicalSystem.from_dimensionless(SYSTEM, M=120.0, k1=2e5, L=0.005)
+    plant = vi.PhysicalSystem.single(M=120.0, m=12.0, k=2e5, c=90.0, F=100.0, L=0.005)
     with pytest.raises(ValueError, match=r"^system: a PhysicalSystem is not a System; call \.dimensionless\(\)$"):
         vi.fixed_points(plant)
 

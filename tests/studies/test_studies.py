@@ -125,7 +125,7 @@ def test_a_wrong_argument_of_a_sweep_is_named_in_one_line(given, told):
         vi.sweep(SYSTEM, **{"axes": AXES} | given)
 
 
-PLANT = vi.PhysicalSystem.from_dimensionless(SYSTEM, M=120.0, k1=2e5, L=0.005)
+PLANT = vi.PhysicalSystem.single(M=120.0, m=12.0, k=2e5, c=90.0, F=100.0, L=0.005)
 SPECTRUM, SINGLE_CYCLE = (Spectrum(np.zeros((n, 8)), np.zeros(n), np.zeros(n)) for n in (10, 1))
 
 

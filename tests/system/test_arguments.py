@@ -13,7 +13,10 @@ from vibroimpact.exact.orbits.search import search
 
 CHAPTER = dict(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
 SYSTEM = vi.System(**CHAPTER)
-PHYSICAL = vars(vi.PhysicalSystem.from_dimensionless(SYSTEM, M=1.0, k1=1.0, L=1.0))
+PHYSICAL = dict(
+    M=1.0, m=0.1, k1=1.0, k2=1.05, k12=0.1, c1=0.02, c2=0.02, c12=0.02, F10=0.1, F20=0.089, omega1=1.02, omega2=1.02,
+    L=1.0, kappa=0.65,
+)  # fmt: skip
 REST = [0.0] * 8
 NO_NUMBERS = [
     "0.65", None, True, np.True_, 0.65 + 0j, float("nan"), float("-inf"), 10**400, 10**5000, np.ma.masked,

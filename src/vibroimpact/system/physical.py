@@ -1,4 +1,4 @@
-"""Physical parameters of (10.1), and their conversion to and from the dimensionless parameters of (10.2)."""
+"""Physical parameters of (10.1), and their conversion to the dimensionless parameters of (10.2)."""
 
 import math
 from dataclasses import dataclass, fields
@@ -200,47 +200,4 @@ class PhysicalSystem:
             sigma_e_hat=(self.omega1 / self.omega10 - 1.0) / epsilon,
             f10_hat=self.F10 / force,
             f20_hat=self.F20 / force,
-        )
-
-    @classmethod
-    def from_dimensionless(cls, system: System, *, M: float, k1: float, L: float) -> "PhysicalSystem":
-        """Return the physical system for a dimensionless system and the scales M, k1 and L.
-
-        Parameters
-        ----------
-        system : System
-            Dimensionless parameters.
-        M, k1, L : float
-            Box mass, stiffness of box 1 to ground, and clearance, in consistent units.
-
-        Returns
-        -------
-        PhysicalSystem
-            The physical system; its method `dimensionless` returns the given system up to rounding.
-
-        Raises
-        ------
-        ValueError
-            If M, k1 or L is not a number above 0.
-        """
-        for name, value in (("M", M), ("k1", k1), ("L", L)):
-            positive(name, value)
-        omega10 = math.sqrt(k1 / M)
-        damping = M * omega10
-        force = M * L * omega10**2
-        return cls(
-            M=M,
-            m=system.epsilon * M,
-            k1=k1,
-            k2=system.stiffness2 * k1,
-            k12=system.alpha12 * k1,
-            c1=system.gamma1 * damping,
-            c2=system.gamma2 * damping,
-            c12=system.gamma12 * damping,
-            F10=float(system.forcing[0]) * force,
-            F20=float(system.forcing[1]) * force,
-            omega1=system.Omega * omega10,
-            omega2=system.Omega * omega10,
-            L=L,
-            kappa=system.kappa,
         )

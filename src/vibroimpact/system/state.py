@@ -1,10 +1,8 @@
 """Define the order of states [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] and the data type of events."""
 
-from collections.abc import Mapping
-
 import numpy as np
 
-from vibroimpact.system.arguments import reals, short_repr
+from vibroimpact.system.arguments import reals
 
 NAMES = ("X1", "Y1", "X2", "Y2", "dX1", "dY1", "dX2", "dY2")
 """Names of the components of a state, used as columns of tables; dX1 is d X1 / dtau."""
@@ -23,60 +21,30 @@ KINDS = {IMPACT: "impact", STICK: "stick", RELEASE: "release"}
 EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"), ("state", "f8", (8,))])
 """Data type of an event: time, module (1 or 2), wall (+1 or -1), kind (a key of KINDS), state just after the event."""
 
-_COMPONENTS = {name: k for k, name in enumerate(NAMES)} | {f"{name[1:]}'": k for k, name in enumerate(NAMES) if k > 3}
-"""Index of each component by its label: one of NAMES, or for velocities also X1', Y1', X2', Y2'."""
+_LABELS = "keys", "columns", "coords", "_fields"
+"""Attributes of mappings, tables and their rows, labelled arrays and named tuples."""
 
 
 def states_array(name: str, values) -> np.ndarray:
-    """Return a new float array of states, with labelled components sorted into the order of NAMES.
-
-    Mappings, named tuples, structured arrays, and rows and tables of pandas and similar libraries have labels. They
-    may have further entries, as in the tables of `to_frame`. Values without labels must have the order of NAMES.
+    """Return a new float array of states, whose components have the order of NAMES.
 
     Raises
     ------
     ValueError
-        If the values are not an array of real numbers, or if a label of a state is missing or occurs twice.
+        If the values are not an array of real numbers, or if they have labels, which could be in another order.
     """
-    return reals(name, _ordered(name, values))
+    _refuse_labels(name, values)
+    return reals(name, values)
 
 
-def _ordered(name, values):
-    if isinstance(values, list | tuple) and not hasattr(values, "_asdict"):
-        states = len(values) > 0 and not isinstance(values[0], int | float)
-        return [_ordered(f"{name}[{row}]", one) for row, one in enumerate(values)] if states else values
-    dimensions = getattr(values, "dims", ())  # names of the dimensions of an xarray object
-    if dimensions and dimensions[-1] in getattr(values, "coords", ()):
+def _refuse_labels(name, values):
+    if any(hasattr(values, attribute) for attribute in _LABELS):
         raise ValueError(
-            f"{name}: arrays labelled by {dimensions[-1]!r} are not supported; pass a table, a mapping or plain numbers"
+            f"{name}: got a {type(values).__name__}, expected plain numbers in the order {', '.join(NAMES)}"
         )
-    labels = _labels(values)
-    if labels is None:
-        return values
-    named = [(_COMPONENTS[str(label)], label) for label in labels if str(label) in _COMPONENTS]
-    if sorted(k for k, _ in named) != [*range(len(NAMES))]:
-        given = ", ".join(map(str, labels))
-        raise ValueError(f"{name}: the columns {short_repr(given)} are not those of a state, {', '.join(NAMES)}")
-    parts = values._asdict() if hasattr(values, "_asdict") else values
-    components = [reals(f"{name}[{label!r}]", parts[label]) for _, label in sorted(named)]
-    if len({component.shape for component in components}) > 1:
-        raise ValueError(f"{name}: its components have different shapes")
-    return np.stack(components, axis=-1)
-
-
-def _labels(values):
-    """Return the labels of the components of `values`, or None if `values` has no labels."""
-    if isinstance(values, Mapping):
-        return [*values]
-    if names := getattr(values, "_fields", None) or getattr(getattr(values, "dtype", None), "names", None):
-        return [*names]
-    index = getattr(values, "index", None)
-    labels = getattr(values, "columns", index)
-    if labels is None or callable(labels):  # `index` can be a method, such as list.index
-        return None
-    numbered = [*labels] == [*range(len(labels))]
-    of_rows = numbered and labels is not index and not _COMPONENTS.keys().isdisjoint(map(str, index))
-    return None if numbered and not of_rows else [*labels]  # a table with states in columns is rejected too
+    if isinstance(values, list | tuple) and len(values) and not isinstance(values[0], int | float):
+        for one in values:
+            _refuse_labels(name, one)
 
 
 def active_mask(system) -> np.ndarray:

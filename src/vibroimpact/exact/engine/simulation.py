@@ -369,7 +369,7 @@ def simulate_many(
     system : System
         Dimensionless parameters.
     states : array_like
-        Initial states, shape (n, 8), each as for `simulate`; or a table with the components as named columns.
+        Initial states, shape (n, 8), each as for `simulate`.
     cycles, tau0
         As for `simulate`.
     progress : bool, default False

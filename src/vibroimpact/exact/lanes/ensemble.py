@@ -72,9 +72,8 @@ def ensemble(
     systems : System or array_like of System
         One System, or an array of them (a list or nested lists).
     states : array_like
-        Initial states, shape (..., 8), by position or by name as for `simulate`. Systems and states broadcast: n
-        systems and n states form n pairs; one state is used with every system; systems (m, 1) and states (n, 8) give
-        all m n combinations.
+        Initial states, shape (..., 8). Systems and states broadcast: n systems and n states form n pairs; one state is
+        used with every system; systems (m, 1) and states (n, 8) give all m n combinations.
     cycles, tau0
         As for `simulate`.
     settle : int, default 0
