@@ -3,8 +3,7 @@
 
 rule proofs:
     input:
-        orbits=expand("results/orbits/{case}.csv", case=all_systems()),
-        searches=expand("results/orbits/{case}.search.json", case=all_systems()),
+        expand("results/orbits/{case}.search.json", case=all_systems()),
     output:
         json="results/proofs.json",
     params:

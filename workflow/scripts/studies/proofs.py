@@ -11,8 +11,6 @@ from pathlib import Path
 
 from vibroimpact_pipeline.jobs import running
 
-from vibroimpact import tables
-from vibroimpact.exact.orbits.proof.table import counts
 from vibroimpact.studies.completeness.orbits import certify as certify_orbits
 from vibroimpact.studies.completeness.points import certify, certify_asymmetric
 from vibroimpact.system import System
@@ -24,17 +22,16 @@ CERTIFIED = {
 }
 
 
-def proofs_of(system, table, search) -> dict:
-    """Return three proofs for one case, the effort of the search for asymmetric orbits, and counts of proved orbits."""
+def proofs_of(system, search) -> dict:
+    """Return three proofs for one case, and the effort of the search for asymmetric orbits."""
     proofs = {name: prove(system) for name, prove in CERTIFIED.items()}
     return {
         **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},
         "asymmetric_orbits": json.loads(Path(search).read_text(encoding="utf-8")),
-        "orbits": counts(tables.read(table)),
     }
 
 
 with running(snakemake) as out:
-    cases = zip(snakemake.params.systems.items(), snakemake.input.orbits, snakemake.input.searches, strict=True)
-    found = {case: proofs_of(System(**values), table, search) for (case, values), table, search in cases}
+    cases = zip(snakemake.params.systems.items(), snakemake.input, strict=True)
+    found = {case: proofs_of(System(**values), search) for (case, values), search in cases}
     Path(out.json).write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
