@@ -20,7 +20,6 @@ of the function, not the files of the functions it calls. With NUMBA_CACHE_DIR s
 
 import hashlib
 import os
-import shutil
 import sys
 import tempfile
 from functools import cache, partial
@@ -29,30 +28,21 @@ from pathlib import Path
 from numba import config, njit
 from numba.core import event
 
-SIMULATION = "the simulation (about 15 s)"
-ON_DEMAND = "certificates, energies and Jacobians of runs (about 10 s)"
-ENSEMBLE = "the simulation of ensembles (about 25 s)"
-COMPILATION_NOTICES = {"engine.flow_tables": SIMULATION, "engine.event_loop": SIMULATION, "lanes": ENSEMBLE}
-"""Message for each separately compiled group of code; the key is the package or module that starts the compilation."""
-
 
 class _Notice(event.Listener):
-    """Listener that prints a line before Numba starts a long compilation."""
+    """Listener that prints a line before Numba first compiles code of the package."""
 
     def __init__(self):
-        self.within, self.said, self.hint = 0, set(), "; to do this in advance, run python -m vibroimpact.compile"
+        self.printed, self.hint = False, "; to do this in advance, run python -m vibroimpact.compile"
 
     def on_start(self, compilation):
         module = compilation.data["dispatcher"].py_func.__module__ or ""
-        _, exact, name = module.partition("vibroimpact.exact.")
-        what = next((what for start, what in COMPILATION_NOTICES.items() if name.startswith(start)), ON_DEMAND)
-        if not self.within and exact and what not in self.said:
-            self.said.add(what)
-            say(f"compiling {what}, needed only once{self.hint}")
-        self.within += 1
+        if not self.printed and module.startswith("vibroimpact.exact."):
+            self.printed = True
+            say(f"compiling the simulation (up to a minute), needed only once{self.hint}")
 
     def on_end(self, compilation):
-        self.within -= 1
+        pass
 
 
 def say(words: str) -> None:
@@ -88,8 +78,6 @@ def code_folder(package: Path) -> Path | None:
     """Return the cache folder for a package, or None if NUMBA_CACHE_DIR is set.
 
     The name of the folder contains a hash of all source files that may be compiled into a function of the package.
-    Numba needs a writable folder. If the library is read-only, the code compiled at its installation is copied
-    to a writable folder.
     """
     if config.CACHE_DIR:
         return None
@@ -97,37 +85,20 @@ def code_folder(package: Path) -> Path | None:
     digest = hashlib.sha256()
     for path in sorted(files):
         digest.update(path.name.encode() + path.read_bytes())
-    name = f"compiled-{digest.hexdigest()[:16]}"
-    folder, installed = _writable() / name, LIBRARY_CACHE / name
-    if installed.is_dir() and not folder.exists():
-        _copy(installed, folder)
-    return folder
-
-
-def _copy(code, folder):
-    """Copy a folder of compiled code in one step, since other processes may read or copy it at the same time."""
-    try:
-        with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".copy-") as part:
-            for file in code.glob("*/*"):
-                copy = Path(part, folder.name, file.relative_to(code))
-                copy.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(file, copy)
-            Path(part, folder.name).rename(folder)
-    except OSError:  # another process was first, or the disk is full: compile again
-        pass
+    return _writable() / f"compiled-{digest.hexdigest()[:16]}"
 
 
 @cache
 def _writable() -> Path:
-    """Return the first writable folder of these: next to the library, in the user's cache, a private temporary folder.
+    """Return the first writable folder of these: next to the library, in the user's cache, a new temporary folder.
 
-    A message is printed if the temporary folder is used.
+    A message is printed if the temporary folder is used, since every process then compiles again.
     """
     own = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
     for folder in (LIBRARY_CACHE, own / "vibroimpact"):
         if folder.is_absolute() and _takes_files(folder):  # "~" stays in the path if the home directory is unknown
             return folder
-    folder = _temporary()
+    folder = Path(tempfile.mkdtemp(prefix="vibroimpact-"))
     say(f"neither the installation nor {own} is writable; caching compiled code in {folder}")
     return folder
 
@@ -139,18 +110,6 @@ def _takes_files(folder):
     except OSError:
         return False
     return True
-
-
-def _temporary():
-    """Return a temporary folder that all processes of this user share.
-
-    If another user could write to this folder, return a new one instead, since the code in the folder is executed.
-    """
-    folder = Path(tempfile.gettempdir(), f"vibroimpact-{os.getuid()}")
-    folder.mkdir(mode=0o700, exist_ok=True)
-    state = folder.lstat()
-    private = folder.is_dir() and not folder.is_symlink() and state.st_uid == os.getuid() and not state.st_mode & 0o022
-    return folder if private else Path(tempfile.mkdtemp(prefix="vibroimpact-"))
 
 
 _cached = partial(disk_cached, error_model="numpy", nogil=True, no_cfunc_wrapper=True)
