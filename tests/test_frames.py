@@ -59,15 +59,9 @@ def test_a_run_and_an_ensemble_as_frames():
             vi.to_frame(other)
 
 
-@pytest.mark.parametrize("phase", [0.0, 1.0, 2.0 * SYSTEM.Omega, -7.0])
-def test_a_section_is_taken_at_one_phase_of_the_forcing(phase):
-    """At the start and the end, too, where they have this phase: 2 Omega."""
-    times = (phase + 2 * np.pi * np.arange(-5, 70)) / SYSTEM.Omega
-    end = RUN.tau0 + RUN.cycles * SYSTEM.period
-    times = np.clip(times[(times > RUN.tau0 - 1e-9) & (times < end + 1e-9)], RUN.tau0, end)
-    expected = vi.simulate(SYSTEM, RUN.start, RUN.cycles, RUN.begin, times).samples
-    np.testing.assert_allclose(RUN.section(phase), expected, rtol=0, atol=1e-11)
-    assert len(times) == RUN.cycles + (phase == 2.0 * SYSTEM.Omega)
+def test_a_section_is_taken_once_per_cycle_from_the_start():
+    expected = vi.simulate(SYSTEM, RUN.start, RUN.cycles, RUN.begin, RUN.tau0 + np.arange(RUN.cycles) * SYSTEM.period)
+    np.testing.assert_allclose(RUN.section(), [*expected.samples, RUN.final], rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize(("sigma", "before"), [(0.3, 9_999_999), (-0.17, 123_457), (-2.3, 1)])
@@ -75,19 +69,15 @@ def test_a_section_far_from_the_origin_of_time_is_that_of_the_same_run_from_ther
     """The forcing repeats, so that whole periods earlier or later the section is the same."""
     system = SYSTEM.with_(sigma_e_hat=sigma)
     start, cycles = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, -0.5], 3
-    run = vi.simulate(system, start, cycles)
+    expected = vi.simulate(system, start, cycles).section()
     end = vi.simulate(system, start, 0).end.later(before, system.Omega)
-    for phase in (0.0, 1.0, -2.0):
-        expected = run.section(phase)
-        assert len(expected) == cycles + (phase == 0.0)
-        np.testing.assert_array_equal(vi.simulate(system, start, cycles, tau0=end).section(phase), expected)
-        there = vi.simulate(system, start, cycles, tau0=before * system.period).section(phase)  # to a float's rounding
-        assert there.shape == expected.shape
-        np.testing.assert_allclose(there, expected, rtol=0, atol=1e-6)
+    np.testing.assert_array_equal(vi.simulate(system, start, cycles, tau0=end).section(), expected)
+    there = vi.simulate(system, start, cycles, tau0=before * system.period).section()  # to a float's rounding
+    np.testing.assert_allclose(there, expected, rtol=0, atol=1e-6)
 
 
 def test_a_picture_of_a_run_shows_boxes_and_balls_between_the_walls():
-    times = RUN.tau0 + frames.plot_times(RUN)
+    times = RUN.tau0 + np.linspace(0.0, RUN.cycles * SYSTEM.period, 64 * RUN.cycles + 1)
     samples = vi.simulate(SYSTEM, RUN.start, RUN.cycles, RUN.begin, times).samples
     figure = RUN.plot()
     for i, axes in enumerate(figure.axes):

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-_PER_CYCLE, _MOST = 64, 20_000  # points of a plot: number per cycle, largest number in all
-
 
 def to_frame(result: Any) -> "pandas.DataFrame":
     """Return a result as a pandas DataFrame.
@@ -116,12 +114,6 @@ def of_run(run):
     table["kind"] = [KINDS[kind] for kind in run.events["kind"].tolist()]
     table[list(NAMES)] = run.events["state"]
     return table
-
-
-def plot_times(run) -> np.ndarray:
-    """Return times since the start at which to plot a Run: 64 per cycle, or fewer in a long run."""
-    count = min(_PER_CYCLE * run.cycles, _MOST)
-    return np.linspace(0.0, run.cycles * run.system.period, count + 1)
 
 
 def plot(system, times, samples):

@@ -96,11 +96,6 @@ class PeriodicOrbit(Representation):
         return self.periods % 2 == 1 and bool(np.abs(half + self.run.start).max() <= SAME)
 
     @property
-    def grazing(self) -> bool:
-        """True if a ball touches a wall at zero relative speed; where this becomes an impact, a multiplier diverges."""
-        return _grazes(self.run)
-
-    @property
     def residual(self) -> float:
         """Largest difference between the states before and after one period."""
         return _gap(self.run)
@@ -120,7 +115,7 @@ class PeriodicOrbit(Representation):
             "periods": str(self.periods),
             "impacts": str(self.impacts.tolist()),
             "symmetric": str(self.symmetric),
-            "stability": self.stability + (" (grazing)" if self.grazing else ""),
+            "stability": self.stability + (" (grazing)" if _grazes(self.run) else ""),
             "multipliers": f"moduli up to {brief(abs(self.multipliers[0]))}",
             "amplitudes": brief(self.amplitudes),
         }

@@ -1,13 +1,12 @@
-"""Display results: one line in a console, a small table in a notebook."""
+"""Display results on one line."""
 
 from collections.abc import Iterable
-from html import escape
 
 import numpy as np
 
 
 class Representation:
-    """Base class of results; its `repr` and its HTML table show the texts returned by `_shown`."""
+    """Base class of results; its `repr` shows the texts returned by `_shown`."""
 
     def _shown(self) -> dict[str, str]:
         """Return a short text for each attribute to show, by attribute name."""
@@ -15,10 +14,6 @@ class Representation:
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._shown().items())})"
-
-    def _repr_html_(self) -> str:
-        rows = (f"<tr><th>{escape(name)}</th><td>{escape(text)}</td></tr>" for name, text in self._shown().items())
-        return f"<table><caption>{type(self).__name__}</caption>{''.join(rows)}</table>"
 
 
 class Found(list):

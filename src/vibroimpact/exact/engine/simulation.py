@@ -2,7 +2,6 @@
 
 import math
 import numbers
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from functools import cached_property
@@ -15,7 +14,7 @@ from vibroimpact.exact.engine import contact, event_loop
 from vibroimpact.exact.engine.all_cores import on_all_cores, stop_if_cancelled
 from vibroimpact.exact.engine.certificate import HORIZON_ERROR, Certificate, errors_at
 from vibroimpact.exact.engine.energy import Energy
-from vibroimpact.exact.engine.flow import TWO_PI, Instant, continues, exactly, flow_of, phase_at, tables_of
+from vibroimpact.exact.engine.flow import Instant, continues, exactly, flow_of, phase_at, tables_of
 from vibroimpact.exact.engine.variation import INNER_ORDER, PUBLIC_ORDER, propagate, replayed, rests_at_start
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, real, reals, short_repr, whole
@@ -27,6 +26,8 @@ LARGEST_TIME = 2.0**43
 """Limit on |tau|: beyond it, floats are more than 1e-3 apart, too coarse for the times of events."""
 MOST_CYCLES = 10_000_000
 """Largest number of cycles in one run. A run stores all its events, which take about a kilobyte per cycle."""
+PLOTTED_PER_CYCLE = 64
+"""Number of samples per cycle in the plot of a run."""
 WALL_TOLERANCE = 1e-12
 """Accepted distance of a ball beyond a wall in an initial state (plus rounding); the run moves the ball to the wall."""
 
@@ -248,36 +249,19 @@ class Run(Representation):
         """Return the events as a pandas DataFrame: tau, module, wall, kind as text and state after the event."""
         return frames.of_run(self)
 
-    def section(self, phase: float = 0.0) -> np.ndarray:
-        """Return the state in each cycle at a given forcing phase (a stroboscopic Poincare section).
+    def section(self) -> np.ndarray:
+        """Return the states at the start and after each cycle (a stroboscopic Poincare section), shape (cycles + 1, 8).
 
         The run is simulated again for these samples.
-
-        Parameters
-        ----------
-        phase : float, default 0.0
-            Forcing phase Omega tau [rad].
-
-        Returns
-        -------
-        ndarray
-            States, shape (n, 8).
         """
-        system, phase = self.system, real("phase", phase)
-        (wanted, part), (begin, tail) = phase_at(phase, 1.0), phase_at(self.begin, system.Omega)
-        ahead = ((wanted - begin) + (part - tail)) % TWO_PI
-        # tau0 may be a rounded multiple of the period
-        rounding = math.ulp(max(abs(phase), TWO_PI)) + system.Omega * math.ulp(self.tau0)
-        at_start = min(ahead, TWO_PI - ahead) <= 2.0 * rounding
-        cycles = np.arange(self.cycles + at_start)
-        return self._sampled(system.period * cycles + (0.0 if at_start else ahead / system.Omega))
+        return self._sampled(self.system.period * np.arange(self.cycles + 1))
 
     def plot(self):
         """Return a Matplotlib Figure with X_i, and with W_i = X_i - Y_i between the walls.
 
         The run is simulated again for the samples of the curves.
         """
-        since = frames.plot_times(self)
+        since = np.linspace(0.0, self.cycles * self.system.period, PLOTTED_PER_CYCLE * self.cycles + 1)
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
@@ -295,7 +279,7 @@ class Run(Representation):
 
 def simulate(
     system: System,
-    state: ArrayLike | Mapping[str, float],
+    state: ArrayLike,
     cycles: int,
     tau0: float | Fraction | Instant = 0.0,
     sample_times: ArrayLike | None = None,
@@ -309,9 +293,8 @@ def simulate(
     ----------
     system : System
         Dimensionless parameters.
-    state : array_like or mapping
-        Initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), dimensionless. Alternatively a mapping from the
-        names of the components to their values, or a row of a table from `to_frame`.
+    state : array_like
+        Initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), dimensionless.
     cycles : int
         Number of forcing periods, from 0 to ten million (a run stores all its events). To continue a run, start from
         `run.final` with tau0=run.end.
@@ -357,9 +340,7 @@ def simulate(
     return _run(system, state, cycles, begin, times, float(begin))
 
 
-def simulate_many(
-    system: System, states: ArrayLike, cycles: int, tau0: float | Fraction | Instant = 0.0, progress: bool = False
-) -> list[Run]:
+def simulate_many(system: System, states: ArrayLike, cycles: int, tau0: float | Fraction | Instant = 0.0) -> list[Run]:
     """Simulate runs from many initial states on all cores.
 
     Every run is bit by bit the same as with `simulate`.
@@ -372,8 +353,6 @@ def simulate_many(
         Initial states, shape (n, 8), each as for `simulate`.
     cycles, tau0
         As for `simulate`.
-    progress : bool, default False
-        Report progress on standard error about once a second.
 
     Returns
     -------
@@ -406,7 +385,7 @@ def simulate_many(
     begin, cycles = checked_window(system, cycles, tau0)
     tables_of(system)  # build the tables once, before the threads share them
     pieces = [(system, state, cycles, begin, NO_TIMES, 0.0) for state in states]
-    return on_all_cores(_run, pieces, [1] * len(pieces), progress)
+    return on_all_cores(_run, pieces)
 
 
 def _run(system, state, cycles, begin, times, clock):
