@@ -178,7 +178,7 @@ class Run(Representation):
         """
         rows = self.rows
         if continues(self.begin):  # omit sticks of balls that already stuck in the previous run
-            again = [n for n in range(min(event_loop.MOST_AT_ONCE, len(rows))) if rests_at_start.py_func(rows, n)]
+            again = [n for n in range(min(event_loop.MOST_AT_ONCE, len(rows))) if rests_at_start(rows, n)]
             rows = np.delete(rows, again, axis=0)
         table = np.empty(len(rows), EVENT)
         table["tau"] = self.tau0 + rows[:, contact.TIME]

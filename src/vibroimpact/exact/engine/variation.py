@@ -130,7 +130,6 @@ def completes_chatter(events, n):
     return events[n, 3] == STICK and events[n, APPROACH] > 0.0
 
 
-@inlined
 def rests_at_start(events, n):
     """Return True if event n is the stick, at the start of the run, of a ball that already rests on its wall."""
     first = events[n, 0] == 0.0 and events[n, 3] == STICK

@@ -11,12 +11,12 @@ from vibroimpact.exact.engine import energy as energy_balance
 from vibroimpact.exact.engine.all_cores import cores, on_all_cores, stop_if_cancelled
 from vibroimpact.exact.engine.energy import ENERGY, OBSERVED, energies
 from vibroimpact.exact.engine.event_loop import FAILURES, FINISHED
-from vibroimpact.exact.engine.flow import OMEGA, RATE, Instant, continues, numbers_of, phase_at
+from vibroimpact.exact.engine.flow import OMEGA, RATE, Instant, numbers_of, phase_at
 from vibroimpact.exact.engine.simulation import MOST_CYCLES, NO_TIMES, attempt, checked_window, within_walls
 from vibroimpact.exact.engine.variation import FORCING
 from vibroimpact.exact.engine.vectors import WIDTH
 from vibroimpact.exact.lanes import loop
-from vibroimpact.exact.lanes.rows import IMPACTS, INTEGRALS, LARGEST, PATH, STATISTICS, STICKS
+from vibroimpact.exact.lanes.rows import IMPACTS, INTEGRALS, LARGEST, PATH, STATISTICS
 from vibroimpact.exact.lanes.statistics import accumulate_run
 from vibroimpact.system import System
 from vibroimpact.system.arguments import instance, whole
@@ -31,18 +31,17 @@ OUTCOME = np.dtype(
         ("status", "i1"),
         ("final", "f8", (8,)),
         ("impacts", "i8", (2,)),
-        ("sticks", "i8", (2,)),
         ("largest", "f8", (2,)),
         ("mean_square", "f8", (2,)),
         ("ball_speed", "f8", (2,)),
     ]
 )
 """Data type of the outcome of a run: the status (a key of STATUSES) and the final state; then, for each module and over
-the observed cycles: numbers of impacts and sticks, largest |X_i|, and time averages of X_i^2 and |Y_i'|."""
+the observed cycles: numbers of impacts, largest |X_i|, and time averages of X_i^2 and |Y_i'|."""
 WITH_ENERGY = np.dtype([*OUTCOME.descr, ("energy", ENERGY)])
 """OUTCOME with the energy balance."""
 
-FIELDS = {"impacts": IMPACTS, "sticks": STICKS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
+FIELDS = {"impacts": IMPACTS, "largest": LARGEST, "ball_speed": PATH, "mean_square": INTEGRALS}
 """For each statistic in OUTCOME, its index for module 1 in a row of statistics; module 2 follows."""
 MEANS = slice(PATH, INTEGRALS + 2)
 """Indices of the statistics that become time averages when they are divided by the observed time."""
@@ -99,7 +98,7 @@ def ensemble(
 
     Notes
     -----
-    The numbers of impacts and sticks are those of `simulate`, with two exceptions: grazing contacts that the
+    The numbers of impacts are those of `simulate`, with two exceptions: grazing contacts that the
     certificate of the run counts as undecided, and impacts after which the ball hops by less than four units of
     rounding. In a run without undecided contacts, the error of the final state is at most 2.6 times the estimate in
     the certificate (docs/engine.md). Use `simulate` for events, samples or a certificate.
@@ -180,7 +179,7 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
     phases = np.array([phase_at(begin, system.Omega) for begin, system in zip(begins, systems, strict=True)])
     single = np.flatnonzero(alone[owners] & (status == FINISHED))
     status[single] = DEFERRED
-    runs = owners, starts, stages, status, final, statistics, continues(begins[0])
+    runs = owners, starts, stages, status, final, statistics
     piece, memory = loop.Piece(scalars, rates, phases, potentials, drifts, *runs), loop.memory()
     while not loop.run_lanes(piece, memory):
         stop_if_cancelled()
@@ -218,7 +217,7 @@ def _single_run(system, state, begin, stages, final, statistics):
         if settle < stop:
             flow, flights, rows = run.trajectory
             end = run.cycles * system.period, flights[0, FORCING]
-            accumulate_run(flow, squares, run.start, rows, run.final, end, continues(run.begin), statistics[k])
+            accumulate_run(flow, squares, run.start, rows, run.final, end, statistics[k])
             if squares.drifts.size == 0:
                 row = np.zeros((1, energy_balance.ENTRIES))
                 energy_balance.accumulate_energy(flow, flights, rows, squares, end[0], row)

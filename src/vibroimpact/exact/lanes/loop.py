@@ -16,7 +16,7 @@ from vibroimpact.exact.engine.variation import Departure
 from vibroimpact.exact.engine.vectors import WIDTH
 from vibroimpact.exact.lanes import rows, steps
 from vibroimpact.exact.lanes.rows import STATISTICS, STATISTICS_AT
-from vibroimpact.exact.lanes.statistics import accumulate_statistics, discount_rests, find_turns, open_or_close
+from vibroimpact.exact.lanes.statistics import accumulate_statistics, find_turns, open_or_close
 
 TABLE = 64  # number of times in a flow table; it is small, since the event loop handles only few events
 NO_REST_DISTANCE = 1e-6  # a ball farther from a wall does not come to rest on it during one call of `run_until`
@@ -29,7 +29,7 @@ class Piece(NamedTuple):
     numbers, rates, phases, potentials, drifts: data of each system. owners (n,): index of the system of each run.
     starts (n, 8): initial states. stages: number of cycles before the observation, total number of cycles, and number
     of cycles in each of the k windows of the observation. Results: status (n,), final (n, k, 8) and statistics (n, k,
-    STATISTICS). continued: True if the runs continue other runs.
+    STATISTICS).
     """
 
     numbers: np.ndarray
@@ -43,7 +43,6 @@ class Piece(NamedTuple):
     status: np.ndarray
     final: np.ndarray
     statistics: np.ndarray
-    continued: bool
 
 
 class Memory(NamedTuple):
@@ -318,8 +317,6 @@ def _add_events(piece, flow, squares, leaving, progress, lane, m):
     arrival = progress.motion.boxes, progress.elapsed, progress.phase
     _read_statistics(m, lane)
     accumulate_statistics(flow, squares, departure, m.log, noted, arrival, m.statistics)
-    if piece.continued:
-        discount_rests(m.log, noted, m.statistics)
     _write_statistics(m, lane)
 
 

@@ -7,9 +7,9 @@ from vibroimpact.exact.engine.compiled import inlined
 from vibroimpact.exact.engine.flow import NUMBERS
 from vibroimpact.exact.engine.vectors import fused, load, store, where
 
-IMPACTS, STICKS, LARGEST, PATH, INTEGRALS = 0, 2, 4, 6, 8
+IMPACTS, LARGEST, PATH, INTEGRALS = 0, 2, 4, 6
 LOST, STORED, STATISTICS = INTEGRALS + energy.LOSSES, INTEGRALS + energy.STORED, INTEGRALS + energy.ENTRIES
-"""Indices of the statistics of a run, and their number STATISTICS. Two entries each, one per module: impacts, sticks,
+"""Indices of the statistics of a run, and their number STATISTICS. Two entries each, one per module: impacts,
 largest |X_i|, length of the ball's path. From INTEGRALS on: the entries of a row of `energy.accumulate_energy`."""
 
 X1, X2, V1, V2, Y1, Y2, U1, U2, SINE, COSINE = range(10)

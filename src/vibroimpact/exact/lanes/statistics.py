@@ -16,7 +16,7 @@ from vibroimpact.exact.engine.compiled import compiled, in_place, inlined, inlin
 from vibroimpact.exact.engine.contact import Motion, free_flight, with_velocity
 from vibroimpact.exact.engine.energy import SIZE, add_potentials, energy_stored, impact_loss
 from vibroimpact.exact.engine.flow import half_curvature, jet_at, mode_of, slope, value
-from vibroimpact.exact.engine.variation import first_departure, next_departure, rests_at_start
+from vibroimpact.exact.engine.variation import first_departure, next_departure
 from vibroimpact.exact.engine.vectors import count, fused, load, load_rows, replace_rows, store, where
 from vibroimpact.exact.lanes import rows
 from vibroimpact.exact.lanes.rows import (
@@ -26,31 +26,25 @@ from vibroimpact.exact.lanes.rows import (
     LOST,
     PATH,
     STATISTICS_AT,
-    STICKS,
     STORED,
     evaluate,
     expand,
     most,
 )
-from vibroimpact.system.state import IMPACT, STICK
+from vibroimpact.system.state import IMPACT
 
 PIECE = 4  # length in spacings of the flow table; a box turns at most once in a piece unless its velocity stays near 0
 STEPS = 4  # number of Newton steps to find a turn
 
 
 @compiled
-def accumulate_run(flow, squares, start, events, final, end, continued, statistics):
-    """Add the statistics of a finished run to `statistics` (STATISTICS,).
-
-    end: duration and final phase of the run. continued: True if the run continues another run.
-    """
+def accumulate_run(flow, squares, start, events, final, end, statistics):
+    """Add the statistics of a finished run to `statistics` (STATISTICS,); end: duration and final phase of the run."""
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), math.sin(phase), math.cos(phase))
     open_or_close(flow, squares, Motion(*leaving[:3], (0, 0), last.sine, last.cosine), -1.0, statistics)
     accumulate_statistics(flow, squares, leaving, events, len(events), (last.boxes, duration, phase), statistics)
     open_or_close(flow, squares, last, 1.0, statistics)
-    if continued:
-        discount_rests(events, len(events), statistics)
 
 
 @in_place
@@ -76,14 +70,6 @@ def accumulate_statistics(flow, squares, departure, events, count, arrival, stat
             before, after = (mode_of(leaving.walls), end), (mode_of(following.walls), following.boxes)
             _add_potential_drops(squares, before, after, late, statistics[INTEGRALS:])
         leaving, early = following, late
-
-
-@inlined
-def discount_rests(events, count, statistics):
-    """Subtract the sticks at the start of a run that continues another run, because the other run has counted them."""
-    for n in range(count):
-        if rests_at_start(events, n):
-            statistics[STICKS + int(events[n, contact.MODULE]) - 1] -= 1.0
 
 
 @inlined
@@ -124,8 +110,6 @@ def _count(q, event, statistics):
     module = int(event[1]) - 1
     if event[3] == IMPACT:
         statistics[IMPACTS + module] += 1
-    elif event[3] == STICK:
-        statistics[STICKS + module] += 1
     statistics[LOST + module] += impact_loss(q.epsilon, q.kappa if event[3] == IMPACT else 0.0, event[contact.APPROACH])
 
 
