@@ -19,13 +19,7 @@ import pip
 import pytest
 from packaging.requirements import Requirement
 
-from chapter import PARAMETERS
 from pipeline_trees import ROOT, Tree
-from vibroimpact.compile import event_loop
-from vibroimpact.exact.engine.event_loop import integrate
-from vibroimpact.exact.engine.simulation import simulate
-from vibroimpact.exact.lanes.ensemble import ensemble
-from vibroimpact.system import System
 from vibroimpact_pipeline import environment
 
 RECORDING = """#!/bin/sh
@@ -353,15 +347,6 @@ def test_the_first_build_compiles_nothing(tree):
     tree.snakemake()
     assert len(before) > 100
     assert compiled_files(tree) == before
-
-
-def test_the_engine_is_compiled_for_the_arguments_of_runs(monkeypatch):
-    asked, system = [], System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
-    simulate(system, [0] * 8, 1, tau0=1, sample_times=[2])
-    ensemble(system, [0] * 8, 1)
-    monkeypatch.setattr(integrate, "compile", asked.append)
-    event_loop()
-    assert [tuple(signature) for signature in asked] == list(integrate.signatures)
 
 
 def test_actions_are_pinned_by_commit_and_leave_no_credentials():

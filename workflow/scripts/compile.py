@@ -6,7 +6,7 @@ from importlib import import_module
 
 import vibroimpact_pipeline  # noqa: F401 (sets the environment, which Numba reads when it is imported)
 
-from vibroimpact.compile import beforehand, certificates, event_loop
+from vibroimpact.compile import beforehand, simulations
 
 NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"
 """Further modules that jobs use although no module of the library imports them."""
@@ -37,5 +37,5 @@ def imports():
 
 if __name__ == "__main__":
     with ProcessPoolExecutor(2, initializer=beforehand) as pool:
-        for done in [pool.submit(work) for work in (certificates, event_loop, other_methods, imports)]:
+        for done in [pool.submit(work) for work in (simulations, other_methods, imports)]:
             done.result()

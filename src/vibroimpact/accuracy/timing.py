@@ -2,7 +2,7 @@
 
 import platform
 import time
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import distributions
 
 PACKAGES = "vibroimpact", "numpy", "scipy", "numba", "heyoka", "python-flint"
 MOST_CALLS = 5000
@@ -29,10 +29,5 @@ def interleaved(functions, seconds: float) -> list[tuple]:
 
 def versions() -> dict[str, str]:
     """Return the versions of Python and packages, and the processor architecture, on which a measurement depends."""
-    found = {"python": platform.python_version(), "machine": platform.machine()}
-    for package in PACKAGES:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:
-            found[package] = "absent"
-    return found
+    installed = {one.name: one.version for one in distributions() if one.name in PACKAGES}
+    return {"python": platform.python_version(), "machine": platform.machine()} | installed
