@@ -24,7 +24,7 @@ def constants(system):
     memory, unobserved = loop.memory(), (np.empty((1, 4, 0, 6, 6)), np.empty((1, 4, 0)))
     systems = *numbers_of([system], loop.TABLE), np.zeros((1, 2)), *unobserved
     results = np.zeros(1, np.int64), np.zeros((1, 1, 8)), np.zeros((1, 1, rows.STATISTICS))
-    loop.run_lanes(loop.Piece(*systems, np.zeros(1, np.int64), np.zeros((1, 8)), (1, 1, 0), *results, False), memory)
+    loop.run_lanes(loop.Piece(*systems, np.zeros(1, np.int64), np.zeros((1, 8)), (1, 1, 0), *results), memory)
     return memory.constants[:, 0]
 
 
