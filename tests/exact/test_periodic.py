@@ -80,7 +80,6 @@ def test_grazing_is_reported():
 
     f = brentq(lambda f: motion(f).excursion - 1, 4.64, 4.66, xtol=1e-13)
     near, apart = (vi.periodic_orbit(one.system, one.state) for one in (motion(f - 1e-9), motion(f - 1e-3)))
-    assert "(grazing)" in repr(near)
     assert "stability=unstable (grazing)" in repr(near)
     assert "(grazing)" not in repr(apart)
     assert apart.run.certificate.nearest_miss == pytest.approx(1 - motion(f - 1e-3).excursion, rel=1e-6)
