@@ -86,10 +86,14 @@ def test_a_run_that_fails_is_one_line(capsys):
     assert "time stands still" in line
 
 
-def test_a_table_that_cannot_be_saved_is_one_line(capsys):
-    status, line = refusal(capsys, "fixed-points --output /dev/full")
-    assert status == 1
-    assert "No space left on device" in line
+def test_a_table_that_cannot_be_saved_is_printed(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["fixed-points", "--output", "/dev/full"])
+    printed = capsys.readouterr()
+    assert end.value.code == 1
+    assert len(printed.out.splitlines()) == 4
+    assert "output: /dev/full cannot be written (No space left on device), so the table was printed" in printed.err
+    assert printed.err.count("\n") == 1
 
 
 def test_a_reader_that_has_seen_enough_is_no_error():

@@ -15,6 +15,7 @@ from vibroimpact.figures.plotting import case_motion, case_points
 from vibroimpact.system import System
 
 EQUAL = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
+OTHERS = [EQUAL | change for change in ({"kappa": 0.650001}, {"f20_hat": 0.72}, {"f10_hat": 0.0, "f20_hat": 0.0})]
 RUN = {"initial_state": [0.0] * 8, "transient_cycles": 20, "window_cycles": 3, "samples_per_cycle": 16}
 RUN |= {"model": "float64"}
 
@@ -34,7 +35,7 @@ def made(tmp_path_factory):
         "simulate": Given(samples="samples.csv", events="events.csv", strobe="strobe.csv", summary="summary.json"),
     }
     for name, paths in outputs.items():
-        job = SimpleNamespace(threads=1, rule=name, input=[], output=paths)
+        job = SimpleNamespace(log=[], threads=1, rule=name, input=[], output=paths)
         job.params, job.wildcards = Given(system=EQUAL, settings=RUN), Given(case="equal")
         with contextlib.chdir(folder):
             runpy.run_path(str(ROOT / f"workflow/scripts/{name}.py"), init_globals={"snakemake": job})
@@ -47,8 +48,24 @@ def test_files_and_parameters_say_the_same(made):
     pd.testing.assert_frame_equal(read, own.drop(columns="multiple"))
     said = [case_points.exact(case_points.verdicts("equal", system, read, inputs)) for inputs in (made, {})]
     assert said[0] == said[1] != ""
-    for one, other in zip(*(case_motion.simulated(EQUAL, RUN, inputs) for inputs in (made, {})), strict=True):
+    for one, other in zip(*(case_motion.simulated("equal", EQUAL, RUN, inputs) for inputs in (made, {})), strict=True):
         pd.testing.assert_frame_equal(one, other, check_dtype=False)
+
+
+def test_files_of_other_parameters_of_another_case_or_length_are_refused_in_one_line(made):
+    for others in OTHERS:
+        system = System(**others)
+        with pytest.raises(ValueError, match=r"\Ainputs: .*points.csv.*\Z"):
+            case_points.fixed_points("equal", system, made)
+        with pytest.raises(ValueError, match=r"\Ainputs: .*summary.json was computed with (kappa|f[12]0_hat) = .*\Z"):
+            case_motion.simulated("equal", others, RUN, made)
+        with pytest.raises(ValueError, match=r"points.csv contains"):
+            case_points.verdicts("equal", system, case_points.fixed_points("equal", system, {}), made)
+    with pytest.raises(ValueError, match="of case equal"):
+        case_points.fixed_points("unequal", System(**EQUAL), made)
+    for case, settings, said in (("unequal", RUN, "case = equal"), ("equal", RUN | {"window_cycles": 4}, "cycles = 3")):
+        with pytest.raises(ValueError, match=f"was computed with [a-z_]*{said}, but the notebook has"):
+            case_motion.simulated(case, EQUAL, settings, made)
 
 
 def sampled(period, decay=0.0, cycles=6, per_cycle=8):
@@ -88,7 +105,7 @@ def test_flights_are_measured_from_the_impacts():
 def test_a_settled_motion_is_compared_with_its_mirror_image(f20_hat):
     """At equal forces the attractor is asymmetric, from brute force: the maxima of W_2 and of -W_2 differ in time."""
     run = RUN | {"transient_cycles": 1500, "samples_per_cycle": 200}
-    samples, events = case_motion.simulated(EQUAL | {"f20_hat": f20_hat}, run, {})
+    samples, events = case_motion.simulated("equal", EQUAL | {"f20_hat": f20_hat}, run, {})
     system = System(**EQUAL)
     impacts = events[events["kind"] == "impact"]
     said = case_motion.exact(samples[["X1", "Y1", "X2", "Y2"]].to_numpy(), 200, impacts, system.period)

@@ -14,7 +14,7 @@ ORBITS = {"orbits": "results/orbits/{case}.csv"}
 READ = {
     "fixed_points": POINTS | ORBITS,
     "theoretical_response": POINTS | ORBITS,
-    "simulation": POINTS | MOTION,
+    "simulation": POINTS | MOTION | {"summary": "results/simulations/{case}/{model}/summary.json"},
 }
 
 

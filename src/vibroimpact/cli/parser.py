@@ -71,26 +71,41 @@ def _run(options):
 
 
 def _check_folders(options):
-    """Raise ValueError if the folder of an output file does not exist, before anything is computed."""
+    """Raise ValueError if an output file cannot be written, before anything is computed."""
     for name in ("output", "plot"):
         path = getattr(options, name, None)
-        if path is not None and not path.parent.is_dir():
+        if path is None:
+            continue
+        if not path.parent.is_dir():
             raise ValueError(f"{name}: folder {path.parent} does not exist")
+        if path.is_dir():
+            raise ValueError(f"{name}: {path} is a folder, expected the name of a file")
+        if not os.access(path if path.exists() else path.parent, os.W_OK):
+            raise ValueError(f"{name}: {path} is not writable")
 
 
 def _put(table: Table, output: Path | None):
-    """Print the summary of a table, if it has one; write the table to `output`, or print it without both."""
+    """Write the table to the file `output`, if given, and print the summary, if the command has one.
+
+    The table is printed if there is no file and no summary, or if the table cannot be saved.
+    """
+    failed = None
+    try:
+        if output is not None:
+            with open(output, "w", encoding="utf-8", newline="") as file:
+                table.write(file)
+    except OSError as error:
+        failed = OSError(f"output: {output} cannot be written ({error.strerror}), so the table was printed instead")
     try:
         if table.answer:
-            print(table.answer)
-        elif output is None:
+            print(table.answer, flush=True)
+        if failed or (output is None and not table.answer):
             table.write(sys.stdout)
-        sys.stdout.flush()
+            sys.stdout.flush()
     except BrokenPipeError:  # the reading end of the pipe was closed, by `head` for example
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    if output is not None:
-        with open(output, "w", encoding="utf-8", newline="") as file:
-            table.write(file)
+    if failed:
+        raise failed
 
 
 def _draw(table, options):

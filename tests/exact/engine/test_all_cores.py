@@ -20,7 +20,7 @@ def test_no_more_threads_than_a_job_is_given(monkeypatch):
 
     with at_most(2):
         assert cores() == 2
-        assert on_all_cores(work, [(number,) for number in range(8)]) == list(range(8))
+        assert on_all_cores(work, [(number,) for number in range(8)], [1] * 8, progress=False) == list(range(8))
     assert len(workers) == 2
     with at_most(100):
         assert cores() == 8
@@ -35,10 +35,10 @@ def test_without_others_the_pieces_are_done_where_one_is():
         return 1 // (2 - number)
 
     with at_most(1):
-        assert on_all_cores(work, [(0,), (1,)]) == [0, 1]
+        assert on_all_cores(work, [(0,), (1,)], [1] * 2, progress=False) == [0, 1]
         with pytest.raises(ZeroDivisionError):
-            on_all_cores(work, [(1,), (2,), (3,)])
+            on_all_cores(work, [(1,), (2,), (3,)], [1] * 3, progress=False)
     with at_most(8):
-        assert on_all_cores(work, [(0,)]) == [0]
+        assert on_all_cores(work, [(0,)], [1], progress=False) == [0]
     here = threading.get_ident()
     assert done == [(0, here), (1, here), (1, here), (2, here), (0, here)]

@@ -198,9 +198,10 @@ def test_what_is_seen_from_a_cycle_on_is_what_a_run_from_there_shows(chapter, se
         np.testing.assert_allclose(late[name], anew[name], rtol=1e-10)
 
 
-def test_many_certified_runs_are_the_single_ones_bit_by_bit(case):
+def test_many_certified_runs_are_the_single_ones_bit_by_bit(case, capsys):
     states = starts(17)
-    runs = vi.simulate_many(case, states, 60, tau0=0.4)
+    runs = vi.simulate_many(case, states, 60, tau0=0.4, progress=True)
+    assert capsys.readouterr().err.endswith("17/17 runs\n")
     assert vi.simulate_many(case, np.empty((0, 8)), 3) == []
     for state, run in zip(states, runs, strict=True):
         single = vi.simulate(case, state, 60, tau0=0.4)

@@ -4,7 +4,7 @@ import os
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import CancelledError, ThreadPoolExecutor
+from concurrent.futures import CancelledError, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from contextvars import ContextVar
 
@@ -12,14 +12,24 @@ THREAD_LIMIT = ContextVar("thread_limit", default=sys.maxsize)
 WORKER = threading.local()
 
 
-def on_all_cores(work: Callable, pieces: Sequence[tuple]) -> list:
-    """Return the list of `work(*piece)` for each piece, in order, or raise the first error of a piece."""
-    if min(cores(), len(pieces)) <= 1:  # a pool would cost at least 0.1 ms and save nothing
+def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], progress: bool) -> list:
+    """Return the list of `work(*piece)` for each piece, in order, or raise the first error of a piece.
+
+    Parameters
+    ----------
+    runs : sequence of int
+        Number of runs in each piece.
+    progress : bool
+        Print the number of finished runs on standard error, about once a second.
+    """
+    if min(cores(), len(pieces)) <= 1 and not progress:  # a pool would cost at least 0.1 ms and save nothing
         return [work(*piece) for piece in pieces]
     cancelled = threading.Event()
     with ThreadPoolExecutor(cores(), initializer=setattr, initargs=(WORKER, "cancelled", cancelled)) as pool:
-        todo = [pool.submit(work, *piece) for piece in pieces]
+        todo = {pool.submit(work, *piece): count for piece, count in zip(pieces, runs, strict=True)}
         try:
+            if progress:
+                _report(todo)
             return [one.result() for one in todo]
         except BaseException:
             cancelled.set()
@@ -50,3 +60,11 @@ def at_most(threads: int) -> Iterator[None]:
         yield
     finally:
         THREAD_LIMIT.reset(token)
+
+
+def _report(todo):
+    total, pending = sum(todo.values()), set(todo)
+    while pending:
+        _, pending = wait(pending, timeout=1.0)
+        done = total - sum(todo[one] for one in pending)
+        print(f"\r{done}/{total} runs", end="" if pending else "\n", file=sys.stderr, flush=True)

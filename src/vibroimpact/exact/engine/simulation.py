@@ -26,8 +26,8 @@ LARGEST_TIME = 2.0**43
 """Limit on |tau|: beyond it, floats are more than 1e-3 apart, too coarse for the times of events."""
 MOST_CYCLES = 10_000_000
 """Largest number of cycles in one run. A run stores all its events, which take about a kilobyte per cycle."""
-PLOTTED_PER_CYCLE = 64
-"""Number of samples per cycle in the plot of a run."""
+PLOTTED_PER_CYCLE, MOST_PLOTTED = 64, 20_000
+"""Number of samples per cycle in the plot of a run, and largest number of samples."""
 WALL_TOLERANCE = 1e-12
 """Accepted distance of a ball beyond a wall in an initial state (plus rounding); the run moves the ball to the wall."""
 
@@ -261,7 +261,8 @@ class Run(Representation):
 
         The run is simulated again for the samples of the curves.
         """
-        since = np.linspace(0.0, self.cycles * self.system.period, PLOTTED_PER_CYCLE * self.cycles + 1)
+        samples = min(PLOTTED_PER_CYCLE * self.cycles, MOST_PLOTTED)
+        since = np.linspace(0.0, self.cycles * self.system.period, samples + 1)
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
@@ -340,7 +341,9 @@ def simulate(
     return _run(system, state, cycles, begin, times, float(begin))
 
 
-def simulate_many(system: System, states: ArrayLike, cycles: int, tau0: float | Fraction | Instant = 0.0) -> list[Run]:
+def simulate_many(
+    system: System, states: ArrayLike, cycles: int, tau0: float | Fraction | Instant = 0.0, progress: bool = False
+) -> list[Run]:
     """Simulate runs from many initial states on all cores.
 
     Every run is bit by bit the same as with `simulate`.
@@ -353,6 +356,8 @@ def simulate_many(system: System, states: ArrayLike, cycles: int, tau0: float | 
         Initial states, shape (n, 8), each as for `simulate`.
     cycles, tau0
         As for `simulate`.
+    progress : bool, default False
+        Report progress on standard error about once a second.
 
     Returns
     -------
@@ -385,7 +390,7 @@ def simulate_many(system: System, states: ArrayLike, cycles: int, tau0: float | 
     begin, cycles = checked_window(system, cycles, tau0)
     tables_of(system)  # build the tables once, before the threads share them
     pieces = [(system, state, cycles, begin, NO_TIMES, 0.0) for state in states]
-    return on_all_cores(_run, pieces)
+    return on_all_cores(_run, pieces, [1] * len(pieces), progress)
 
 
 def _run(system, state, cycles, begin, times, clock):

@@ -60,6 +60,7 @@ def ensemble(
     cycles: int,
     tau0: float | Fraction | Instant = 0.0,
     settle: int = 0,
+    progress: bool = False,
     energy: bool = False,
     by_cycle: bool = False,
 ) -> np.ndarray:
@@ -77,6 +78,8 @@ def ensemble(
     settle : int, default 0
         Number of cycles before the observation, from 0 to `cycles`. If settle equals cycles, only the final state is
         computed, without statistics.
+    progress : bool, default False
+        Show the number of finished runs on standard error, about once a second.
     energy : bool, default False
         Add a field `energy` (ENERGY) with the energy balance over the observed cycles, as in `Run.energy`.
     by_cycle : bool, default False
@@ -121,7 +124,7 @@ def ensemble(
     size = max(min(MOST_RUNS, share, max(share // SHARES, 8 * WIDTH)), 1)
     shared = known, begins, numbers.ravel(), starts, (settle, cycles, 1 if by_cycle else cycles - settle), filled
     pieces = [(*shared, order[first : first + size]) for first in range(0, len(order), size)]
-    on_all_cores(_run, pieces)
+    on_all_cores(_run, pieces, [len(piece[-1]) for piece in pieces], progress)
     return outcomes[..., : cycles - settle] if by_cycle else outcomes[..., 0]
 
 

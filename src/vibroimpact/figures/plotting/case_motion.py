@@ -1,13 +1,18 @@
 """Provide the motion that a notebook shows: simulate it, or read it from files of a build.
 
-The argument `inputs` gives the paths of the files, computed with the parameters of the notebook.
+The argument `inputs` gives the paths of the files. If they were computed with parameters that differ from those of the
+notebook, an error is raised.
 """
+
+import json
+from pathlib import Path
 
 import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.accuracy.window import window
 from vibroimpact.exact.measures.periodicity import distance_after, mirror_distance
+from vibroimpact.figures.plotting.case_points import HINT
 from vibroimpact.figures.plotting.markdown import EXACTLY, digits
 from vibroimpact.system import System
 
@@ -17,7 +22,7 @@ AS_SYMMETRIC = "as the motions of the chapter's theory"
 AS_ASYMMETRIC = "as in no motion of the chapter's theory"
 
 
-def simulated(parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFrame, pd.DataFrame]:
+def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Return the samples and events of the window of a case, read from the files in `inputs` if any, else simulated.
 
     Parameters
@@ -26,8 +31,22 @@ def simulated(parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFr
         Parameters of the system, by name.
     settings : dict
         Settings of the simulation, see `vibroimpact.accuracy.window.window`.
+
+    Raises
+    ------
+    ValueError
+        If the files belong to another case, or were computed with other parameters or settings.
     """
     if inputs:
+        summary = json.loads(Path(inputs["summary"]).read_text(encoding="utf-8"))
+        given = {"case": summary["case"], **summary["system"], **summary["settings"]}
+        own = {"case": case, **parameters, **settings}
+        for name in given | own:
+            if given.get(name) != own.get(name):
+                raise ValueError(
+                    f"inputs: {inputs['summary']} was computed with {name} = {given.get(name)}, "
+                    f"but the notebook has {name} = {own.get(name)}; {HINT}"
+                )
         return tables.read(inputs["samples"]), tables.read(inputs["events"])
     made = window(System(**parameters), settings)
     return made.samples, made.events

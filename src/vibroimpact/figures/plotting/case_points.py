@@ -1,23 +1,39 @@
 """Provide the fixed points that a notebook shows: compute them, or read them from files of a build.
 
-The argument `inputs` gives the paths of the files, computed with the parameters of the notebook.
+The argument `inputs` gives the paths of the files. If they were computed with parameters that differ from those of the
+notebook, an error is raised.
 """
 
+import numpy as np
 import pandas as pd
 
 from vibroimpact import tables
 from vibroimpact.accuracy.verdict_table import NO_ORBIT, fixed_point_rows, orbit_rows
 from vibroimpact.exact.orbits.search import search
 from vibroimpact.figures.plotting.markdown import EXACTLY, plain
-from vibroimpact.theory.fixed_points.table import COLUMNS, fixed_point_table, labelled_points
+from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
+
+AGREES = 1e-8
+"""Two tables contain the same fixed points if all coordinates differ by less than this. The limit is small because the
+same code computes both."""
+COORDINATES = ["C1", "C2", "B1", "B2", "psi1", "psi2"]
+HINT = "set inputs = {} to compute from the parameters of the notebook"
 
 
 def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
-    """Return the fixed points of a case, read from inputs["points"] if `inputs` is given; see `fixed_point_table`."""
+    """Return the fixed points of a case, read from inputs["points"] if `inputs` is given; see `fixed_point_table`.
+
+    Raises
+    ------
+    ValueError
+        If the file contains another case, or other points than the fixed points of the system.
+    """
+    computed = fixed_point_table(case, system)
     if not inputs:
-        return fixed_point_table(case, system)
+        return computed
     given = tables.read(inputs["points"])
-    return given[[name for name in COLUMNS if name in given]]
+    _expect_same_points(given, computed, inputs["points"])
+    return given[computed.columns.intersection(given.columns)]
 
 
 def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFrame:
@@ -25,9 +41,15 @@ def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFr
 
     Columns label, orbit (label of the exact orbit next to the point), exact (verdict by the multipliers of the orbit),
     largest multiplier (largest modulus of these multipliers), and the other columns of `fixed_point_rows`.
+
+    Raises
+    ------
+    ValueError
+        If the file contains another case, or other points.
     """
     if inputs:
         orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["points"])
+        _expect_same_points(given, points, inputs["points"])
     else:
         orbits = orbit_rows(case, search(system).orbits)
         given = fixed_point_rows(case, system, labelled_points(points), orbits)
@@ -66,3 +88,18 @@ def exact(verdicts: pd.DataFrame) -> str:
             with_orbits = (f"{name} (orbit {plain(orbit)})" for name, orbit in zip(names, rows["orbit"], strict=True))
             said.append(f"{', '.join(with_orbits)}: **{verdict}** by Floquet multipliers")
     return f"{EXACTLY} {'; '.join(said)}."
+
+
+def _expect_same_points(given, expected, path):
+    if list(given["case"]) + list(given["label"]) != list(expected["case"]) + list(expected["label"]):
+        raise ValueError(f"inputs: {path} contains {_named(given)}, but the parameters give {_named(expected)}; {HINT}")
+    apart = np.abs(given[COORDINATES].to_numpy(float) - expected[COORDINATES].to_numpy(float)).max(initial=0.0)
+    if not apart < AGREES:
+        raise ValueError(
+            f"inputs: {path} contains fixed points of other parameters: a coordinate differs by {apart:.2g}; {HINT}"
+        )
+
+
+def _named(points):
+    of = f" of case {', '.join(dict.fromkeys(points['case']))}" if len(points) else ""
+    return f"the fixed points {', '.join(points['label']) or '(none)'}{of}"
