@@ -15,8 +15,9 @@ OTHER_SERIES = "others"
 """Key in `compared` for all series that the SPEC does not name."""
 MAX_DISTANCE = 999.0
 """Distance assigned to changes that no limit allows, such as a value that becomes infinite or a class that vanishes."""
-LOG_FLOOR = 1e-17
-"""Lower limit of numbers in logarithms: smaller numbers are replaced by this value, at which logarithmic axes end."""
+LOG_FLOOR = np.finfo(float).eps
+"""Lower limit of numbers in logarithms. Smaller errors of coordinates of order one are rounding, which depends on the
+processor, and count as this value."""
 EQUAL_WITHIN = 1e-6
 """Counts and shares that differ by less than this value are equal."""
 RARE_ROWS = 5
