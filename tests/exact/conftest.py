@@ -2,22 +2,16 @@
 
 import pytest
 
-import vibroimpact as vi
-from chapter import FORCES, PARAMETERS
+from chapter import FORCES, system_of
 
 
 @pytest.fixture
 def chapter():
-    """The chapter's system under given forcing."""
-
-    def make(f10_hat=1.0, f20_hat=1.0, **changes):
-        return vi.System(**{**PARAMETERS, **changes}, f10_hat=f10_hat, f20_hat=f20_hat)
-
-    return make
+    """Return a function of two forces and other changes that returns the chapter's system with them."""
+    return lambda f10_hat=1.0, f20_hat=1.0, **changes: system_of("equal", f10_hat=f10_hat, f20_hat=f20_hat, **changes)
 
 
 @pytest.fixture(params=FORCES)
 def case(request):
-    """Each case of the chapter in turn."""
-    f10_hat, f20_hat = FORCES[request.param]
-    return vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)
+    """Return the system of each case of the chapter in turn."""
+    return system_of(request.param)

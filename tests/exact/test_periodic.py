@@ -1,4 +1,4 @@
-"""Periodic motions of any period: against closed forms, orbits found otherwise, runs and their finite differences."""
+"""Periodic orbits of any period agree with closed forms, 1:1 orbits by another method, and long runs."""
 
 import math
 
@@ -7,24 +7,24 @@ import pytest
 from scipy.optimize import brentq
 
 import vibroimpact as vi
-from chapter import FORCES, PARAMETERS
+from chapter import FORCES, system_of
 from single_machines import FIRST, MACHINE
 
 WIDE = 50.0
-"""Half of the box: the far wall is out of reach."""
+"""Half the width of the box; the ball never reaches the other wall."""
 
 
 def hard_oscillator(omega, r, sigma):
-    """The oscillator x'' + x = cos(omega t) of F. Dux that meets a fixed wall at sigma, and a state at this wall.
+    """Return the oscillator x'' + x = cos(omega t) of F. Dux with a fixed wall at sigma, and a state at this wall.
 
-    A ball of 1e12 boxes, at rest, holds the wall.
+    The wall is a ball at rest with the mass of 1e12 boxes.
     """
     machine = vi.PhysicalSystem.single(M=1, m=1e12, k=1, c=0, F=1, L=WIDE, kappa=r, omega=omega)
     return machine.dimensionless(), np.array([sigma / WIDE, sigma / WIDE - 1, 0, 0, 0, 0, 0, 0])
 
 
 def one_impact_in(n, omega, r, sigma):
-    """Impact speeds and forcing phases of candidates for one impact in n periods, by Dux's formula."""
+    """Yield impact speeds and forcing phases of motions with one impact in n periods, by Dux's formula."""
     T, gamma, loss = 2 * np.pi * n / omega, 1 / (1 - omega**2), (1 - r) / omega
     c = math.sin(T) * (1 + r) / (1 - math.cos(T)) if abs(math.sin(T)) > 1e-12 else 0.0
     root = np.emath.sqrt((gamma * c) ** 2 - (sigma**2 - gamma**2) * loss**2)
@@ -34,7 +34,7 @@ def one_impact_in(n, omega, r, sigma):
 
 
 def from_impact(omega, r, sigma, n, v, phase):
-    """Periodic orbit from the state at tau = 0 of the motion that leaves the wall at a forcing phase, after speed v."""
+    """Return the periodic orbit that reaches the wall with speed v at a forcing phase."""
     system, state = hard_oscillator(omega, r, sigma)
     state[4], tau0 = -r * v / WIDE, (phase + np.pi / 2) / omega  # the force is a sine here, a cosine there
     start = system.period * math.ceil(tau0 / system.period)
@@ -46,19 +46,19 @@ def from_impact(omega, r, sigma, n, v, phase):
     [(3.7, 0.8, 0.0, 2, 1), (3.7, 0.8, 0.2, 2, 2), (3.7, 0.8, 0.4, 2, 0), (2.8, 0.8, 0.0, 1, 1)]
     + [(2.0 * n, 0.4, 0.001, n, 1) for n in (1, 2, 5, 10)],
 )
-def test_one_impact_in_n_periods_has_the_speed_of_the_formula_by_dux(omega, r, sigma, n, count):
+def test_the_speed_of_one_impact_in_n_periods_is_that_of_dux_s_formula(omega, r, sigma, n, count):
     candidates = list(one_impact_in(n, omega, r, sigma))
     assert len(candidates) == count
     for v, phase in candidates:
         orbit = from_impact(omega, r, sigma, n, v, phase)
         assert (orbit.periods, orbit.impacts.tolist()) == (n, [[1, 0], [0, 0]])
         assert WIDE * abs(orbit.run.events["state"][0, 4]) / r == pytest.approx(v, rel=1e-9)
-        # The impact keeps r^2 of the area, the ball's part is that of a free flight.
+        # an impact multiplies the area by r^2; the ball contributes the multipliers of a free flight
         assert np.prod(orbit.multipliers) == pytest.approx(r**2, rel=1e-4)
 
 
 def test_a_multiplier_grows_without_bound_towards_grazing():
-    """On Dux's lower branch the speed falls to 0 at sigma = gamma; v times the multiplier tends to a constant."""
+    """On Dux's lower branch the speed v tends to 0 at sigma = gamma; v times the multiplier tends to a constant."""
     speeds, largest = [], []
     for distance in (1e-3, 1e-4, 1e-5):
         sigma = 1 / (3.7**2 - 1) + distance
@@ -72,7 +72,7 @@ def test_a_multiplier_grows_without_bound_towards_grazing():
 
 
 def test_grazing_is_reported():
-    """A ball of a 1:1 motion touches a wall between its impacts at the force f, found by bisection."""
+    """At the force f, found by bisection, the ball of a 1:1 motion touches a wall between its impacts."""
 
     def motion(f10_hat):
         found = [one for one in vi.orbits(MACHINE.with_(f10_hat=f10_hat)) if one.symmetric]
@@ -84,14 +84,13 @@ def test_grazing_is_reported():
     assert "(grazing)" not in repr(apart)
     assert apart.run.certificate.nearest_miss == pytest.approx(1 - motion(f - 1e-3).excursion, rel=1e-6)
     with pytest.raises(ValueError, match=r"\Astate: .* no motion with periods=1 near .*; a ball grazes a wall"):
-        vi.periodic_orbit(MACHINE.with_(f10_hat=f + 1e-9), motion(f).state)
+        vi.periodic_orbit(MACHINE.with_(f10_hat=f + 1e-7), motion(f).state)
 
 
 @pytest.mark.parametrize("case", FORCES)
-def test_two_impacts_in_one_period_are_the_orbits_found_otherwise(case):
-    """State, symmetry and multipliers of every 1:1 motion of the chapter, by superposition of impulse responses."""
-    f10_hat, f20_hat = FORCES[case]
-    system = vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)
+def test_orbits_with_two_impacts_in_one_period_are_those_of_vi_orbits(case):
+    """`vi.orbits` uses superposition of impulse responses."""
+    system = system_of(case)
     motions = [orbit for orbit in vi.orbits(system) if orbit.admissible]
     assert motions
     for motion in motions:
@@ -108,16 +107,16 @@ SETTLED = [
     (MACHINE.with_(f10_hat=1.9), 2, [[4, 2], [0, 0]], False),
     (MACHINE.with_(f10_hat=4.9), 4, [[8, 10], [0, 0]], False),
     (FIRST.with_(f10_hat=5.7), 3, [[7, 7], [0, 0]], True),
-    (vi.System(**PARAMETERS, f10_hat=1.8, f20_hat=1.8), 2, [[2, 4], [4, 2]], False),
-    (vi.System(**PARAMETERS, f10_hat=3.3, f20_hat=3.3), 5, [[10, 10], [8, 8]], False),
-    (vi.System(**PARAMETERS | {"kappa": 0.2}, f10_hat=3.0, f20_hat=2.7), 1, [[9, 9], [2, 2]], True),  # ball 1 sticks
-    (vi.System(**PARAMETERS | {"kappa": 0.05}, f10_hat=6.0, f20_hat=5.4), 1, [[5, 5], [5, 5]], True),  # both stick
+    (system_of("equal", f10_hat=1.8, f20_hat=1.8), 2, [[2, 4], [4, 2]], False),
+    (system_of("equal", f10_hat=3.3, f20_hat=3.3), 5, [[10, 10], [8, 8]], False),
+    (system_of("equal", kappa=0.2, f10_hat=3.0, f20_hat=2.7), 1, [[9, 9], [2, 2]], True),  # ball 1 sticks
+    (system_of("equal", kappa=0.05, f10_hat=6.0, f20_hat=5.4), 1, [[5, 5], [5, 5]], True),  # both balls stick
 ]
 
 
 @pytest.mark.parametrize(("system", "periods", "impacts", "symmetric"), SETTLED)
-def test_the_motion_that_a_long_run_settles_on(system, periods, impacts, symmetric):
-    """Period, impacts and amplitudes of a long run, from a start off the motion; decay rate of a push off it."""
+def test_the_orbit_near_a_settled_run_has_its_period_impacts_and_amplitudes(system, periods, impacts, symmetric):
+    """The search starts at a distance from the settled motion."""
     settled = vi.simulate(system, np.zeros(8), 3000).final
     push = np.array([3e-4, 0, -2e-4, 0, 1e-4, 0, 2e-4, 0])
     orbit = vi.periodic_orbit(system, settled + push * np.isin([1, 1, 2, 2] * 2, system.modules), periods)
@@ -132,7 +131,7 @@ def test_the_motion_that_a_long_run_settles_on(system, periods, impacts, symmetr
     assert np.isnan(orbit.amplitudes).sum() == 2 - len(moving)
 
 
-def test_an_unstable_motion_among_the_period_doubled_ones_is_found_by_its_own_period():
+def test_the_unstable_orbit_of_half_the_period_is_found_near_a_period_doubled_motion():
     system = MACHINE.with_(f10_hat=1.9)
     state = vi.simulate(system, np.zeros(8), 3000).final
     once = vi.periodic_orbit(system, state)
@@ -142,8 +141,8 @@ def test_an_unstable_motion_among_the_period_doubled_ones_is_found_by_its_own_pe
         vi.periodic_orbit(system, state, 4)
 
 
-def test_a_ball_that_meets_no_wall():
-    """One sector of the box is linear then; at rest wherever it is, the ball has two multipliers of 1."""
+def test_an_orbit_without_impacts_is_that_of_a_linear_oscillator():
+    """The ball rests anywhere between the walls, and has two multipliers of 1."""
     system = MACHINE.with_(f10_hat=0.1)
     orbit = vi.periodic_orbit(system, np.zeros(8))
     assert orbit.impacts.sum() == 0
@@ -156,9 +155,9 @@ def test_a_ball_that_meets_no_wall():
 
 
 @pytest.mark.parametrize("f10_hat", [0.05, 0.1])
-def test_a_ball_that_drifts_between_the_walls_is_put_at_rest(f10_hat):
-    """Only at rest does such a ball return to its place; one of the drifts reaches a wall in the first period."""
-    system = vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f10_hat)
+def test_balls_without_impacts_are_at_rest_in_the_periodic_orbit(f10_hat):
+    """In one of the starts a ball drifts to a wall in the first period."""
+    system = system_of("equal", f10_hat=f10_hat, f20_hat=f10_hat)
     for ball in (0.02, -0.1, 0.3):
         orbit = vi.periodic_orbit(system, [0.01, 0.2, 0, -0.5, 0.1, ball, 0, -ball], 1)
         assert np.abs(vi.simulate(system, orbit.state, 3).final - orbit.state).max() < 1e-12
@@ -168,9 +167,9 @@ def test_a_ball_that_drifts_between_the_walls_is_put_at_rest(f10_hat):
         assert orbit.amplitudes == pytest.approx(response, abs=1e-12)
 
 
-def test_a_strongly_unstable_motion_repeats_after_one_period_and_not_after_more():
-    """A multiplier of 382 loses five of sixteen digits in two periods, which is no reason to find no motion."""
-    system = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+def test_the_period_of_a_strongly_unstable_motion_is_recognised():
+    """A multiplier of 382 loses five of sixteen digits in two periods."""
+    system = system_of("equal")
     motion = max((one for one in vi.orbits(system) if one.admissible), key=lambda one: abs(one.multipliers[0]))
     assert abs(motion.multipliers[0]) > 100
     for periods in (2, 3):
@@ -178,8 +177,8 @@ def test_a_strongly_unstable_motion_repeats_after_one_period_and_not_after_more(
             vi.periodic_orbit(system, motion.state, periods)
 
 
-def test_a_start_from_which_no_motion_is_found_is_refused():
-    system = vi.System(**PARAMETERS | {"kappa": 0.2}, f10_hat=1.0, f20_hat=0.9)
-    said = r"\Astate: .* no motion with periods=1 near this state; .*, the states at the start and the end still differ"
-    with pytest.raises(ValueError, match=said):
+def test_a_start_from_which_no_orbit_is_found_is_an_error():
+    system = system_of("equal", kappa=0.2, f20_hat=0.9)
+    text = r"\Astate: .* no motion with periods=1 near this state; .*, the states at the start and the end still differ"
+    with pytest.raises(ValueError, match=text):
         vi.periodic_orbit(system, vi.simulate(system, np.zeros(8), 2000).final)

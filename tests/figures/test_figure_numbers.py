@@ -1,4 +1,4 @@
-"""The reference set of the chapter's figures, to which each build is held, against the chapter's equations alone."""
+"""The reference tables of the chapter's figures satisfy the chapter's equations, which are written out here."""
 
 import re
 from functools import cache
@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
-from figure_tables import system_of
+from chapter import system_of
 from pipeline_trees import ROOT
 from vibroimpact.figures import fig10_03, fig10_04, fig10_05, fig10_06, fig10_07, fig10_08, fig10_09, fig10_10
 from vibroimpact.figures.plotting import simulated
@@ -26,7 +26,7 @@ def table(name):
 
 
 def sawtooth(tau0, C, theta):
-    """(10.11), 2/pi C arcsin(cos x), without the arcsine, which is steep at 1."""
+    """Return (10.11), 2/pi C arcsin(cos x), without the arcsine, which loses digits at 1."""
     x = (tau0 - theta + np.pi) % (2 * np.pi) - np.pi
     return C * (1 - 2 / np.pi * np.abs(x))
 
@@ -43,7 +43,7 @@ def test_the_sawtooth_is_10_11_with_impacts_at_its_corners():
     assert set(impacts["tau0"]) <= set(line["tau0"])
 
 
-def test_the_manifold_is_10_16_its_branches_meet_at_10_26_and_the_dotted_level_is_its_lowest_point():
+def test_the_manifold_is_10_16_with_branches_that_meet_at_10_26_and_the_dotted_line_at_its_minimum():
     unstable, stable, level = (
         select(table("fig10_04"), "SIM", name) for name in ("SIM unstable", "SIM stable", "B_min")
     )
@@ -57,7 +57,7 @@ def test_the_manifold_is_10_16_its_branches_meet_at_10_26_and_the_dotted_level_i
     np.testing.assert_allclose(fold, [lowest.x, np.sqrt(lowest.fun)], rtol=1e-8)
 
 
-def test_the_border_and_the_fold_over_kappa():
+def test_stability_border_and_fold_have_the_closed_forms_in_kappa():
     stable, unstable, fold = (select(table("fig10_05"), "regions", name) for name in ("stable", "unstable", "C_min"))
     kappa, border = stable["kappa"].iloc[:201], stable["C"].iloc[:201]
     np.testing.assert_allclose(border, (2 + 2 * kappa) / (3 + kappa), rtol=1e-14)  # (10.26) with (10.15) inserted
@@ -68,8 +68,8 @@ def test_the_border_and_the_fold_over_kappa():
         assert outline[["kappa", "C"]].iloc[201:].to_numpy().tolist() == [[1, C], [0, C]]
 
 
-# Figures 10.6, 10.9 and 10.10: harmonic balance of the boxes, written with phasors b_i = B_i exp(-i psi_i):
-# f_i = z_i b_i - K b_j, where z_i holds the box, the coupling and the first harmonic of the ball's reaction.
+# Figures 10.6, 10.9 and 10.10: harmonic balance of the boxes with phasors b_i = B_i exp(-i psi_i),
+# f_i = z_i b_i - K b_j, where z_i contains the box, the coupling and the first harmonic of the contact force.
 
 FORCING = {"fig10_06": (1.0, 1.0), "fig10_09": (1.0, 0.89), "fig10_10": (0.5, 0.5)}
 COUPLING = 1.0 + 0.2j
@@ -81,15 +81,15 @@ def impedance(module, C):
 
 
 def roots(function, ends, number):
-    """Zeros of a function between two ends, by a scan of so many places."""
+    """Return the zeros of a function between two ends, found by a scan of `number` places."""
     grid = np.linspace(*ends, number)
     values = function(grid)
     return [brentq(function, *grid[k : k + 2], xtol=1e-14) for k in np.flatnonzero(values[1:] * values[:-1] < 0)]
 
 
 @pytest.mark.parametrize(("name", "number"), [("fig10_06", 3), ("fig10_09", 3), ("fig10_10", 1)])
-def test_projections_are_fixed_points(name, number):
-    """At P_1, P_2 both boxes need the given force: the phase difference from one module fits the other."""
+def test_P_1_and_P_2_are_fixed_points(name, number):
+    """A phase difference that balances the force on box 1 balances the force on box 2."""
     points = table(name)
     assert points["series"].isin(["P_1"]).sum() == points["series"].isin(["P_2"]).sum() == number
     on_manifold = points[points["series"].str.match("[PS]_|SIM")]
@@ -108,24 +108,23 @@ def test_projections_are_fixed_points(name, number):
 @pytest.mark.parametrize("name", FORCING)
 @pytest.mark.parametrize("module", [1, 2])
 def test_singular_points_are_all_zeros_of_the_determinant(name, module):
-    """sin^2 + cos^2 = 1 for psi_1 and psi_2 gives two equations linear in cos and sin of psi_2 - psi_1:
+    """The determinant is that of two equations that are linear in cos and sin of psi_2 - psi_1:
 
     f_i^2 = |z_i|^2 B_i^2 + |K|^2 B_j^2 - 2 B_1 B_2 (Re(z_i K*) cos -+ Im(z_i K*) sin).
     """
     for label in {panel[0] for panel in table(name)["panel"] if len(panel) == 2}:
-        held_C = select(table(name), f"{label}{3 - module}", f"P_{3 - module}")["C"].item()
-        held = impedance(3 - module, held_C) * np.conj(COUPLING)
+        fixed_C = select(table(name), f"{label}{3 - module}", f"P_{3 - module}")["C"].item()
+        fixed = impedance(3 - module, fixed_C) * np.conj(COUPLING)
 
-        def determinant(C, held=held):
-            own = impedance(module, C) * np.conj(COUPLING)
-            return own.real * held.imag + own.imag * held.real
+        def determinant(C, fixed=fixed):
+            return (impedance(module, C) * np.conj(COUPLING) * fixed).imag
 
         points = (select(table(name), f"{label}{module}", f"S_{module}{beyond}")["C"] for beyond in ("", " beyond"))
         np.testing.assert_allclose(pd.concat(points), roots(determinant, (0, 40), 40_001), rtol=1e-9)
 
 
-def test_the_caption_says_where_point_b_of_the_unequal_case_lies():
-    """On the line that the printed limit calls stable; unstable under limits above its smaller C_i alone."""
+def test_the_caption_states_the_printed_limit_and_the_smaller_C_of_point_b():
+    """Point b of the unequal case is stable by the printed limit, and unstable by limits above its smaller C_i."""
     limit, least = re.search(r"C_i = (\d\.\d+)`.* above (\d\.\d+)\.", fig10_09.SPEC["caption"]).groups()
     C = {name: [select(table("fig10_09"), f"{name}{i}", f"P_{i}")["C"].item() for i in (1, 2)] for name in "abc"}
     assert pytest.approx(float(limit), abs=5e-4) == LIMIT < min(C["b"])
@@ -134,13 +133,13 @@ def test_the_caption_says_where_point_b_of_the_unequal_case_lies():
 
 
 @pytest.mark.parametrize(("name", "draw"), [("fig10_06", fig10_06.draw), ("fig10_09", fig10_09.draw)])
-def test_the_head_of_a_row_has_the_verdict_of_10_26_on_its_point(name, draw):
-    """By the smaller C_i of each point against the limit computed here."""
+def test_the_heading_of_a_row_contains_the_verdict_of_10_26(name, draw):
+    """(10.26) compares the smaller C_i of each point with the limit."""
     smaller = [min(select(table(name), f"{label}{i}", f"P_{i}")["C"].item() for i in (1, 2)) for label in "abc"]
-    said = [f"{'stable' if C > LIMIT else 'unstable'} by (10.26)" for C in smaller]
+    verdicts = [f"{'stable' if C > LIMIT else 'unstable'} by (10.26)" for C in smaller]
     if name == "fig10_09":
-        said[1] = "chapter unstable, (10.26) stable"
-    assert [one.get_title("left").split("   ")[1] for one in draw(table(name)).axes[::2]] == said
+        verdicts[1] = "chapter unstable, (10.26) stable"
+    assert [one.get_title("left").split("   ")[1] for one in draw(table(name)).axes[::2]] == verdicts
 
 
 @pytest.mark.parametrize(("name", "label", "case"), [("fig10_07", "c", "equal"), ("fig10_10", "a", "weak")])
@@ -148,7 +147,7 @@ def test_the_head_of_a_row_has_the_verdict_of_10_26_on_its_point(name, draw):
 def test_the_response_is_10_9_and_10_10(name, label, case, module):
     point = fixed_point_table("", system_of(case)).set_index("label").loc[label]
     C, B, psi = point[[f"{quantity}{module}" for quantity in ("C", "B", "psi")]]
-    # (10.17): the ball meets the wall +1 at the phase theta with sin, cos of theta + phi as printed
+    # (10.17): the impact at the wall +1 has the phase theta, with sin and cos of theta + phi as printed
     theta = psi + np.arctan2((1 - C) / B, RHO * C / B)
     lines = {key: select(table(name), f"module {module}", f"{key}_{module}") for key in "UXWY"}
     tau0 = 1.02 * lines["U"]["tau"].to_numpy()
@@ -158,11 +157,8 @@ def test_the_response_is_10_9_and_10_10(name, label, case, module):
         np.testing.assert_allclose(lines[key]["value"], value, atol=1e-12)
 
 
-def test_the_modulated_ball_reaches_both_walls_and_goes_no_further():
+def test_the_modulated_ball_reaches_both_walls_and_does_not_exceed_them():
     assert select(table("fig10_11"), "b", "W_2")["value"].agg(["min", "max"]).tolist() == [-1, 1]
-
-
-# What else a figure may be asked for
 
 
 def test_corners_of_the_second_module_are_drawn_at_the_wall():
@@ -175,14 +171,14 @@ def test_corners_of_the_second_module_are_drawn_at_the_wall():
     np.testing.assert_allclose(W_2["cycle"], 1.02 / (2 * np.pi) * W_2["tau"], rtol=1e-12)
 
 
-def test_flights_of_more_than_a_cycle_are_without_resonance():
-    """Impacts at known times and walls; a ball that stays at a wall has not reached the other one."""
+def test_intervals_without_resonance_are_those_between_walls_of_more_than_a_cycle():
+    """Impacts have known times and walls; after two impacts at the same wall, the interval begins at the first."""
     times, walls = [0.0, 0.5, 1.0, 1.2, 2.3, 2.8, 4.0], [1.0, -1.0, 1.0, 1.0, -1.0, 1.0, -1.0]
     impacts = pd.DataFrame({"panel": "b", "series": "W_2", "cycle": times, "value": walls})
     np.testing.assert_array_equal(simulated.without_resonance(impacts), [[1.0, 2.3], [2.8, 4.0]])
 
 
-def test_planes_without_fixed_points_show_the_manifold_and_others_reach_every_point():
+def test_planes_without_fixed_points_show_the_manifold_and_other_planes_contain_all_points():
     points = fixed_point_table("", EQUAL)
     empty = fig10_06.compute(EQUAL, points.iloc[:0], (2.0, 3.5))
     assert set(empty["series"]) == {"SIM stable", "SIM unstable"}
@@ -195,7 +191,7 @@ POINTS = fixed_point_table("", EQUAL)
 
 
 @pytest.mark.parametrize(
-    ("call", "words"),
+    ("call", "text"),
     [
         (lambda: fig10_03.compute(amplitude=0.0, theta=0.8, tau0_max=12.0), "amplitude"),
         (lambda: fig10_03.compute(amplitude=1.0, theta=0.8, tau0_max=0.5), "tau0_max"),
@@ -205,6 +201,6 @@ POINTS = fixed_point_table("", EQUAL)
         (lambda: fig10_07.compute(EQUAL, POINTS, "a", 0), "periods"),
     ],
 )
-def test_settings_that_show_nothing_are_refused(call, words):
-    with pytest.raises(ValueError, match=words):
+def test_settings_of_empty_figures_are_refused(call, text):
+    with pytest.raises(ValueError, match=text):
         call()

@@ -36,6 +36,7 @@ class FlightsByHand(BoxesByHand):
     """
 
     def lifted(self, state, tau):
+        """Return the vector (6,) to which `rate` applies, for a state at the time tau."""
         return np.array([*state[[0, 2, 4, 6]], np.sin(self.omega * tau), np.cos(self.omega * tau)])
 
     def flow(self, state, walls, tau, t):
@@ -47,10 +48,6 @@ class FlightsByHand(BoxesByHand):
             later[2 * i + 1] = z[i] - wall if wall else ball + t * speed
             later[2 * i + 5] = z[2 + i] if wall else speed
         return later
-
-    def acceleration(self, state, walls, tau):
-        """Return the accelerations of both boxes, shape (2,)."""
-        return (self.rate([w != 0 for w in walls]) @ self.lifted(state, tau))[2:4]
 
 
 def exact_rate(system, stuck=(False, False)):

@@ -2,11 +2,11 @@
 
 import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 from numba.core.caching import _CacheLocator
+
+from programs import run_program
 
 LIBRARY = Path(__file__).parents[2] / "src/vibroimpact"
 KEPT = "__pycache__"
@@ -48,7 +48,7 @@ from numba.core.dispatcher import Dispatcher
 
 import vibroimpact as vi
 import vibroimpact.compile
-from chapter import PARAMETERS
+from chapter import system_of
 from vibroimpact.exact import engine
 
 modules = [import_module(found.name) for found in pkgutil.iter_modules(engine.__path__, f"{engine.__name__}.")]
@@ -62,7 +62,7 @@ def undamped(system):
 
 vibroimpact.compile.main()
 before = signatures()
-system, start = vi.System(**PARAMETERS, f10_hat=3.0, f20_hat=3.0).with_(kappa=0.05), [0.0, 0, 0, 0, 0, 0.5, 0, -0.5]
+system, start = system_of("equal", f10_hat=3.0, f20_hat=3.0, kappa=0.05), [0.0, 0, 0, 0, 0, 0.5, 0, -0.5]
 CALLS
 print(*sorted(name for name, _ in signatures() - before), sep="\\n")
 """
@@ -73,7 +73,6 @@ def compiled_late(calls: str) -> list[str]:
 
     calls: Python code that may use vi, np, `system`, `start` and `undamped(system)`.
     """
-    code, environment = COMPILED.replace("CALLS", calls), {"PYTHONPATH": ":".join(sys.path)}
-    run = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+    run = run_program(COMPILED.replace("CALLS", calls))
     assert run.returncode == 0, run.stderr
     return run.stdout.split()

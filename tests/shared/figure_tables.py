@@ -1,16 +1,9 @@
-"""Systems of the chapter, tables of their simulations, and lightness of colours."""
+"""Tables of simulations, and lightness of colours."""
 
 import numpy as np
 from matplotlib.colors import to_rgb
 
-import vibroimpact as vi
-from chapter import FORCES, PARAMETERS
 from vibroimpact.accuracy.window import window
-
-
-def system_of(case):
-    f10_hat, f20_hat = FORCES[case]
-    return vi.System(**PARAMETERS, f10_hat=f10_hat, f20_hat=f20_hat)
 
 
 def tables_of_run(system, start, transient, window_cycles, per_cycle):

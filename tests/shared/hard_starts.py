@@ -12,8 +12,10 @@ from vibroimpact.system.matrices import rate_matrix
 from vibroimpact.system.state import IMPACT, STICK
 
 TINY = [0.0, 1e-300, 1e-60, 1e-50, 1e-40, 1e-30, 1e-20, 1e-16, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3]
-KNOWN = 1e-9  # tolerance for the state in a row against the flow from the previous row, relative to its size
-PER_RATE = 1e-5  # relative increase of this tolerance per unit of the norm of the rate matrix
+TOLERANCE = 1e-9
+"""Largest distance between the state in a row and the flow from the previous row, relative to the state's size."""
+PER_RATE = 1e-5
+"""Relative increase of this tolerance per unit of the norm of the rate matrix."""
 
 
 def example(number):
@@ -52,7 +54,7 @@ def faults(number):
     if (np.diff(run.events["tau"]) < 0).any():
         yield "events out of order"
     worst = max(departures(run), default=0.0)
-    if not worst <= KNOWN * (1.0 + PER_RATE * np.linalg.norm(rate_matrix(system), 2)):
+    if not worst <= TOLERANCE * (1.0 + PER_RATE * np.linalg.norm(rate_matrix(system), 2)):
         yield "the state in a row is not the state at its time"
 
 

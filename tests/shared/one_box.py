@@ -1,7 +1,7 @@
-"""Compute motions of boxes without damping, force or coupling in closed form with 45 digits.
+"""Motions of boxes without damping, force or coupling in closed form, with 45 digits.
 
-Restitution is next to 1, so that errors do not decay. One or both balls move. Between the times at which box and ball
-are equally fast, the gap is monotone, so that no impact is missed.
+Restitution is next to 1, so that errors do not decay. One or both balls move. The gap is monotone between the times at
+which box and ball have the same velocity, so that no impact is missed.
 """
 
 import math

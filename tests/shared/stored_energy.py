@@ -4,7 +4,7 @@ import numpy as np
 
 
 def stored_energy(system, states):
-    """Kinetic energy of boxes and balls and energy of the springs, for states (..., 8)."""
+    """Return kinetic energy of boxes and balls plus energy of the springs, for states (..., 8)."""
     x1, _, x2, _, *speeds = np.moveaxis(states, -1, 0)
     masses = 1, system.epsilon, 1, system.epsilon
     kinetic = sum(m * v**2 for m, v in zip(masses, speeds, strict=True))

@@ -2,10 +2,8 @@
 
 import numpy as np
 
-import vibroimpact as vi
-from chapter import PARAMETERS
+from chapter import system_of
 
-CHAPTER = {**PARAMETERS, "f10_hat": 1.0, "f20_hat": 1.0}
 IDENTICAL = {"sigma20_hat": 0.0}
 UNCOUPLED = {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
 UNDAMPED = {"gamma1_hat": 0.0, "gamma2_hat": 0.0, "gamma12_hat": 0.0}
@@ -24,7 +22,7 @@ NEARLY_ELASTIC = {
 
 
 def build(changes=None):
-    return vi.System(**(CHAPTER | (changes or {})))
+    return system_of("equal", **(changes or {}))
 
 
 def single_module(e, force, kappa):

@@ -1,4 +1,4 @@
-"""Work is spread over the cores that there are, or over as many as a job is given."""
+"""Tasks run on all cores, or on the number of cores that is given to a job."""
 
 import threading
 
@@ -8,7 +8,7 @@ from vibroimpact.exact.engine import all_cores
 from vibroimpact.exact.engine.all_cores import at_most, cores, on_all_cores
 
 
-def test_no_more_threads_than_a_job_is_given(monkeypatch):
+def test_the_number_of_threads_is_limited_to_the_cores_of_the_job(monkeypatch):
     monkeypatch.setattr(all_cores.os, "sched_getaffinity", lambda process: range(8), raising=False)
     both = threading.Barrier(2, timeout=60)
     workers = set()
@@ -27,7 +27,7 @@ def test_no_more_threads_than_a_job_is_given(monkeypatch):
     assert cores() == 8
 
 
-def test_without_others_the_pieces_are_done_where_one_is():
+def test_a_single_task_or_core_uses_the_calling_thread():
     done = []
 
     def work(number):

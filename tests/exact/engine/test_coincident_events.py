@@ -1,7 +1,7 @@
-"""Events that coincide: with one another, with the start, the end or a sample, in every contact state.
+"""Events that coincide with each other, with the start, the end or a sample, in every contact state.
 
-The definitions are in docs/engine.md. Truth is the arbitrary-precision reference, closed forms and the swap of the
-modules: every problem is run with them swapped too, so that "the other ball sticks" is ball 2 once and ball 1 once.
+docs/engine.md has the definitions. Runs are compared with the arbitrary-precision reference, with closed forms, and
+with runs in which the modules are swapped.
 """
 
 from functools import cache
@@ -23,13 +23,13 @@ SYSTEM = vi.System(
     epsilon=0.5, kappa=0.65, alpha12_hat=0.4, gamma1_hat=0.3, gamma2_hat=0.1, gamma12_hat=0.4, sigma20_hat=0.0,
     sigma_e_hat=6.0, f10_hat=0.3, f20_hat=-0.2,
 )  # fmt: skip
-# Parts of a start, of one module: X, Y, X', Y'.
+# Starts of one module: X, Y, X', Y'.
 FLIES = (-0.2, -0.1, 0.0, 0.0)
 MEETS = (0.1, -0.3, 0.2, -1.3)
 STICKS = (-2.5, -3.5, 0.0, 0.0)
 RELEASES = (-0.9, -1.9, 0.0, 0.0)
 CHATTERS = (-1.5, -2.49, 0.0, 0.0)
-# Two parts, and the event of module 1 that is looked at.
+# Starts of both modules, and the event of module 1 to be tested.
 PROBLEMS = {
     "impact, other flies": (MEETS, FLIES, IMPACT),
     "impact, other sticks": (MEETS, STICKS, IMPACT),
@@ -39,7 +39,8 @@ PROBLEMS = {
     "chatter ends, other flies": (CHATTERS, FLIES, STICK),
     "chatter ends, other sticks": (CHATTERS, STICKS, STICK),
 }
-# Two parts, the event of each module, and between which velocities of module 2 (at an impact: of its ball) they meet.
+# Starts of both modules, their events, and bounds on the velocity of module 2 (at an impact: of its ball) at which both
+# events coincide.
 PAIRS = {
     "impact and impact": (MEETS, FLIES, IMPACT, IMPACT, (-3.0, -2.2)),
     "release and impact that pulls": (RELEASES, FLIES, RELEASE, IMPACT, (-0.6, -0.4)),
@@ -70,7 +71,7 @@ def truth_of(system, start, cycles):
 
 
 def time_of(system, start, module, kind):
-    """When the reference sees a module's first event of a kind."""
+    """Return the time of the first event of a kind and module in the reference."""
     return events_of(truth_of(system, start, 4.0 / system.period).events, module, kind)["tau"][0]
 
 
@@ -81,7 +82,7 @@ def assert_same_motion(run, events, final, kinds=(IMPACT, STICK, RELEASE)):
 
 @cache
 def coincident(pair):
-    """A start from which the two events of a pair happen at the same time."""
+    """Return a start from which the two events of a pair happen at the same time."""
     first, second, kind, other, bracket = PAIRS[pair]
 
     def start(velocity):
@@ -89,7 +90,7 @@ def coincident(pair):
         tuned[[7] if other == IMPACT else [6, 7]] = velocity
         return tuned
 
-    def apart(velocity):  # before its impact a ball is not felt by any box
+    def apart(velocity):  # before its impact a ball does not affect the boxes
         undisturbed = start_of(first, second) if other == IMPACT else start(velocity)
         return time_of(SYSTEM, undisturbed, 1, kind) - time_of(SYSTEM, start(velocity), 2, other)
 
@@ -98,7 +99,7 @@ def coincident(pair):
 
 @cache
 def ending(problem):
-    """The system whose forcing period is the time until the event of a problem."""
+    """Return the system whose forcing period equals the time of the event of a problem."""
     *parts, kind = PROBLEMS[problem]
 
     def lag(sigma):
@@ -114,7 +115,7 @@ NUDGES = [-1e-9, -1e-12, -4e-16, 0.0, 4e-16, 1e-12, 1e-9]
 @pytest.mark.parametrize("nudge", NUDGES)
 @SWAPPED
 @pytest.mark.parametrize("pair", PAIRS)
-def test_two_events_in_one_instant_or_almost(pair, swap, nudge):
+def test_two_events_at_the_same_or_almost_the_same_time(pair, swap, nudge):
     system, start = SYSTEM, coincident(pair)
     start[6:] *= 1.0 + nudge
     if swap:
@@ -126,7 +127,7 @@ def test_two_events_in_one_instant_or_almost(pair, swap, nudge):
 @pytest.mark.parametrize("nudge", NUDGES)
 @SWAPPED
 @pytest.mark.parametrize("problem", PROBLEMS)
-def test_an_event_at_the_end_belongs_to_the_run_and_happens_once(problem, swap, nudge):
+def test_an_event_at_the_end_belongs_to_the_run_and_not_to_its_continuation(problem, swap, nudge):
     system = ending(problem)
     system = system.with_(sigma_e_hat=system.sigma_e_hat * (1.0 + nudge))
     *parts, kind = PROBLEMS[problem]
@@ -138,9 +139,9 @@ def test_an_event_at_the_end_belongs_to_the_run_and_happens_once(problem, swap, 
     if problem == "impact that releases the other":
         assert events_of(whole.events, 3 - module, RELEASE)["tau"] == events_of(whole.events, module, IMPACT)["tau"]
     first = vi.simulate(system, start, 1)
-    if kind != STICK:  # the many impacts before it may end on either side of the end
+    if kind != STICK:  # the impacts of a chatter may end before or after the end of the run
         assert len(events_of(first.events, module, kind)) == (nudge <= 4e-16)
-    kinds = (IMPACT, RELEASE)  # a ball that sticks at the end is noted again where the run is continued
+    kinds = (IMPACT, RELEASE)  # a ball that sticks at the end is listed again where the run is continued
     second = vi.simulate(system, first.final, 1)
     later = whole.events[len(first.events) :].copy()
     later["tau"] -= system.period
@@ -150,8 +151,8 @@ def test_an_event_at_the_end_belongs_to_the_run_and_happens_once(problem, swap, 
 
 @pytest.mark.parametrize("late", [-1e-9, -1e-13, -4e-16, 0.0, 4e-16, 1e-13, 1e-9])
 @pytest.mark.parametrize("module", [1, 2])
-def test_an_impact_within_rounding_of_the_end_is_reported(module, late):
-    """Boxes at rest, a ball at constant speed: it arrives after 1 + late periods."""
+def test_an_impact_within_rounding_of_the_end_is_undecided(module, late):
+    """The boxes are at rest; a ball arrives at constant speed after 1 + late periods."""
     system, start = SYSTEM.with_(f10_hat=0.0, f20_hat=0.0), np.zeros(8)
     start[3 + 2 * module] = 1.0 / ((1.0 + late) * system.period)
     run = vi.simulate(system, start, 1)
@@ -180,25 +181,25 @@ def test_a_sample_at_an_event_is_the_state_after_it(problem, tau0, swap):
 
 OUTWARD, INWARD = (-0.4, -1.4, 0.9, 0.2), (-0.4, -1.4, -0.9, -0.2)
 STARTS = {
-    # parts of both modules, and what happens at once, the boxes pushing where x < 0
+    # starts of both modules, and the events at the start; a box pushes its ball if x < 0
     "impact, other flies": (OUTWARD, FLIES, {(1, IMPACT)}),
     "impact, other sticks": (OUTWARD, STICKS, {(1, IMPACT), (2, STICK)}),
-    "impact, other at rest and pulled off by it": ((-0.4, -1.4, 9.0, -9.0), (-0.1, -1.1, 0.0, 0.0), {(1, IMPACT)}),
-    "impact, other pressed on by it": ((-0.4, 0.6, -9.0, 30.0), (0.1, -0.9, 0.0, 0.0), {(1, IMPACT), (2, STICK)}),
+    "impact pulls the other ball off its wall": ((-0.4, -1.4, 9.0, -9.0), (-0.1, -1.1, 0.0, 0.0), {(1, IMPACT)}),
+    "impact presses the other on": ((-0.4, 0.6, -9.0, 30.0), (0.1, -0.9, 0.0, 0.0), {(1, IMPACT), (2, STICK)}),
     "impact and impact": (OUTWARD, OUTWARD, {(1, IMPACT), (2, IMPACT)}),
     "both stick: no impact": (STICKS, STICKS, {(1, STICK), (2, STICK)}),
-    "an impact just past": (INWARD, FLIES, set()),
+    "just after an impact": (INWARD, FLIES, set()),
 }
 
 
 @SWAPPED
 @pytest.mark.parametrize(("first", "second", "expected"), STARTS.values(), ids=STARTS)
 def test_events_at_the_start(first, second, expected, swap):
-    system, start, names = SYSTEM, start_of(first, second), {1: 1, 2: 2}
+    system, start = SYSTEM, start_of(first, second)
     if swap:
-        system, start, names = swapped(system), start[SWAP], {1: 2, 2: 1}
+        system, start, expected = swapped(system), start[SWAP], {(3 - module, kind) for module, kind in expected}
     run, truth = vi.simulate(system, start, 1), truth_of(system, start, 1)
-    assert {(names[e["module"]], e["kind"]) for e in run.events if e["tau"] == 0.0} == expected
+    assert {(e["module"], e["kind"]) for e in run.events if e["tau"] == 0.0} == expected
     assert_same_motion(run, truth.events, truth.final)
     instant = vi.simulate(system, start, 0, sample_times=[0.0])  # the start is also the end, and a sample
     assert_same_motion(vi.simulate(system, instant.final, 1), run.events[run.events["tau"] > 0.0], run.final)

@@ -1,4 +1,4 @@
-"""The exclusion of events rests on bounds of derivatives that hold along every flight, in every contact state."""
+"""The proofs that no event happens use bounds of derivatives, which hold along every flight in every contact state."""
 
 import math
 
@@ -24,7 +24,7 @@ unit = st.floats(-1, 1)
 )  # fmt: skip
 @pytest.mark.parametrize("damping", [0.0, 0.2])
 def test_derivatives_stay_below_their_bounds(chapter, damping, state, tau, horizon, forces, size, mode, tie):
-    """Derivatives of matrix exponentials, sampled over the horizon."""
+    """The derivatives of matrix exponentials are sampled over the horizon."""
     system = chapter(
         10 * forces[0], 10 * forces[1], gamma1_hat=damping, gamma2_hat=damping, gamma12_hat=damping * tie,
         alpha12_hat=tie, sigma_e_hat=20.0,
@@ -49,8 +49,8 @@ def test_derivatives_stay_below_their_bounds(chapter, damping, state, tau, horiz
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_a_gap_is_above_its_polynomial_in_spite_of_rounding(seed):
-    """Stiff, strongly forced systems and boxes that move almost as one, in 40 digits."""
+def test_a_gap_is_above_its_polynomial_minus_the_rounding_margin(seed):
+    """The exact gap has 40 digits; systems are stiff and strongly forced, boxes move almost as one."""
     rng = np.random.default_rng(seed)
 
     def size(low, high):

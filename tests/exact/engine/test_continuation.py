@@ -1,4 +1,4 @@
-"""Runs continued from the ends of others: put together they have the events and sums of the one long run."""
+"""Runs that continue each other have together the events and sums of one long run."""
 
 import pickle
 from fractions import Fraction
@@ -9,11 +9,12 @@ import pytest
 
 import vibroimpact as vi
 from attacks import same_events
+from chapter import system_of
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 CYCLES = 12
 START = [0.1, -0.7, 0.2, 0.4, 0.0, 0.3, 0.0, -0.2]
-# Restitution, forces, and the time of the start: a whole number of cycles from which balls rest on their walls.
+# Restitution, forces, and time of the start. After some cycles balls rest on their walls.
 CASES = [
     (0.1, 3.0, 2.0, Fraction(2)), (0.1, 3.0, 2.0, 5.0), (0.05, 1.5, -2.5, 1.0), (0.05, 1.5, -2.5, Fraction(4)),
     (0.05, 5.0, 5.0, 2.0), (0.05, 5.0, 5.0, 5.0),
@@ -23,11 +24,8 @@ ENERGIES = "work", "impacts", "stored"
 
 @cache
 def continued(kappa, f10, f20, tau0):
-    """The one long run of a system whose balls chatter and stick, and the runs of one cycle that it consists of."""
-    system = vi.System(
-        epsilon=0.1, kappa=kappa, alpha12_hat=1.0, gamma1_hat=0.2, gamma2_hat=0.2, gamma12_hat=0.2, sigma20_hat=0.5,
-        sigma_e_hat=0.2, f10_hat=f10, f20_hat=f20,
-    )  # fmt: skip
+    """Return a long run in which balls chatter and stick, and its pieces of one cycle, each continuing the previous."""
+    system = system_of("equal", kappa=kappa, f10_hat=f10, f20_hat=f20)
     runs, state, begin = [], START, tau0
     for _ in range(CYCLES):
         runs.append(vi.simulate(system, state, 1, tau0=begin))
@@ -41,18 +39,18 @@ def pieces(request):
 
 
 def impacts(run):
-    """Number of impacts of each module."""
+    """Return the number of impacts of each module."""
     return np.bincount(run.events["module"][run.events["kind"] == IMPACT], minlength=3)[1:].tolist()
 
 
 def resting(state):
-    """Walls on which the balls of a state rest, or 0."""
+    """Return the walls on which the balls of a state rest, or 0."""
     gaps, speeds = state[[0, 2]] - state[[1, 3]], state[[4, 6]] - state[[5, 7]]
     return np.where((np.abs(np.abs(gaps) - 1) < 1e-12) & (speeds == 0), np.sign(gaps), 0).astype(int)
 
 
 def test_pieces_have_the_events_and_energies_of_the_whole(pieces):
-    """But for impacts at the end of a chatter, of which a run that ends meanwhile lists more."""
+    """Impacts at the end of a chatter are ignored: a run that ends during the chatter lists more of them."""
     whole, runs = pieces
     assert same_events(np.concatenate([run.events for run in runs]), whole.events, slow=[1e-6])
     assert {*whole.events["kind"]} == {IMPACT, STICK, RELEASE}
@@ -66,28 +64,28 @@ def test_pieces_have_the_events_and_energies_of_the_whole(pieces):
             np.testing.assert_array_equal(other.events, run.events)
 
 
-def test_ensembles_of_pieces_count_as_the_whole_does(pieces):
+def test_ensembles_of_pieces_have_the_statistics_of_the_whole(pieces):
     whole, runs = pieces
-    counted = vi.ensemble(whole.system, START, CYCLES, tau0=whole.begin, energy=True)
+    total = vi.ensemble(whole.system, START, CYCLES, tau0=whole.begin, energy=True)
     parts = np.array([vi.ensemble(run.system, run.start, 1, tau0=run.begin, energy=True) for run in runs])
     assert parts["impacts"].tolist() == [impacts(run) for run in runs]
-    assert counted["impacts"].tolist() == impacts(whole)
+    assert total["impacts"].tolist() == impacts(whole)
     for name in ("mean_square", "ball_speed"):
-        np.testing.assert_allclose(parts[name].mean(axis=0), counted[name], rtol=1e-9)
+        np.testing.assert_allclose(parts[name].mean(axis=0), total[name], rtol=1e-9)
     for name in ENERGIES:
-        found, expected = parts["energy"][name].sum(axis=0), counted["energy"][name]
+        found, expected = parts["energy"][name].sum(axis=0), total["energy"][name]
         np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-12)
 
 
-def test_the_cuts_are_at_balls_that_rest_on_every_wall():
-    """Else the comparisons above would not be about them."""
+def test_pieces_end_with_balls_at_rest_on_each_wall():
+    """The comparisons above cover continued contacts only if this holds."""
     finals = [run.final for case in CASES for run in continued(*case)[1]]
     found = {(module, int(wall)) for final in finals for module, wall in enumerate(resting(final), 1) if wall}
     assert found == {(1, 1), (1, -1), (2, 1), (2, -1)}
 
 
-def test_a_start_that_continues_nothing_sticks_at_once():
-    """A ball at rest on a wall that pushes it, at any time; with or without a run of no length before."""
+def test_balls_at_rest_on_walls_stick_at_the_start_of_a_run_that_continues_no_other():
+    """The start may be at any time; a run of no length lists both sticks, and its continuation does not."""
     whole, runs = continued(*CASES[0])
     system, state = whole.system, next(run.final for run in runs if all(resting(run.final)))
     for tau0 in (2.0, Fraction(2)):
@@ -102,8 +100,8 @@ def test_a_start_that_continues_nothing_sticks_at_once():
         assert rest.certificate == fresh.certificate
 
 
-def test_an_impact_at_the_start_that_ends_in_rest_is_one_of_the_run():
-    """Continued or not: without a rebound to speak of the ball sticks where it hits."""
+def test_an_impact_at_the_start_without_rebound_is_listed_in_continued_runs_too():
+    """The restitution coefficient is so small that the ball sticks immediately."""
     system = continued(*CASES[0])[0].system.with_(kappa=1e-300)
     state = np.array([-2.5, -3.5, -2.5, -3.5, 0.1, 0.0, 0.0, 0.0])
     listed = [(IMPACT, 1), (STICK, 1), (STICK, 2)]

@@ -1,11 +1,11 @@
-"""The energy of a run: what the forces do is what is dissipated, lost and stored, each found by itself."""
+"""In the energy balance of a run, work equals dissipation, impact losses and change of stored energy."""
 
 import numpy as np
-import pytest
 
 import vibroimpact as vi
 from hard_starts import example
 from stored_energy import stored_energy
+from vibroimpact.accuracy.reference.run import reference_run
 from vibroimpact.system.state import IMPACT
 
 PARTS = ("ground", "coupling", "impacts", "stored")
@@ -13,19 +13,19 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(24)
 
 
 def total(energies, name):
-    """A field of energies (n,), both modules together."""
+    """Return a field of energies (n,) for both modules together."""
     return energies[name].reshape(len(energies), -1).sum(axis=1)
 
 
 def scale(run):
-    """The largest energy that a sum over a run is rounded in: in a stiff coupling, each box alone would stretch it."""
+    """Return the largest energy in the sums over a run; the parts of a stiff coupling almost cancel."""
     system, states = run.system, np.vstack([run.start, *run.events["state"], run.final])
     places, speeds = np.abs(states[:, [0, 2]]).max(), np.abs(states[:, [4, 6]]).max()
     spent = np.abs(run.energy.work).sum() + stored_energy(system, states).max()
     return spent + system.alpha12 * places**2 + system.gamma12 * speeds**2 * run.cycles * system.period
 
 
-def test_the_balance_closes_to_rounding_in_hundreds_of_systems_and_every_cycle():
+def test_the_energy_balance_closes_to_rounding_in_every_cycle():
     kinds = np.zeros(3, int)
     for number in range(200):
         system, start, tau0 = example(number)
@@ -40,24 +40,23 @@ def test_the_balance_closes_to_rounding_in_hundreds_of_systems_and_every_cycle()
     assert (kinds > 500).all()
 
 
-def test_parts_and_cycles_are_those_of_quadrature_in_the_reference():
-    """Gauss's rule on reference samples in every flight, cut where cycles end: chatter, sticking and release."""
-    reference = pytest.importorskip("vibroimpact.accuracy.reference.run", exc_type=ModuleNotFoundError)
+def test_parts_of_the_balance_equal_quadrature_of_the_reference_in_every_cycle():
+    """Gauss's rule on reference samples in every flight, in a run with chatter, sticking and release."""
     system = vi.System(
         epsilon=0.25, kappa=0.3, alpha12_hat=1.0, gamma1_hat=0.5, gamma2_hat=0.25, gamma12_hat=1.0, sigma20_hat=0.5,
         sigma_e_hat=0.5, f10_hat=1.5, f20_hat=-0.75,
     )  # fmt: skip
     cycles, start = 6, [0.5, 0.25, 0.25, 0.0, 0.0, 0.5, 0.0, -0.25]
     ends = system.period * np.arange(cycles + 1)
-    events = reference.reference_run(system, start, cycles, 40).events
+    events = reference_run(system, start, cycles, 40).events
     assert set(events["kind"]) == set(vi.KINDS)
     cuts = np.unique([*ends, *events["tau"]])
     cuts = cuts[np.diff(cuts, append=np.inf) > 1e-13]
     half = np.diff(cuts)[:, None] / 2
     times, weights = cuts[:-1, None] + half * (1 + POINTS), half * WEIGHTS
-    asked = np.unique([*times.ravel(), *ends[:-1]])
-    samples = reference.reference_run(system, start, cycles, 40, sample_times=asked).samples
-    speeds = samples[np.searchsorted(asked, times)][..., [4, 6]]
+    sampled = np.unique([*times.ravel(), *ends[:-1]])
+    samples = reference_run(system, start, cycles, 40, sample_times=sampled).samples
+    speeds = samples[np.searchsorted(sampled, times)][..., [4, 6]]
     cycle = np.searchsorted(ends, cuts[:-1], side="right") - 1
 
     def over_cycles(values, owner=cycle):
@@ -66,7 +65,7 @@ def test_parts_and_cycles_are_those_of_quadrature_in_the_reference():
     force, damping = np.sin(system.Omega * times), (system.gamma1, system.gamma2)
     run = vi.simulate(system, start, cycles)
     rows = run.energy.per_cycle
-    stored = stored_energy(system, np.vstack([samples[np.searchsorted(asked, ends[:-1])], run.final]))
+    stored = stored_energy(system, np.vstack([samples[np.searchsorted(sampled, ends[:-1])], run.final]))
     expected = {"stored": np.diff(stored)}
     expected["coupling"] = over_cycles((weights * system.gamma12 * (speeds[..., 0] - speeds[..., 1]) ** 2).sum(axis=1))
     for i in range(2):
@@ -82,8 +81,8 @@ def test_parts_and_cycles_are_those_of_quadrature_in_the_reference():
         np.testing.assert_allclose(np.asarray(getattr(run.energy, name))[place], values.sum(), atol=1e-12)
 
 
-def test_what_happens_at_once_counts_without_any_cycle(case):
-    """An impact at the start: what it loses is what the motion then lacks."""
+def test_an_impact_at_the_start_of_a_run_of_no_length_counts(case):
+    """The loss of the impact equals the decrease of the stored energy."""
     energy = vi.simulate(case, [1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0], 0).energy
     lost = 0.5 * case.epsilon / (1 + case.epsilon) * (1 - case.kappa**2) * 4.0
     np.testing.assert_allclose([energy.impacts[0], energy.stored], [lost, -lost], rtol=1e-12)

@@ -1,4 +1,4 @@
-"""Free flight against a high-precision reference, and the exclusion bounds against what they promise."""
+"""Free flights agree with 50 digits, and the bounds of polynomials in the proofs hold."""
 
 import math
 
@@ -23,7 +23,7 @@ SPECTRA = {
 
 
 @pytest.mark.parametrize("changes", SPECTRA.values(), ids=SPECTRA)
-def test_free_flight_against_50_digits(chapter, changes):
+def test_free_flights_agree_with_50_digits(chapter, changes):
     system = chapter(1.0, 0.6, **changes)
     flow = flow_of(system)
     rng = np.random.default_rng(0)
@@ -43,8 +43,8 @@ polynomials = st.tuples(st.floats(1e-6, 2), *[numbers] * 7)
 
 
 @pytest.mark.parametrize("changes", SPECTRA.values(), ids=SPECTRA)
-def test_the_table_is_rounded_once(chapter, changes):
-    """Positions, velocities and phases are the floats next to the exact ones, on any machine; at some of the times."""
+def test_entries_of_the_flow_table_are_the_floats_nearest_to_the_exact_values(chapter, changes):
+    """Positions, velocities and phases at some of the times."""
     system = chapter(1.0, 0.6, **changes)
     flow = flow_of(system)
     with mp.workdps(60):
@@ -56,7 +56,7 @@ def test_the_table_is_rounded_once(chapter, changes):
                 np.testing.assert_array_equal(flow.rotations[j], exact[4, 4:])
 
 
-def test_series_along_a_flight_and_in_the_table_against_50_digits(chapter):
+def test_taylor_series_at_the_start_and_in_the_table_agree_with_50_digits(chapter):
     system = chapter(1.0, 0.6)
     flow, z = flow_of(system), [0.3, -0.8, 0.5, 1.1, math.sin(0.7), math.cos(0.7)]
     with mp.workdps(50):
@@ -79,8 +79,8 @@ def series_at(flow, mode, j, z):
 @given(c=polynomials, t=st.floats(0.01, 3))
 @example(c=(1.0, -0.3, 0.01, 0.02, 0.01, 0.0, 0.0, 0.0), t=3.0)
 @example(c=(1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), t=1.001)
-def test_what_is_told_to_be_positive_is(c, t):
-    """Neither the quick bound nor the one behind it says so of a polynomial that has a zero (numpy's values)."""
+def test_no_polynomial_with_a_zero_passes_the_quick_or_the_sharp_test_of_positivity(c, t):
+    """The values of the polynomial are those of numpy on a grid."""
     lowest = np.polyval(c[::-1], np.linspace(0, t, 200)).min()
     rounding = 1e-12 * sum(abs(v) * t**k for k, v in enumerate(c))
     assert lowest > -rounding if positive(c, t) else least(c, t) <= 0.0
@@ -89,8 +89,8 @@ def test_what_is_told_to_be_positive_is(c, t):
 @settings(max_examples=300)
 @given(c=polynomials, horizon=st.floats(0.01, 3))
 @example(c=(0.25, -0.25, 1, 0, 0, 1, 0, -0.125), horizon=3)
-def test_safe_time_is_safe_and_reaches_far(c, horizon):
-    """Positive up to the time returned, and at least half as far as the disc over it holds no zero (numpy's roots)."""
+def test_polynomials_are_positive_up_to_the_safe_time(c, horizon):
+    """It is at least half of the longest time t for which the disc with diameter [0, t] contains no complex zero."""
     t = safe_time(c, horizon)
     assert 0 < t <= horizon
     assert np.polyval(c[::-1], np.linspace(0, t, 400)).min() > -1e-14
@@ -107,7 +107,7 @@ def test_safe_time_is_safe_and_reaches_far(c, horizon):
     horizon=st.floats(0.01, 3),
 )
 def test_a_certain_crossing_is_the_first_and_only_zero(c, fall, remainder, part, horizon):
-    """Whatever the seventh derivative is within its bound: numpy's roots of the polynomial that it makes."""
+    """This holds for each seventh derivative within its bound; the roots of the polynomials are those of numpy."""
     c = (c[0], -fall, *c[2:])
     certain, t, width = crossing(c, remainder, 0.0, horizon, 1e-3)
     if not certain:
@@ -122,8 +122,8 @@ def test_a_certain_crossing_is_the_first_and_only_zero(c, fall, remainder, part,
         assert zeros[0] == pytest.approx(t, abs=width + 1e-9)
 
 
-def test_a_crossing_is_found_where_the_rate_keeps_its_sign():
-    """A fall that certainly lasts is no reason to give up, nor is one that ends beyond the horizon."""
+def test_a_crossing_is_certain_if_the_rate_keeps_its_sign_up_to_the_zero():
+    """The rate may change its sign later, and the zero may be beyond the horizon."""
     certain, t, width = crossing((1.0, -1.0, -0.1, *[0.0] * 5), 1e-3, 1e-15, 2.0, 1e-3)
     assert certain
     assert 1e-4 < width < 5e-3
@@ -136,7 +136,7 @@ def test_a_crossing_is_found_where_the_rate_keeps_its_sign():
 
 
 @given(zero=st.floats(-0.03, 0.03), off=st.floats(-0.005, 0.005), v=st.floats(0.1, 2), higher=st.tuples(*[numbers] * 6))
-def test_nearby_zero_against_a_polynomial_built_to_vanish_there(zero, off, v, higher):
+def test_nearby_zero_finds_the_zero_of_a_constructed_polynomial(zero, off, v, higher):
     rest = sum(a * zero ** (k + 2) for k, a in enumerate(higher))
     c = (v * zero - rest, -v, *higher)
     assert nearby_zero(c, zero + off) == pytest.approx(zero, abs=1e-15 + 1e-15 * abs(rest / v))

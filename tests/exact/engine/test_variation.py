@@ -1,4 +1,4 @@
-"""The Jacobian of a run and its certificate against differences and errors in arbitrary precision."""
+"""The Jacobian of a run agrees with finite differences in arbitrary precision."""
 
 from fractions import Fraction
 
@@ -12,15 +12,15 @@ from vibroimpact.system.state import IMPACT, RELEASE, STICK
 STEP = Fraction(1, 10**25)
 
 
-def jacobian_in_high_precision(system, state, cycles, digits=60):
-    """Central differences of step 1e-25 of the event-driven map, 60 digits."""
+def jacobian_in_high_precision(system, state, cycles):
+    """Return central differences of step 1e-25 of the event-driven map, in 80 digits."""
     columns = []
     for k in range(8):
         ends = []
         for sign in (1, -1):
             shifted = [Fraction(str(x)) for x in state]
             shifted[k] += sign * STEP
-            ends.append(reference_run(system, shifted, cycles, digits).final_exact)
+            ends.append(reference_run(system, shifted, cycles, 80).final_exact)
         columns.append([float((a - b) / (2 * float(STEP))) for a, b in zip(*ends, strict=True)])
     return np.array(columns).T
 
@@ -28,6 +28,9 @@ def jacobian_in_high_precision(system, state, cycles, digits=60):
 PROBLEMS = {
     # name: (changes of the chapter's system, forcing, start, cycles, kinds of events that must occur)
     "impacts": ({}, (1.0, 1.0), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2], 3, {IMPACT}),
+    "almost no rebound": (
+        {"kappa": 1e-12}, (1.0, 1.0), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2], 3, {IMPACT, STICK, RELEASE},
+    ),
     "chatter, stick, release": (
         {"gamma12_hat": 2.0}, (0.3, 0.2), [-1.5, -2.499, 0.4, 0.1, 0.0, 0.05, 0.1, -0.2], 1, {IMPACT, STICK, RELEASE},
     ),
@@ -43,17 +46,10 @@ PROBLEMS = {
 
 
 @pytest.mark.parametrize(("changes", "force", "start", "cycles", "kinds"), PROBLEMS.values(), ids=PROBLEMS)
-def test_jacobian_against_high_precision_differences(chapter, changes, force, start, cycles, kinds):
+def test_the_jacobian_agrees_with_high_precision_differences(chapter, changes, force, start, cycles, kinds):
     system = chapter(*force, **changes)
     run = vi.simulate(system, start, cycles)
     assert set(run.events["kind"]) == kinds
     expected = jacobian_in_high_precision(system, start, cycles)
-    np.testing.assert_allclose(run.jacobian, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
-
-
-def test_jacobian_of_impacts_that_leave_hardly_any_velocity(chapter):
-    system, start = chapter(kappa=1e-12), [0.1, 0.0, 0.2, 0.0, 0.0, 0.3, 0.0, -0.2]
-    run = vi.simulate(system, start, 3)
-    assert set(run.events["kind"]) == {IMPACT, STICK, RELEASE}
-    expected = jacobian_in_high_precision(system, start, 3, digits=80)
-    np.testing.assert_allclose(run.jacobian, expected, rtol=0, atol=1e-14 * np.abs(expected).max())
+    accuracy = 1e-14 if "kappa" in changes else 1e-9
+    np.testing.assert_allclose(run.jacobian, expected, rtol=0, atol=accuracy * np.abs(expected).max())

@@ -1,4 +1,4 @@
-"""Ensembles: runs have the events of `simulate`, and their statistics are those of its events and samples."""
+"""Runs in ensembles have the events of `simulate`, and the statistics of its events and samples."""
 
 import numpy as np
 import pytest
@@ -13,14 +13,14 @@ from vibroimpact.system.state import BALLS, BOXES
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 
-def starts(n, seed=3):
-    states = np.random.default_rng(seed).uniform(-0.5, 0.5, (n, 8))
+def starts(n):
+    states = np.random.default_rng(3).uniform(-0.5, 0.5, (n, 8))
     states[:, BALLS[:2]] += states[:, BOXES[:2]]
     return states
 
 
 def mixed(chapter, n):
-    """Systems of very different kinds."""
+    """Return n random systems in wide ranges of parameters."""
     rng = np.random.default_rng(8)
     return [
         chapter(
@@ -34,7 +34,7 @@ def mixed(chapter, n):
 
 
 REPEATED = {
-    # forces, changes of the chapter's system, start, cycles; faults that showed here
+    # forces, changes of the chapter's system, start, cycles; each showed a fault of the lanes
     "a polynomial of too low an order in the last fifth of a step": (
         (9.974, -24.43), dict(
             epsilon=0.07825, kappa=0.7236, alpha12_hat=0.9508, gamma1_hat=0.2008, gamma2_hat=0.1993, gamma12_hat=0.1896,
@@ -58,7 +58,7 @@ REPEATED = {
 
 @pytest.mark.parametrize(("forces", "changes", "start", "cycles"), REPEATED.values(), ids=REPEATED)
 def test_errors_that_repeat_in_every_step_or_flight_do_not_add_up(chapter, forces, changes, start, cycles):
-    """True errors of ensembles over the estimate of a single run; they were 2.9 to 4.7 times as large."""
+    """The true errors of ensembles were once 2.9 to 4.7 times the estimate of the single run."""
     system = chapter(*forces, **changes)
     run, outcome = vi.simulate(system, start, cycles), vi.ensemble(system, start, cycles)
     true = reference_run(system, start, cycles, 40)
@@ -68,12 +68,12 @@ def test_errors_that_repeat_in_every_step_or_flight_do_not_add_up(chapter, force
 
 
 @pytest.mark.parametrize("seed", [0, 5, 13])
-def test_grazes_that_other_steps_decide_otherwise_are_not_decided(seed):
-    """Of these starts a decided run had other impacts than its ensemble, or ended elsewhere."""
+def test_grazing_runs_are_undecided_if_the_steps_of_an_ensemble_decide_differently(seed):
+    """From some of these starts, a decided run once had other impacts or another final state than in the ensemble."""
     assert unlike_single_runs(*ensembles["grazing"](np.random.default_rng([seed, 7]), 100)) == []
 
 
-def test_the_least_damping_causes_no_warning(chapter, recwarn):
+def test_the_smallest_damping_causes_no_warning(chapter, recwarn):
     system = chapter(
         -0.01, 90.0, epsilon=2.0, alpha12_hat=18.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=5e-324,
         sigma20_hat=0.1, sigma_e_hat=5.7,
@@ -84,12 +84,12 @@ def test_the_least_damping_causes_no_warning(chapter, recwarn):
     assert not recwarn.list
 
 
-def told(system, state, cycles, tau0, settle):
-    """What a run amounts to, by its events and by Gauss's rule and a fine grid in every flight."""
+def statistics(system, state, cycles, tau0, settle):
+    """Return the statistics of a run, computed from its events and by Gauss's rule on samples in every flight."""
     run = vi.simulate(system, state, cycles, tau0)
     opening, closing = tau0 + settle * system.period, float(run.end)
     events = run.events[run.events["tau"] >= opening]
-    # short pieces: polynomials of degree 39 know them to rounding
+    # in pieces this short the rule is exact to rounding
     edges = np.unique([*np.arange(opening, closing, 0.3), *events["tau"], closing])
     half = np.diff(edges)[:, None] / 2
     times = edges[:-1, None] + half * (1 + POINTS)
@@ -104,20 +104,24 @@ def told(system, state, cycles, tau0, settle):
 
 
 @pytest.mark.parametrize("settle", [0, 3])
-def test_what_runs_amount_to(chapter, settle):
+def test_statistics_and_energies_are_those_of_single_runs(chapter, settle):
     systems, states = mixed(chapter, 12), starts(12)
-    outcomes = vi.ensemble(systems, states, 5, 0.4, settle)
+    outcomes = vi.ensemble(systems, states, 5, 0.4, settle, energy=True)
     for system, state, outcome in zip(systems, states, outcomes, strict=True):
-        expected = told(system, state, 5, 0.4, settle)
+        cycles = vi.simulate(system, state, 5, 0.4).energy.per_cycle[settle:]
+        size = sum(np.abs(cycles[name]).sum() for name in cycles.dtype.names)
+        for name in cycles.dtype.names:
+            np.testing.assert_allclose(outcome["energy"][name], cycles[name].sum(axis=0), rtol=0, atol=1e-12 * size)
+        expected = statistics(system, state, 5, 0.4, settle)
         np.testing.assert_array_equal(outcome["impacts"], expected["impacts"])
         np.testing.assert_allclose(outcome["mean_square"], expected["mean_square"], rtol=1e-11)
-        # |Y'| of a stuck ball bends
+        # |Y'| of a stuck ball is not smooth
         np.testing.assert_allclose(outcome["ball_speed"], expected["ball_speed"], rtol=1e-3)
         assert (outcome["largest"] >= expected["largest"] * (1 - 1e-15)).all()
         np.testing.assert_allclose(outcome["largest"], expected["largest"], rtol=2e-3)
 
 
-def test_balls_that_stick_travel_with_their_boxes(chapter):
+def test_the_mean_speed_of_a_ball_includes_the_time_in_which_it_sticks(chapter):
     system, state = chapter(f10_hat=0.5, f20_hat=0.5), [-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0]
     (outcome,) = vi.ensemble([system], state, 2)
     events = vi.simulate(system, state, 2).events
@@ -127,18 +131,18 @@ def test_balls_that_stick_travel_with_their_boxes(chapter):
     np.testing.assert_allclose(outcome["ball_speed"], abs(np.diff(balls, axis=0)).sum(axis=0) / times[-1], rtol=1e-8)
 
 
-def test_the_largest_excursion_is_where_the_box_turns(case):
+def test_the_largest_displacement_is_that_at_the_turn_of_the_box(case):
+    """It exceeds the largest sample by at most h^2 / 8 times the largest acceleration, which is below 3."""
     state = starts(1)[0]
     (outcome,) = vi.ensemble([case], state, 3)
     grid = np.linspace(0.0, 3 * case.period, 400_001)
     boxes = vi.simulate(case, state, 3, sample_times=np.minimum(grid, 3 * case.period)).samples[:, BOXES[:2]]
-    step, bend = grid[1], 3.0  # |X''| stays below
     above = outcome["largest"] - abs(boxes).max(axis=0)
     assert (above >= -1e-15).all()
-    assert (above <= bend * step**2 / 8).all()
+    assert (above <= 3.0 * grid[1] ** 2 / 8).all()
 
 
-def test_systems_and_starts_combine_as_arrays_do(case):
+def test_systems_and_starts_are_broadcast_like_arrays(case):
     systems = [case, case.with_(f20_hat=0.3)]
     states = starts(3)
     table = vi.ensemble([[one] for one in systems], states, 2)
@@ -151,13 +155,13 @@ def test_systems_and_starts_combine_as_arrays_do(case):
     assert vi.ensemble([], np.empty((0, 8)), 2).shape == (0,)
 
 
-def test_many_starts_of_one_system_are_those_of_few(case):
+def test_an_ensemble_with_more_runs_than_one_pass_equals_smaller_ensembles(case):
     states = starts(2 * MOST_RUNS + 300)
     parts = [vi.ensemble(case, states[first : first + 500], 1) for first in range(0, len(states), 500)]
     np.testing.assert_array_equal(vi.ensemble(case, states, 1), np.concatenate(parts))
 
 
-def test_a_start_that_fails_harms_no_other(case):
+def test_an_invalid_start_does_not_affect_other_runs(case):
     states = starts(4)
     states[1, 1], states[2, 6] = 9.0, np.nan
     outcomes = vi.ensemble(case, states, 3)
@@ -168,15 +172,15 @@ def test_a_start_that_fails_harms_no_other(case):
     np.testing.assert_array_equal(outcomes[[0, 3]], vi.ensemble(case, states[[0, 3]], 3))
 
 
-def test_nothing_is_observed_when_all_cycles_settle(case):
+def test_statistics_are_nan_if_all_cycles_settle(case):
     outcome = vi.ensemble(case, starts(1)[0], 3, settle=3)
     assert np.isfinite(outcome["final"]).all()
     assert np.isnan(outcome["largest"]).all()
     assert not outcome["impacts"].any()
 
 
-def test_a_periodic_motion_amounts_to_the_same_from_any_cycle_on_and_from_each_of_its_impacts(chapter):
-    """Where observation begins, an impact is just over, just due, or both, by the rounding of times."""
+def test_statistics_of_a_periodic_motion_do_not_depend_on_where_the_observation_begins(chapter):
+    """It begins at an impact, which is just before or just after the beginning by the rounding of times."""
     case = chapter(1.0, 0.89)
     orbit = next(one for one in vi.orbits(case) if one.admissible and max(abs(one.multipliers)) < 1)
     run = vi.simulate(case, orbit.state, 200)
@@ -188,17 +192,17 @@ def test_a_periodic_motion_amounts_to_the_same_from_any_cycle_on_and_from_each_o
 
 
 @pytest.mark.parametrize("settle", [1, 30])
-def test_what_is_seen_from_a_cycle_on_is_what_a_run_from_there_shows(chapter, settle):
-    """A flight without an event over the whole run, many times as long as the tables."""
-    quiet = chapter(0.05, 0.0)
-    late, there = vi.ensemble(quiet, np.zeros(8), 40, settle=settle), vi.simulate(quiet, np.zeros(8), settle).final
-    assert not late["impacts"].any()
-    anew = vi.ensemble(quiet, there, 40 - settle)
+def test_statistics_after_settling_are_those_of_a_run_from_there(chapter, settle):
+    """The whole run is one flight without events, much longer than the flow tables."""
+    system = chapter(0.05, 0.0)
+    settled = vi.simulate(system, np.zeros(8), settle).final
+    found, expected = vi.ensemble(system, np.zeros(8), 40, settle=settle), vi.ensemble(system, settled, 40 - settle)
+    assert not found["impacts"].any()
     for name in ("largest", "mean_square", "ball_speed"):
-        np.testing.assert_allclose(late[name], anew[name], rtol=1e-10)
+        np.testing.assert_allclose(found[name], expected[name], rtol=1e-10)
 
 
-def test_many_certified_runs_are_the_single_ones_bit_by_bit(case, capsys):
+def test_simulate_many_gives_the_bits_of_simulate(case, capsys):
     states = starts(17)
     runs = vi.simulate_many(case, states, 60, tau0=0.4, progress=True)
     assert capsys.readouterr().err.endswith("17/17 runs\n")
@@ -209,7 +213,7 @@ def test_many_certified_runs_are_the_single_ones_bit_by_bit(case, capsys):
         np.testing.assert_array_equal(run.events, single.events)
 
 
-def test_starts_in_any_order_of_memory_run_the_same_code(case):
+def test_starts_with_any_memory_layout_compile_nothing_more(case):
     plain, compiled = vi.simulate_many(case, starts(3), 3), list(integrate.signatures)
     for states in (np.asfortranarray(starts(3)), np.repeat(starts(3), 2, axis=0)[::2], starts(3).astype(">f8")):
         runs = vi.simulate_many(case, states, 3)
@@ -217,8 +221,8 @@ def test_starts_in_any_order_of_memory_run_the_same_code(case):
     assert integrate.signatures == compiled
 
 
-def test_a_run_does_not_depend_on_its_neighbours(chapter, case):
-    """In which lane it is, beside which systems, and in which pass it meets a wall: the same outcome, bit by bit."""
+def test_the_bits_of_a_run_do_not_depend_on_the_other_runs(chapter, case):
+    """The other runs determine the lane of the run, and the pass in which its ball reaches a wall."""
     systems = [*mixed(chapter, 5), case]
     states = starts(60)
     owners = [systems[n % 6] for n in range(60)]
@@ -227,19 +231,8 @@ def test_a_run_does_not_depend_on_its_neighbours(chapter, case):
     assert together.tobytes() == np.stack(alone).tobytes()
 
 
-@pytest.mark.parametrize("settle", [0, 2])
-def test_the_energy_of_a_run_is_that_of_its_events(chapter, settle):
-    systems, states = mixed(chapter, 12), starts(12)
-    outcomes = vi.ensemble(systems, states, 5, 0.4, settle, energy=True)
-    for system, state, outcome in zip(systems, states, outcomes, strict=True):
-        cycles = vi.simulate(system, state, 5, 0.4).energy.per_cycle[settle:]
-        size = sum(np.abs(cycles[name]).sum() for name in cycles.dtype.names)
-        for name in cycles.dtype.names:
-            np.testing.assert_allclose(outcome["energy"][name], cycles[name].sum(axis=0), rtol=0, atol=1e-12 * size)
-
-
 @pytest.mark.parametrize("settle", [0, 3])
-def test_cycle_by_cycle_runs_show_what_runs_of_one_cycle_do(chapter, settle):
+def test_statistics_by_cycle_add_up_to_those_of_the_whole_run(chapter, settle):
     systems, states = mixed(chapter, 12), starts(12)
     outcomes = vi.ensemble(systems, states, 8, 0.4, settle, by_cycle=True, energy=True)
     assert outcomes.shape == (12, 8 - settle)

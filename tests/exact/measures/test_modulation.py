@@ -1,4 +1,4 @@
-"""Modulation measures on signals whose envelope is known."""
+"""Modulation measures of signals with known envelopes."""
 
 import numpy as np
 import pytest
@@ -32,11 +32,11 @@ def test_swells_are_one_modulation_period_apart(length):
     assert np.diff(found).mean() == pytest.approx(length, abs=0.2)
 
 
-def test_ripples_on_a_swell_are_not_counted():
+def test_ripples_do_not_count_as_swells():
     slow = 1 - 0.5 * np.cos(2 * np.pi * np.arange(100) / 25)
     ripples = 0.08 * (-1.0) ** np.arange(100)
     assert len(swells(slow + ripples)) == 4
 
 
-def test_a_window_that_begins_high_counts_from_the_next_swell():
+def test_a_maximum_at_the_beginning_of_the_window_is_no_swell():
     assert swells([1.0, 0.9, 0.1, 0.5, 1.0, 0.9, 0.0, 1.0]).tolist() == [4, 7]

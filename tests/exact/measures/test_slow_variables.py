@@ -1,21 +1,23 @@
-"""Slow variables read off the leading-order response are those that it was made of."""
+"""Slow variables measured in a constructed leading-order response are those from which it is constructed."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-import vibroimpact as vi
-from chapter import PARAMETERS
+from chapter import system_of
 from vibroimpact.exact.measures.slow_variables import amplitude_and_lag, measure
 
-SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+SYSTEM = system_of("equal")
 B, PSI, C = np.array([0.3, 0.7]), np.array([2.5, -1.2]), np.array([1.2, 1.6])
 AT_PLUS = np.array([0.3, 0.97])  # phase of the impact with the wall +1
 
 
-def made_up_motion():
-    """U_i = B_i sin(Omega tau - psi_i), and balls Y_i = -Z_i / (1 + epsilon) on a triangle wave of amplitude C_i."""
+def constructed_motion():
+    """Return times, displacements and impacts for U_i = B_i sin(Omega tau - psi_i) and Y_i = -Z_i / (1 + epsilon).
+
+    Z_i is a triangle wave of amplitude C_i.
+    """
     tau = 500 * SYSTEM.period + np.arange(4 * 60) / 60 * SYSTEM.period
     U = B * np.sin(SYSTEM.Omega * tau[:, None] - PSI)
     turns = np.abs((tau[:, None] / SYSTEM.period - AT_PLUS + 0.5) % 1.0 - 0.5)
@@ -35,29 +37,29 @@ def made_up_motion():
     return tau, displacements, impacts
 
 
-def test_everything_is_read_off_again():
-    found = measure(SYSTEM, *made_up_motion())
+def test_slow_variables_and_impact_phases_are_recovered():
+    found = measure(SYSTEM, *constructed_motion())
     np.testing.assert_allclose(found.B, B, rtol=1e-12)
     np.testing.assert_allclose(found.psi, PSI, rtol=1e-10)
     np.testing.assert_allclose(found.C, C, rtol=1e-12)
     np.testing.assert_allclose(found.impact_phases, [[0.3, 0.8], [0.97, 0.47]], atol=1e-12)
 
 
-def test_distance_is_that_of_phasors_and_blind_to_full_turns():
-    found = measure(SYSTEM, *made_up_motion())
+def test_the_distance_between_phasors_does_not_depend_on_full_turns():
+    found = measure(SYSTEM, *constructed_motion())
     assert found.distance(SimpleNamespace(B=B, psi=PSI + 2 * np.pi)) == pytest.approx(0, abs=1e-10)
     assert found.distance(SimpleNamespace(B=B + np.array([0.03, 0.04]), psi=PSI)) == pytest.approx(0.05, rel=1e-9)
     assert found.distance(SimpleNamespace(B=B, psi=PSI + np.array([0, np.pi]))) == pytest.approx(1.4, rel=1e-9)
 
 
 def test_a_ball_that_misses_a_wall_is_refused():
-    tau, displacements, impacts = made_up_motion()
+    tau, displacements, impacts = constructed_motion()
     keep = (impacts["module"] == 1) | (impacts["wall"] == 1)
     with pytest.raises(ValueError, match="module 2 has no impact at the wall -1"):
         measure(SYSTEM, tau, displacements, {name: values[keep] for name, values in impacts.items()})
 
 
-def test_higher_harmonics_and_offsets_do_not_disturb_the_first():
+def test_higher_harmonics_and_offsets_do_not_affect_the_first_harmonic():
     tau = np.arange(120) / 40 * SYSTEM.period
     phase = SYSTEM.Omega * tau
     wave = 0.5 * np.sin(phase - 0.7) + 0.2 * np.cos(3 * phase) + 0.1 * np.sin(2 * phase) + 0.3

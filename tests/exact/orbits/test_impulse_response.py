@@ -1,4 +1,4 @@
-"""The impulse response against its Fourier series, which knows nothing of matrix exponentials."""
+"""The impulse response, computed by matrix exponentials, equals its Fourier series."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from vibroimpact.system.matrices import dynamic_stiffness
 
 
 def fourier(system, sign, s, harmonics=4000):
-    """Displacements (2, 2) from unit impulses repeated with the given sign, harmonic by harmonic."""
+    """Return the displacements (2, 2) from unit impulses that repeat with the given sign, summed over harmonics."""
     orders = np.arange(1, harmonics, 2) if sign == -1 else np.arange(1, harmonics)
     weight = 2 / (system.period / 2 if sign == -1 else system.period)
     mass = np.eye(2)
@@ -37,7 +37,7 @@ def test_displacement_is_the_fourier_series(chapter, sign, fraction):
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_velocity_jumps_by_the_impulse_and_nothing_else_jumps(chapter, sign):
+def test_only_velocities_jump_at_an_impulse_and_by_the_impulse(chapter, sign):
     response = ImpulseResponse(chapter(), sign)
     n = response.interval
     after = motion(response, 0.0)
@@ -51,7 +51,7 @@ UNDAMPED = dict.fromkeys(("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_ha
 @pytest.mark.parametrize(("sign", "harmonic", "fails"), [(-1, 3, True), (-1, 2, False), (1, 2, True), (1, 3, True)])
 @pytest.mark.parametrize("boxes", ["second", "both"])
 def test_undamped_resonance_with_the_impacts_is_refused(chapter, sign, harmonic, fails, boxes):
-    """With both, nothing is left of the equations for the steady response, which looks like a regular matrix."""
+    """If both boxes resonate, the matrix of the equations is zero within rounding, and then appears regular."""
     system = chapter(**UNDAMPED)
     tuned = system.with_(sigma20_hat=((harmonic * system.Omega) ** 2 - 1) / system.epsilon)
     if boxes == "both":
@@ -63,8 +63,8 @@ def test_undamped_resonance_with_the_impacts_is_refused(chapter, sign, harmonic,
         assert np.isfinite(motion(ImpulseResponse(tuned, sign), 1.0)).all()
 
 
-def test_responses_at_a_resonance_that_the_forces_do_not_load_are_refused(chapter):
-    """Boxes in antiphase, with a damper between them alone, swing freely in phase."""
+def test_an_undamped_resonance_on_which_the_forces_do_no_work_is_refused(chapter):
+    """The forces are in antiphase; boxes with only a damper between them oscillate freely in phase."""
     free = dict.fromkeys(("alpha12_hat", "gamma1_hat", "gamma2_hat", "sigma20_hat", "sigma_e_hat"), 0.0)
     system = chapter(**free, f10_hat=1.0, f20_hat=-1.0)
     for call in (vi.orbits, forced_amplitude):

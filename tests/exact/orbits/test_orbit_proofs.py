@@ -1,4 +1,4 @@
-"""Proofs on single orbits, against orbits followed with 80 digits; and that they do not prove too much."""
+"""Proofs on single orbits agree with orbits in 80 digits, and refuse wrong or degenerate orbits."""
 
 import dataclasses
 
@@ -10,7 +10,7 @@ flint = pytest.importorskip("flint", reason="python-flint belongs to the optiona
 
 import vibroimpact as vi  # noqa: E402
 from attacks import random_system  # noqa: E402
-from chapter import FORCES, PARAMETERS  # noqa: E402
+from chapter import system_of  # noqa: E402
 from stroboscope import ORDER, Stroboscope  # noqa: E402
 from vibroimpact.exact.orbits.floquet import floquet  # noqa: E402
 from vibroimpact.exact.orbits.proof.orbit import prove  # noqa: E402
@@ -21,16 +21,15 @@ DIGITS = 80
 REFUSED = (0.0, np.inf, "not proved", "not proved", np.inf)
 
 
-def said(proof):
+def results(proof):
     return proof.radius, proof.error, proof.motion, proof.stability, proof.moduli_error
 
 
 @pytest.fixture(scope="module")
 def orbits():
-    """Those of the case `equal`, by label: S1 to S4 and A1 to A8."""
-    f10, f20 = FORCES["equal"]
-    found = vi.orbits(vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20))
-    return {f"{'S' if k < 4 else 'A'}{k + 1 if k < 4 else k - 3}": orbit for k, orbit in enumerate(found)}
+    """Return the orbits of the case `equal` by label: S1 to S4 and A1 to A8."""
+    labels = [*(f"S{k}" for k in range(1, 5)), *(f"A{k}" for k in range(1, 9))]
+    return dict(zip(labels, vi.orbits(system_of("equal")), strict=True))
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +38,7 @@ def proofs(orbits):
 
 
 @pytest.mark.parametrize("label", ["S4", "A3", "A7"])
-def test_an_orbit_followed_with_80_digits_has_its_multipliers_in_the_enclosures(orbits, proofs, label):
+def test_enclosures_contain_the_multipliers_of_the_orbit_in_80_digits(orbits, proofs, label):
     orbit, proof = orbits[label], proofs[label]
     with mpmath.workdps(DIGITS), flint.ctx.workprec(4 * DIGITS):
         strobe = Stroboscope(orbit)
@@ -49,7 +48,7 @@ def test_an_orbit_followed_with_80_digits_has_its_multipliers_in_the_enclosures(
         true = mpmath.eig(jacobian, right=False)
         inside = [[box.contains(_ball(value)) for value in true] for box in proof.multipliers]
         moduli = sorted((abs(value) for value in true), reverse=True)
-        listed = np.abs(orbit.multipliers)  # an array rounds its moduli otherwise than its entries would
+        listed = np.abs(orbit.multipliers)  # moduli of an array are rounded differently from those of its entries
         error = max(abs(value - mpmath.mpf(float(one))) for value, one in zip(moduli, listed, strict=True))
     np.testing.assert_array_equal(np.sum(inside, axis=1), 1)
     np.testing.assert_array_equal(np.sum(inside, axis=0), 1)
@@ -65,7 +64,7 @@ def _ball(value):
     return flint.acb(*(flint.arb(text) + flint.arb(0, 1e-38) for text in digits))
 
 
-def test_all_of_the_case_is_proved_and_agrees_with_what_floats_say(orbits, proofs):
+def test_proofs_of_all_orbits_of_the_case_agree_with_the_verdicts_in_floats(orbits, proofs):
     assert {proofs[label].motion for label, orbit in orbits.items() if orbit.admissible} == {"legal"}
     assert {proofs[label].motion for label, orbit in orbits.items() if not orbit.admissible} == {"not legal"}
     assert all(proofs[label].stability == floquet(orbit) for label, orbit in orbits.items())
@@ -74,48 +73,45 @@ def test_all_of_the_case_is_proved_and_agrees_with_what_floats_say(orbits, proof
     through_a_wall = [
         label for label, orbit in orbits.items() if (orbit.ball_speeds > 0).all() and not orbit.admissible
     ]
-    assert through_a_wall  # not only those that speeds give away
+    assert through_a_wall  # inadmissible orbits that are not recognised by the signs of their speeds
 
 
 @pytest.mark.parametrize("seed", [5, 11])
-def test_orbits_of_random_systems_are_proved_too(seed):
+def test_orbits_of_random_systems_are_proved(seed):
     for orbit in vi.orbits(random_system(np.random.default_rng(seed))):
         proof = prove(orbit)
         assert (proof.motion, proof.stability) == ("legal" if orbit.admissible else "not legal", floquet(orbit))
 
 
 @pytest.mark.parametrize(("beyond", "motion"), [(-1e-7, "not legal"), (1e-7, "legal")])
-def test_a_ball_that_just_misses_the_wall_or_does_not(chapter, beyond, motion):
-    """Next to the place where continuation finds that an asymmetric orbit grazes."""
+def test_proofs_distinguish_a_near_miss_from_a_hit(chapter, beyond, motion):
+    """The force is next to the one at which an asymmetric orbit grazes, found by continuation."""
     near = vi.orbits(chapter(1.0, 0.7645496612 + beyond))
     orbit = min(near, key=lambda o: np.hypot(*(o.C - [1.7160529, 0.6802411])) + o.symmetric)
     assert prove(orbit).motion == motion
 
 
-def test_spoilt_orbits_are_refused_and_small_errors_told(orbits):
+def test_wrong_orbits_are_refused_and_small_errors_are_reported(orbits):
     orbit = orbits["A3"]
-    spoilt = {
-        "phases": orbit.impact_phases + np.array([[0.01, 0.0], [0.0, 0.0]]),
-        "speeds": orbit.ball_speeds * 1.05,
-        "kind": True,
-        "system": orbit.system.with_(f10_hat=1.01),
-        "state": orbit.state + np.eye(8)[5] * 1e-3,
-        "multipliers": orbit.multipliers * [1, 1, 1, 0.99, 1, 1, 1, 1],
-    }
-    names = {"phases": "impact_phases", "speeds": "ball_speeds", "kind": "symmetric"}
-    for what, value in spoilt.items():
-        assert said(prove(dataclasses.replace(orbit, **{names.get(what, what): value}))) == REFUSED, what
-    double = orbit.multipliers.copy()
-    double[-1] = double[0]
-    assert said(prove(dataclasses.replace(orbit, multipliers=double))) == REFUSED
-    assert said(prove(dataclasses.replace(orbits["S4"], symmetric=False))) == REFUSED
+    wrong = [
+        {"impact_phases": orbit.impact_phases + np.array([[0.01, 0.0], [0.0, 0.0]])},
+        {"ball_speeds": orbit.ball_speeds * 1.05},
+        {"symmetric": True},
+        {"system": orbit.system.with_(f10_hat=1.01)},
+        {"state": orbit.state + np.eye(8)[5] * 1e-3},
+        {"multipliers": orbit.multipliers * [1, 1, 1, 0.99, 1, 1, 1, 1]},
+        {"multipliers": np.r_[orbit.multipliers[:-1], orbit.multipliers[0]]},
+    ]
+    for change in wrong:
+        assert results(prove(dataclasses.replace(orbit, **change))) == REFUSED, change
+    assert results(prove(dataclasses.replace(orbits["S4"], symmetric=False))) == REFUSED
     off = dataclasses.replace(orbit, ball_speeds=orbit.ball_speeds + 1e-7, multipliers=orbit.multipliers * (1 + 1e-6))
     assert prove(off).error == pytest.approx(1e-7, rel=1e-3)
     assert prove(off).moduli_error == pytest.approx(1e-6 * abs(orbit.multipliers[0]), rel=1e-3)
 
 
 def test_nothing_is_proved_where_symmetry_breaks_or_impacts_coincide(chapter):
-    """Where the asymmetric pair leaves the symmetric orbit it is not alone; with impacts at once the order is open."""
+    """At a symmetry breaking three orbits merge; the order of simultaneous impacts is undecided."""
 
     def symmetric(f):
         system = chapter(f, f)
@@ -127,7 +123,7 @@ def test_nothing_is_proved_where_symmetry_breaks_or_impacts_coincide(chapter):
         low, high = (middle, high) if np.abs(symmetric(middle).multipliers[1]) < 1 else (low, middle)
     outside = [sum(abs(value) > 1 for value in prove(symmetric(f)).multipliers) for f in (1.19, 1.21)]
     assert outside == [1, 2]
-    assert said(prove(symmetric(low))) == said(prove(symmetric(high))) == REFUSED
-    in_step = [orbit for orbit in vi.orbits(chapter(sigma20_hat=0)) if np.ptp(orbit.impact_phases, axis=0).max() < 1e-9]
-    assert in_step
-    assert {said(prove(orbit)) for orbit in in_step} == {REFUSED}
+    assert results(prove(symmetric(low))) == results(prove(symmetric(high))) == REFUSED
+    equal = [orbit for orbit in vi.orbits(chapter(sigma20_hat=0)) if np.ptp(orbit.impact_phases, axis=0).max() < 1e-9]
+    assert equal
+    assert {results(prove(orbit)) for orbit in equal} == {REFUSED}

@@ -1,4 +1,4 @@
-"""Exact 1:1 responses: reproduced by simulation, complete against brute force, known limits, symmetries, bad input."""
+"""Exact 1:1 orbits are reproduced by runs, found completely, and symmetric as the equations are."""
 
 import functools
 
@@ -16,22 +16,22 @@ known = functools.cache(orbits)
 
 @pytest.fixture(params=["equal", "unequal", "weak", "undamped", "heavy", "soft", "hard", "one_forced"])
 def scene(request, chapter):
-    """Systems of many kinds, near and far from the chapter's."""
+    """Return systems of different kinds in turn."""
     undamped = {"gamma1_hat": 0, "gamma2_hat": 0, "gamma12_hat": 0}
     return {
-        "equal": lambda: chapter(),
-        "unequal": lambda: chapter(1, 0.89),
-        "weak": lambda: chapter(0.5, 0.5),
-        "undamped": lambda: chapter(**undamped),
-        "heavy": lambda: chapter(epsilon=1.0),
-        "soft": lambda: chapter(kappa=0.01),
-        "hard": lambda: chapter(kappa=0.999, f20_hat=-1),
-        "one_forced": lambda: chapter(1, 0),
-    }[request.param]()
+        "equal": chapter(),
+        "unequal": chapter(1, 0.89),
+        "weak": chapter(0.5, 0.5),
+        "undamped": chapter(**undamped),
+        "heavy": chapter(epsilon=1.0),
+        "soft": chapter(kappa=0.01),
+        "hard": chapter(kappa=0.999, f20_hat=-1),
+        "one_forced": chapter(1, 0),
+    }[request.param]
 
 
 def events_of(orbit):
-    """(time, module, wall) of the four impacts, in order."""
+    """Return (time, module, wall) of the four impacts in order of time."""
     times = orbit.impact_phases * orbit.system.period
     return sorted((times[i, k], i + 1, (1, -1)[k]) for i in range(2) for k in range(2))
 
@@ -41,7 +41,7 @@ def same(a, b, atol=1e-9):
     return np.minimum(gap, 1 - gap).max() < atol and abs(a.ball_speeds - b.ball_speeds).max() < atol
 
 
-def test_the_engine_reproduces_admissible_orbits_and_no_others(scene):
+def test_runs_reproduce_admissible_orbits_only(scene):
     for orbit in known(scene):
         times, modules, walls = zip(*events_of(orbit), strict=True)
         try:
@@ -60,8 +60,8 @@ def test_the_engine_reproduces_admissible_orbits_and_no_others(scene):
                 np.testing.assert_allclose(run.samples[0], -orbit.state, rtol=0, atol=rounding)
 
 
-def test_one_module_may_be_asymmetric_alone(chapter):
-    """Without coupling: module 1 below the force at which symmetry breaks, module 2 above it."""
+def test_only_one_of_two_uncoupled_modules_may_be_asymmetric(chapter):
+    """The force on module 1 is below that of the symmetry breaking, the force on module 2 above it."""
     found = vi.orbits(chapter(1.0, 1.9, alpha12_hat=0, gamma12_hat=0, sigma20_hat=0))
     unequal = np.array([abs(np.diff(orbit.ball_speeds)[:, 0]) > 1e-6 for orbit in found])
     assert (unequal == [False, True]).all(axis=1).any()
@@ -87,7 +87,7 @@ def test_eight_times_the_starts_find_no_other_asymmetric_orbit(case, monkeypatch
     assert thorough.fewest_hits >= usual.fewest_hits
 
 
-def test_asymmetric_orbits_come_in_mirrored_neighbours(scene):
+def test_asymmetric_orbits_are_listed_in_mirrored_pairs(scene):
     asymmetric = [orbit for orbit in known(scene) if not orbit.symmetric]
     assert len(asymmetric) % 2 == 0
     for one, other in zip(asymmetric[0::2], asymmetric[1::2], strict=True):
@@ -99,7 +99,7 @@ def test_asymmetric_orbits_come_in_mirrored_neighbours(scene):
 
 
 def test_C_is_the_amplitude_of_the_saw_tooth_in_a_simulation(case):
-    """Half of what Z = W - U covers, from samples; of a symmetric orbit 1 - U at the wall, (10.12)."""
+    """C is half the range of sampled Z = W - U, and 1 - U at the wall in a symmetric orbit, (10.12)."""
     instants = np.linspace(0, case.period, 4001)
     for orbit in (o for o in known(case) if o.admissible):
         X, Y = (vi.simulate(case, orbit.state, 1, sample_times=instants).samples[:, k:4:2] for k in (0, 1))
@@ -110,10 +110,9 @@ def test_C_is_the_amplitude_of_the_saw_tooth_in_a_simulation(case):
             assert 1 - (x + case.epsilon * y) == pytest.approx(orbit.C[module], abs=1e-10)
 
 
-def test_identical_modules_swap(chapter):
-    uneven = {"sigma20_hat": 0}
-    plain = orbits(chapter(1.0, 0.7, gamma1_hat=0.1, gamma2_hat=0.4, **uneven))
-    swapped = orbits(chapter(0.7, 1.0, gamma1_hat=0.4, gamma2_hat=0.1, **uneven))
+def test_swapped_modules_have_swapped_orbits(chapter):
+    plain = orbits(chapter(1.0, 0.7, gamma1_hat=0.1, gamma2_hat=0.4, sigma20_hat=0))
+    swapped = orbits(chapter(0.7, 1.0, gamma1_hat=0.4, gamma2_hat=0.1, sigma20_hat=0))
     assert len(plain) == len(swapped) > 0
     for orbit in plain:
         (partner,) = [p for p in swapped if np.abs(p.state - orbit.state[[2, 3, 0, 1, 6, 7, 4, 5]]).max() < 1e-8]
@@ -121,8 +120,8 @@ def test_identical_modules_swap(chapter):
 
 
 @pytest.mark.parametrize("mistuning", [1e-3, 1e-6, 1e-9, 1e-12, 1e-15])
-def test_almost_identical_modules_keep_their_solutions(chapter, mistuning):
-    """Near the line of solutions at lag 0 that identical modules have, both ends of it are still found."""
+def test_almost_identical_modules_have_the_solutions_of_identical_modules(chapter, mistuning):
+    """Identical modules have a line of solutions at lag 0; both solutions at its ends are found near it."""
     limit = symmetric_solutions(chapter(sigma20_hat=0))
     near = symmetric_solutions(chapter(sigma20_hat=mistuning))
     assert len(near) == len(limit) == 2
@@ -130,8 +129,8 @@ def test_almost_identical_modules_keep_their_solutions(chapter, mistuning):
     np.testing.assert_allclose(near[order], limit[np.argsort(limit[:, 2])], rtol=0, atol=20 * mistuning + 1e-12)
 
 
-def test_orbits_do_not_depend_on_how_a_flight_is_cut(chapter, monkeypatch):
-    """The sizes below which memory is not saved, made so small that the chapter's period exceeds them."""
+def test_orbits_do_not_depend_on_the_size_of_pieces_of_a_flight(chapter, monkeypatch):
+    """The sizes that limit the memory are so small here that the chapter's period is divided."""
     whole = orbits(chapter())
     impulse_response._kept.cache_clear()
     monkeypatch.setattr(impulse_response, "_FINE_NODES", 7)

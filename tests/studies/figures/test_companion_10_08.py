@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from figure_tables import system_of, tables_of_run
+from chapter import system_of
+from figure_tables import tables_of_run
 from vibroimpact.studies.figures import companion_10_08
 from vibroimpact.tables import select
 from vibroimpact.theory.fixed_points.table import fixed_point_table

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from figure_tables import system_of
+from chapter import system_of
 from vibroimpact.studies.figures import nudge
 
 EQUAL = system_of("equal")
