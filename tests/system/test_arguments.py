@@ -1,4 +1,4 @@
-"""Bad arguments are refused before anything is computed, in one short line that begins with the argument's name."""
+"""Invalid arguments are refused before any computation, in one short line that begins with the argument's name."""
 
 from decimal import Decimal
 from fractions import Fraction
@@ -18,26 +18,26 @@ PHYSICAL = dict(
     L=1.0, kappa=0.65,
 )  # fmt: skip
 REST = [0.0] * 8
-NO_NUMBERS = [
+NOT_NUMBERS = [
     "0.65", None, True, np.True_, 0.65 + 0j, float("nan"), float("-inf"), 10**400, 10**5000, np.ma.masked,
     np.array([0.65]), Decimal("0.65"),
 ]  # fmt: skip
-NO_ARRAYS = [
+NOT_ARRAYS = [
     ["a"] * 8, ["0.0"] * 8, [None] * 8, [False] * 8, [0j] * 8, np.ma.masked_array(REST, mask=[1, *[0] * 7]),
     np.array([Fraction(0)] * 8, dtype=object), [10**400, *REST[1:]], [[0.0], [0.0, 0.0]], dict.fromkeys(range(8), 0.0),
     [np.nan, *REST[1:]],
 ]  # fmt: skip
 BEYOND = [[1.5, *REST[1:]], [1e13, 1e13 - 10, 0, 0, 0, 0, 0, 0], [100.0, 99.0 - 1e-11, 0, 0, 0, 0, 0, 0]]
-NO_STATES = [*NO_ARRAYS, None, 0.0, [0.0] * 7, [REST, REST], [np.inf, *REST[1:]], *BEYOND]
-NO_CYCLES = [*NO_NUMBERS, -1, 2.5, 1e17, 10**12, 10**13, [3]]
-NO_START = [*NO_NUMBERS, 1e300, 10**30, Fraction(10**30), 2.0**43, -(2.0**43)]
-NO_TIMES = [*NO_ARRAYS, [1.0, 0.5], [-0.1], [100.0], [[0.0, 1.0]], 1.0]
-NO_SYSTEMS = [CHAPTER, None, vi.System, 0.1]
-NUMBER_AND_BOUNDS = {
+BAD_STATES = [*NOT_ARRAYS, None, 0.0, [0.0] * 7, [REST, REST], [np.inf, *REST[1:]], *BEYOND]
+BAD_CYCLES = [*NOT_NUMBERS, -1, 2.5, 1e17, 10**12, 10**13, [3]]
+BAD_TAU0 = [*NOT_NUMBERS, 1e300, 10**30, Fraction(10**30), 2.0**43, -(2.0**43)]
+BAD_TIMES = [*NOT_ARRAYS, [1.0, 0.5], [-0.1], [100.0], [[0.0, 1.0]], 1.0]
+NOT_SYSTEMS = [CHAPTER, None, vi.System, 0.1]
+OUT_OF_BOUNDS = {
     "kappa": [0.0, 1.0, 1.5], "epsilon": [0.0, -0.1, 1e300], "gamma12_hat": [-0.1], "alpha12_hat": [-1.0],
     "sigma20_hat": [-10.0], "sigma_e_hat": [-11.0],
 }  # fmt: skip
-PHYSICAL_BOUNDS = {"M": [0.0], "L": [-1.0], "k2": [0.0], "c1": [-1.0], "kappa": [1.5], "omega2": [2.0]}
+PHYSICAL_OUT_OF_BOUNDS = {"M": [0.0], "L": [-1.0], "k2": [0.0], "c1": [-1.0], "kappa": [1.5], "omega2": [2.0]}
 CALLS = {
     "simulate": (vi.simulate, dict(system=SYSTEM, state=REST, cycles=2)),
     "simulate_many": (vi.simulate_many, dict(system=SYSTEM, states=[REST], cycles=2)),
@@ -50,13 +50,13 @@ CALLS = {
     "errors": (vi.simulate(SYSTEM, REST, 1).errors, {}),
 }
 BAD = {
-    "simulate": dict(system=NO_SYSTEMS, state=NO_STATES, cycles=NO_CYCLES, tau0=NO_START, sample_times=NO_TIMES),
+    "simulate": dict(system=NOT_SYSTEMS, state=BAD_STATES, cycles=BAD_CYCLES, tau0=BAD_TAU0, sample_times=BAD_TIMES),
     "simulate_many": dict(
-        system=NO_SYSTEMS, states=[*NO_ARRAYS, None, REST, [REST, BEYOND[0]]], cycles=NO_CYCLES, tau0=NO_START
+        system=NOT_SYSTEMS, states=[*NOT_ARRAYS, None, REST, [REST, BEYOND[0]]], cycles=BAD_CYCLES, tau0=BAD_TAU0
     ),
     "ensemble": dict(systems=["equal", [None]], states=[np.zeros(7)], cycles=[-1], settle=[4, -1], tau0=[np.nan]),
-    "fixed_points": dict(system=NO_SYSTEMS),
-    "orbits": dict(system=NO_SYSTEMS),
+    "fixed_points": dict(system=NOT_SYSTEMS),
+    "orbits": dict(system=NOT_SYSTEMS),
     "periodic_orbit": dict(system=[None], state=[BEYOND[0]], periods=[0]),
     "search": dict(system=[None]),
     "reference_run": dict(
@@ -73,7 +73,7 @@ def cases():
             yield from (pytest.param(call, name, value, id=f"{call}, {name}, {k}") for k, value in enumerate(values))
 
 
-def refused(name, call):
+def assert_refused(name, call):
     with pytest.raises(ValueError, match=rf"\A{name}[:\[]") as refusal:
         call()
     assert "\n" not in str(refusal.value)
@@ -81,37 +81,37 @@ def refused(name, call):
 
 
 @pytest.mark.parametrize(("call", "name", "value"), [*cases()])
-def test_arguments_of_functions(call, name, value):
+def test_invalid_arguments_of_functions_are_refused(call, name, value):
     function, good = CALLS[call]
-    refused(name, lambda: function(**{**good, name: value}))
+    assert_refused(name, lambda: function(**{**good, name: value}))
 
 
 @pytest.mark.parametrize("name", CHAPTER)
 def test_parameters_are_real_numbers_within_bounds(name):
-    for value in [*NO_NUMBERS, *NUMBER_AND_BOUNDS.get(name, [])]:
-        refused(name, lambda value=value: vi.System(**{**CHAPTER, name: value}))
-        refused(name, lambda value=value: SYSTEM.with_(**{name: value}))
+    for value in [*NOT_NUMBERS, *OUT_OF_BOUNDS.get(name, [])]:
+        assert_refused(name, lambda value=value: vi.System(**{**CHAPTER, name: value}))
+        assert_refused(name, lambda value=value: SYSTEM.with_(**{name: value}))
 
 
 @pytest.mark.parametrize("name", ["M", "F10", "kappa", "L", "k2", "c1", "omega2"])
 def test_physical_parameters_are_real_numbers_within_bounds(name):
-    for value in [*NO_NUMBERS, *PHYSICAL_BOUNDS.get(name, [])]:
-        refused(name, lambda value=value: vi.PhysicalSystem(**{**PHYSICAL, name: value}).dimensionless())
+    for value in [*NOT_NUMBERS, *PHYSICAL_OUT_OF_BOUNDS.get(name, [])]:
+        assert_refused(name, lambda value=value: vi.PhysicalSystem(**{**PHYSICAL, name: value}).dimensionless())
 
 
 @pytest.mark.parametrize("kind", [float, int, Fraction, np.float32, np.float64, np.longdouble, np.int64])
-def test_real_numbers_of_every_kind_are_taken(kind):
+def test_real_numbers_of_every_type_are_accepted(kind):
     system = vi.System(**{**CHAPTER, "f10_hat": kind(2)})
     assert type(system.f10_hat) is float
     start = np.array([0] * 8, dtype=np.int16)
     run = vi.simulate(system, start, kind(3), tau0=kind(1), sample_times=(1, 2))
-    start[0] = 5  # the state of the caller is copied
+    start[0] = 5  # the run has its own copy
     expected = vi.simulate(SYSTEM.with_(f10_hat=2.0), REST, 3, tau0=1.0)
     np.testing.assert_array_equal(run.final, expected.final)
     assert (run.cycles, run.start[0]) == (3, 0.0)
 
 
-def test_results_have_one_line():
+def test_results_are_shown_in_one_line():
     run = vi.simulate(SYSTEM, REST, 200)
     for result in (run, run.certificate, run.energy, vi.fixed_points(SYSTEM)[0], vi.orbits(SYSTEM)[1]):
         line = repr(result)

@@ -1,4 +1,4 @@
-"""Parameters: scaling of (10.1) to (10.2), derived quantities, matrices."""
+"""Parameters are scaled from (10.1) to (10.2); derived quantities, matrices and verdicts follow from them."""
 
 import math
 from dataclasses import replace
@@ -20,8 +20,7 @@ PLANT = vi.PhysicalSystem(
 )  # fmt: skip
 
 
-def test_definitions_below_10_2():
-    """Every dimensionless parameter from its definition, written out with numbers."""
+def test_dimensionless_parameters_follow_the_definitions_below_10_2():
     system = PLANT.dimensionless()
     assert PLANT.omega10 == 5.0
     assert system.epsilon == pytest.approx(0.15)
@@ -40,7 +39,7 @@ def test_definitions_below_10_2():
         (False, (1.0, 0.0), (1,)), (False, (0.0, 1.0), (2,)), (False, (0.0, 0.0), ()),
     ],
 )  # fmt: skip
-def test_modules_that_a_force_or_the_other_module_moves_take_part(coupled, forces, modules):
+def test_modules_take_part_if_a_force_or_the_other_module_moves_them(coupled, forces, modules):
     links = {} if coupled else dict(alpha12_hat=0.0, gamma12_hat=0.0)
     f10, f20 = forces
     assert vi.System(**CHAPTER | links | dict(f10_hat=f10, f20_hat=f20)).modules == modules
@@ -52,19 +51,19 @@ UNDAMPED = dict.fromkeys(("gamma1_hat", "gamma2_hat", "gamma12_hat"), 0.0)
 @pytest.mark.parametrize(
     ("changes", "load"),
     [
-        # A resonance by its force: box 1, box 2, and both at once, in which no stiffness is left.
+        # uncoupled boxes: resonance of box 1, of box 2, and of both, where the dynamic stiffness vanishes
         (UNDAMPED | dict(alpha12_hat=0.0, sigma20_hat=0.5, sigma_e_hat=0.0), [1, 0]),
         (UNDAMPED | dict(alpha12_hat=0.0, sigma20_hat=2.1, sigma_e_hat=1.0), [0, 1]),
         (UNDAMPED | dict(alpha12_hat=0.0, sigma20_hat=0.0, sigma_e_hat=0.0), [1, 0]),
         (UNDAMPED | dict(alpha12_hat=0.0, sigma20_hat=0.0, sigma_e_hat=0.0), [0, 1]),
-        # Equal boxes in phase, without and with a damper between them; and in antiphase.
+        # equal boxes: in phase, without and with a damper between them, and in antiphase
         (UNDAMPED | dict(sigma20_hat=0.0, sigma_e_hat=0.0), [1, 1]),
         (UNDAMPED | dict(alpha12_hat=0.0, gamma12_hat=0.2, sigma20_hat=0.0, sigma_e_hat=0.0), [1, 1]),
         (UNDAMPED | dict(alpha12_hat=2.2, sigma20_hat=0.0, sigma_e_hat=10 * (math.sqrt(1.44) - 1)), [1, -1]),
     ],
 )
-def test_forces_that_load_an_undamped_resonance_are_refused(changes, load):
-    """The mode is known in closed form: a force that does work on it is refused, one across it is not."""
+def test_forces_that_do_work_on_an_undamped_resonance_are_refused(changes, load):
+    """Forces orthogonal to the mode, small damping and detuning are accepted."""
     one, other = load
     for f10, f20 in ((one, other), (-0.01 * one, -0.01 * other), (one + other, other - one)):
         with pytest.raises(ValueError, match=r"\Asigma_e_hat: .* drives the undamped boxes at their resonance"):
@@ -77,8 +76,8 @@ def test_forces_that_load_an_undamped_resonance_are_refused(changes, load):
 
 @pytest.mark.parametrize("drive", [{"base": 0.3}, {"unbalance": 0.2}])
 @pytest.mark.parametrize("omega", [0.6, 1.4, 3.0])
-def test_a_moving_base_and_an_unbalance_move_the_box_as_in_closed_form(drive, omega):
-    """A ball that meets no wall: transmissibility of a base, u omega^2 over the dynamic stiffness of an unbalance."""
+def test_the_response_to_a_moving_base_or_an_unbalance_is_the_closed_form(drive, omega):
+    """The ball does not impact. The response is the transmissibility, or u omega^2 over the dynamic stiffness."""
     M, k, c, L = 2.0, 5.0, 0.7, 3.0
     machine = vi.PhysicalSystem.single(M=M, m=0.1, k=k, c=c, L=L, omega=omega, **drive)
     load = 0.3 * abs(k + 1j * c * omega) if "base" in drive else 0.2 * omega**2
@@ -102,7 +101,7 @@ def test_a_machine_has_one_drive():
 
 
 def test_matrices_are_those_of_10_2():
-    """Against the left-hand sides of (10.2) typed term by term."""
+    """(10.2) is written out term by term."""
     system = vi.System(**CHAPTER)
     x1, x2, d1, d2, tau = np.random.default_rng(0).normal(size=5)
     spring, damper = 0.1 * (x2 - x1), 0.02 * (d2 - d1)
@@ -118,11 +117,11 @@ def test_matrices_are_those_of_10_2():
 
 
 @given(st.floats(allow_nan=False), st.floats(0, allow_nan=False))
-def test_a_verdict_is_decided_exactly_outside_the_error(margin, error):
+def test_a_verdict_is_undecided_exactly_within_the_error(margin, error):
     assert verdict(margin, error) == (STABLE if margin > error else UNSTABLE if -margin > error else UNDECIDED)
 
 
-def test_nothing_is_decided_without_numbers_and_one_unstable_module_decides():
+def test_verdicts_without_numbers_are_undecided_and_one_unstable_module_decides():
     assert {verdict(math.nan, 0.1), verdict(1.0, math.nan), verdict(1e300, math.inf)} == {UNDECIDED}
     assert all_stable([STABLE, UNDECIDED, UNSTABLE]) == all_stable([UNSTABLE, STABLE]) == UNSTABLE
     assert all_stable([STABLE, UNDECIDED]) == all_stable([UNDECIDED]) == UNDECIDED

@@ -1,4 +1,4 @@
-"""The slow invariant manifold and its saw-tooth, (10.11)-(10.17), (10.25): impact conditions, walls, sampled motion."""
+"""The slow invariant manifold and its saw-tooth, (10.11)-(10.17), (10.25), satisfy impact conditions and walls."""
 
 import mpmath
 import numpy as np
@@ -18,9 +18,6 @@ def rho(kappa):
     return 2 * (1 - kappa) / (np.pi * (1 + kappa))
 
 
-# The saw-tooth
-
-
 @given(angles, amplitudes, angles)
 def test_the_saw_tooth_is_the_arcsine_of_the_cosine(tau0, C, theta):
     with mpmath.workdps(40):
@@ -28,7 +25,7 @@ def test_the_saw_tooth_is_the_arcsine_of_the_cosine(tau0, C, theta):
     assert manifold.sawtooth(tau0, C, theta) == pytest.approx(float(exact), abs=5e-14)
 
 
-def test_fourier_coefficients_are_those_of_10_19():
+def test_fourier_coefficients_of_the_saw_tooth_are_those_of_10_19():
     samples, C, theta = 2**14, 0.7, 0.3
     spectrum = 2 * np.fft.rfft(manifold.sawtooth(2 * np.pi * np.arange(samples) / samples, C, theta)) / samples
     n = np.arange(1, 12)
@@ -36,12 +33,9 @@ def test_fourier_coefficients_are_those_of_10_19():
     assert np.abs(spectrum[n] - expected).max() < 1e-7
 
 
-# The manifold
-
-
 @given(kappas, amplitudes)
-def test_the_ball_meets_the_wall_at_one_and_obeys_restitution(kappa, C):
-    """(10.12); (10.14) as Newton's rule: relative speed -kappa times the one before."""
+def test_the_impact_is_at_the_wall_and_obeys_restitution(kappa, C):
+    """(10.12), and (10.14) as Newton's rule: an impact multiplies the relative speed by -kappa."""
     r = manifold.rho(kappa)
     U = manifold.B_of_C(C, r) * np.exp(1j * manifold.impact_phase(C, r))
     assert U.imag + C == pytest.approx(1, abs=1e-14)
@@ -51,12 +45,12 @@ def test_the_ball_meets_the_wall_at_one_and_obeys_restitution(kappa, C):
 
 
 @given(kappas, amplitudes, st.floats(0, 10))
-def test_10_15_and_10_16_are_the_same_curve_and_both_arms_are_on_it(kappa, C, above):
+def test_10_15_and_10_16_are_the_same_curve_with_two_arms(kappa, C, above):
     r = manifold.rho(kappa)
     B = manifold.B_of_C(C, r)
     assert pytest.approx(1 - 2 * C + (1 + r**2) * C**2, abs=1e-13) == B**2
     lower, upper = manifold.C_of_B(max(B, manifold.B_min(r)), r)
-    # B is flat at the fold: C is known there to the square root of rounding only.
+    # B has a minimum at the fold, so that the error of C is the square root of rounding
     assert min(abs(lower - C), abs(upper - C)) < 1e-7
     assert lower <= manifold.C_min(r) + 1e-15 <= upper + 2e-15
     for arm in manifold.C_of_B(manifold.B_min(r) + above, r):
@@ -65,14 +59,14 @@ def test_10_15_and_10_16_are_the_same_curve_and_both_arms_are_on_it(kappa, C, ab
 
 @given(kappas)
 def test_the_fold_is_the_minimum(kappa):
-    """(10.25), with both arms meeting there exactly."""
+    """(10.25); both arms end there."""
     r = manifold.rho(kappa)
     assert manifold.B_of_C(manifold.C_min(r), r) == pytest.approx(manifold.B_min(r), rel=1e-12)
     assert manifold.C_of_B(manifold.B_min(r), r) == pytest.approx((manifold.C_min(r),) * 2, rel=1e-14)
     assert manifold.B_of_C(manifold.C_min(r) + np.array([-1e-3, 1e-3]), r).min() > manifold.B_min(r)
 
 
-def test_below_the_fold_there_is_no_manifold():
+def test_B_below_the_fold_is_refused():
     with pytest.raises(ValueError, match=r"^B: 0\.1 is below B_min = 0\.13"):
         manifold.C_of_B([0.5, 0.1], manifold.rho(0.65))
 
@@ -85,16 +79,13 @@ def test_slope_is_the_derivative(kappa, C):
     assert manifold.slope(C, r) == pytest.approx(float(exact), rel=1e-10, abs=1e-12)
 
 
-# Between the walls
-
-
 def W(t, C, kappa):
-    """(10.10) with (10.11), (10.17), the time t after the impact with W = +1."""
+    """Return W at the time t after the impact with W = +1, by (10.10) with (10.11) and (10.17)."""
     return (1 - C) * np.cos(t) + rho(kappa) * C * np.sin(t) + C * (1 - 2 * t / np.pi)
 
 
 def excursion(C, kappa):
-    """Largest |W| - 1 over a flight: sampled, then refined."""
+    """Return the largest |W| - 1 in a flight, refined from samples."""
     t = np.linspace(0, np.pi, 4001)
     k = np.abs(W(t, C, kappa)).argmax()
     around = t[max(k - 1, 0)], t[min(k + 1, len(t) - 1)]
@@ -104,7 +95,7 @@ def excursion(C, kappa):
 
 @settings(max_examples=200)
 @given(kappas, st.floats(-4, 12))
-def test_the_ball_is_within_the_walls_exactly_up_to_the_largest_C_and_beyond_by_the_overshoot(kappa, C):
+def test_the_ball_stays_within_the_walls_up_to_the_largest_C_and_beyond_exceeds_them_by_the_overshoot(kappa, C):
     beyond = excursion(C, kappa)
     assert float(manifold.overshoot(C, manifold.rho(kappa))) == pytest.approx(max(0.0, beyond), abs=1e-8)
     assume(min(abs(C), abs(C - manifold.largest_C(kappa))) > 1e-3)
@@ -113,7 +104,7 @@ def test_the_ball_is_within_the_walls_exactly_up_to_the_largest_C_and_beyond_by_
 
 @given(kappas)
 def test_at_the_largest_C_the_ball_grazes_the_wall_it_left(kappa):
-    """W = 1 and W' = 0 there, in 50 digits from the double's value."""
+    """W = 1 and W' = 0 there, in 50 digits."""
     C, t = manifold.largest_C(kappa), manifold.grazing_time(kappa)
     with mpmath.workdps(50):
         k = mpmath.mpf(kappa)
@@ -127,7 +118,7 @@ def test_at_the_largest_C_the_ball_grazes_the_wall_it_left(kappa):
 
 @pytest.mark.parametrize("kappa", [1e-300, 1e-12, 1e-6, 3e-5])
 def test_limit_of_plastic_impacts(kappa):
-    """tan(p) / p = 1 + kappa in 400 digits, p half the grazing time; C = 1 + (8 / pi) sqrt(kappa / 3) + ..."""
+    """Half the grazing time p solves tan(p) / p = 1 + kappa (400 digits); C = 1 + (8 / pi) sqrt(kappa / 3) + ..."""
     with mpmath.workdps(400):
         p = mpmath.findroot(lambda p: mpmath.tan(p) - p * (1 + mpmath.mpf(kappa)), mpmath.sqrt(3 * mpmath.mpf(kappa)))
     assert manifold.grazing_time(kappa) == pytest.approx(float(2 * p), rel=1e-12)

@@ -1,4 +1,4 @@
-"""Masri's analysis: by computer algebra from the equations of motion, and by the map of a ball between moving walls."""
+"""Masri's analysis agrees with computer algebra, the map of a ball between moving walls, and exact orbits."""
 
 import mpmath
 import numpy as np
@@ -8,32 +8,29 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
-from chapter import FORCES, PARAMETERS
+from chapter import FORCES, system_of
 from vibroimpact.exact.orbits.search import orbits
 from vibroimpact.theory import masri
 from vibroimpact.theory.masri import printed_limit
 
 kappas = st.floats(0.05, 0.95)
 FOLD, BREAKING = 1 / (1 + (14 / (33 * np.pi)) ** 2), np.pi**2 / (np.pi**2 - 4)
-"""Both limits at kappa = 0.65 by hand: rho = 2 (0.35) / (1.65 pi) = 14 / (33 pi)."""
+"""Both limits at kappa = 0.65, where rho = 2 (0.35) / (1.65 pi) = 14 / (33 pi)."""
 
 
-# By computer algebra
+def test_trace_determinant_and_limits_of_the_half_cycle_map_by_computer_algebra():
+    """The map of (delta t, delta W'+) follows from free flight, wall and Newton's rule.
 
-
-def test_trace_and_determinant_of_the_half_cycle_map_and_all_its_limits():
-    """The map of (delta t, delta W'+), from free flight, wall and Newton's rule, in terms of C and kappa.
-
-    A multiplier is +1 at the fold only, -1 at pi^2/(pi^2 - 4) only; a complex pair has modulus kappa.
+    A multiplier is +1 only at the fold, -1 only at pi^2/(pi^2 - 4); a complex pair has modulus kappa.
     """
     t1, t2, w1, w2, B = sympy.symbols("t1 t2 w1 w2 B", real=True)
     C, kappa = sympy.symbols("C kappa", positive=True)
-    # Times are phases of U = B sin t; the ball is free, so W - U is straight from W(t1) = 1, W'(t1) = w1.
+    # Times are phases of U = B sin t; the ball is free, so that W - U is linear from W(t1) = 1, W'(t1) = w1.
     slope = w1 - B * sympy.cos(t1)
-    meets = 1 + B * (sympy.sin(t2) - sympy.sin(t1)) + slope * (t2 - t1) + 1
-    # Seen in the mirror (W -> -W, half a cycle later) the motion after the impact with W = -1 is w2.
+    wall = 1 + B * (sympy.sin(t2) - sympy.sin(t1)) + slope * (t2 - t1) + 1
+    # w2 is minus the relative velocity after the impact with W = -1 (mirrored: W -> -W, half a cycle later).
     newton = w2 - kappa * (B * sympy.cos(t2) + slope)
-    equations = sympy.Matrix([meets, newton])
+    equations = sympy.Matrix([wall, newton])
     ends, starts = sympy.Matrix([t2, w2]), sympy.Matrix([t1, w1])
     step = -equations.jacobian(ends).inv() * equations.jacobian(starts)
     # The periodic motion: (10.12) B sin t1 = 1 - C, (10.17) B cos t1 = rho C, slope of (10.11) -2 C / pi.
@@ -50,13 +47,10 @@ def test_trace_and_determinant_of_the_half_cycle_map_and_all_its_limits():
     assert [sympy.simplify(root - sympy.pi**2 / (sympy.pi**2 - 4)) for root in minus] == [0]
 
 
-# A ball between walls that oscillate as prescribed
-
-
 def mirrored_impact(phase, speed, B, kappa):
-    """Phase of U and slope of W - U after the next impact, mirrored so that a symmetric motion is a fixed point.
+    """Return phase of U and slope of W - U after the next impact, mirrored so that symmetric motions are fixed points.
 
-    The ball leaves W = 1 at the phase and flies straight in W - U until W = -1; then Newton's rule.
+    The ball leaves W = 1 at the phase; W - U is linear until W = -1, where Newton's rule applies.
     """
 
     def miss(later):
@@ -90,12 +84,9 @@ def test_multipliers_are_those_of_the_impact_map(kappa, C):
     assert masri.multipliers(C, kappa) == pytest.approx(found**2)
 
 
-# Limits and verdict
-
-
 @given(kappas)
-def test_both_readings_of_10_26_lie_below_the_fold(kappa):
-    """In terms of kappa: 4 / (4 + pi rho) as printed, and 4 / (4 + pi^2 rho^2) if squares had been lost."""
+def test_the_limits_of_10_26_with_and_without_squares_are_below_the_fold(kappa):
+    """The printed limit is 4 / (4 + pi rho); with squares it would be 4 / (4 + pi^2 rho^2)."""
     rho = 2 * (1 - kappa) / (np.pi * (1 + kappa))
     printed, squared = 2 * (1 + kappa) / (3 + kappa), (1 + kappa) ** 2 / (2 * (1 + kappa**2))
     assert printed_limit(rho) == pytest.approx(printed, rel=1e-14)
@@ -105,8 +96,7 @@ def test_both_readings_of_10_26_lie_below_the_fold(kappa):
 
 
 @given(kappas, st.floats(-2, 4), st.floats(0, 0.1))
-def test_three_states(kappa, C, error):
-    """Undecided exactly near a limit; elsewhere the multipliers say the same."""
+def test_the_verdict_is_undecided_only_near_a_limit_and_otherwise_that_of_the_multipliers(kappa, C, error):
     rho = 2 * (1 - kappa) / (np.pi * (1 + kappa))
     gap = min(abs(C - 1 / (1 + rho**2)), abs(C - BREAKING))
     if abs(gap - error) < 1e-12:
@@ -118,25 +108,24 @@ def test_three_states(kappa, C, error):
 
 
 @pytest.mark.parametrize("limit", [FOLD, BREAKING])
-def test_at_a_limit_rounding_leaves_it_undecided(limit):
-    with pytest.raises(ValueError, match=r"^C: must not be 0"):
-        masri.impact_multipliers(0.0, 0.65)
+def test_the_verdict_at_a_limit_is_undecided(limit):
     assert masri.stable(limit, 0.65) == "undecided"
     assert masri.stable(limit + 1e-12, 0.65) != masri.stable(limit - 1e-12, 0.65)
 
 
-# The exact system as epsilon tends to 0
+def test_an_amplitude_of_zero_is_refused():
+    with pytest.raises(ValueError, match=r"^C: must not be 0"):
+        masri.impact_multipliers(0.0, 0.65)
 
 
 @pytest.mark.parametrize("case", FORCES)
-def test_fast_multipliers_of_exact_orbits_tend_to_masri_s(case):
-    """Linearly in epsilon, for every fixed point of the chapter's cases."""
-    f = dict(zip(("f10_hat", "f20_hat"), FORCES[case], strict=True))
-    for point in vi.fixed_points(vi.System(**PARAMETERS, **f)):
+def test_fast_multipliers_of_exact_orbits_tend_to_those_of_masri(case):
+    """The error is linear in epsilon, for each fixed point of the chapter's cases."""
+    for point in vi.fixed_points(system_of(case)):
         expected = np.concatenate([masri.multipliers(C, 0.65) for C in point.C])
         gaps = []
         for epsilon in (2e-5, 1e-5):
-            listed = [o for o in orbits(vi.System(**PARAMETERS | dict(epsilon=epsilon), **f)) if o.symmetric]
+            listed = [orbit for orbit in orbits(system_of(case, epsilon=epsilon)) if orbit.symmetric]
             orbit = min(listed, key=lambda o: np.abs(o.C - point.C).max())
             assert np.abs(orbit.C - point.C).max() < 10 * epsilon
             fast = np.array([orbit.multipliers[np.abs(orbit.multipliers - m).argmin()] for m in expected])

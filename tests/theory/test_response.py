@@ -1,22 +1,21 @@
-"""The leading-order response and its power: impact conditions, equations of motion, the limit of exact orbits."""
+"""The leading-order response satisfies impact conditions and equations of motion, and is the limit of exact orbits."""
 
 import numpy as np
 import pytest
 
 import vibroimpact as vi
-from chapter import FORCES, PARAMETERS
+from chapter import FORCES, system_of
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
 from vibroimpact.theory.response import impact_times, leading_order, mean_power
 
-SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+SYSTEM = system_of("equal")
 POINTS = vi.fixed_points(SYSTEM)
-both = pytest.mark.parametrize("module", [0, 1])
 each = pytest.mark.parametrize("point", POINTS, ids=range(len(POINTS)))
 
 
 @each
-def test_U_and_W_are_those_of_X_and_Y(point):
+def test_U_and_W_follow_from_X_and_Y(point):
     response = leading_order(SYSTEM, point, np.linspace(-3, 40, 101))
     assert response.X + SYSTEM.epsilon * response.Y == pytest.approx(response.U, abs=1e-14)
     assert np.abs(response.X - response.Y - response.W).max() < 1e-14
@@ -24,12 +23,11 @@ def test_U_and_W_are_those_of_X_and_Y(point):
 
 
 @each
-@both
-def test_impacts_at_the_walls_obey_restitution(point, module):
+@pytest.mark.parametrize("module", [0, 1])
+def test_impacts_are_at_the_walls_and_obey_restitution(point, module):
     for wall, shift in ((1, 0.0), (-1, SYSTEM.period / 2)):
-        at = impact_times(SYSTEM, point)[module] + shift
-        h = 1e-6 * SYSTEM.period
-        W = leading_order(SYSTEM, point, at + h * np.array([-2, -1, 0, 1, 2])).W[:, module]
+        time, h = impact_times(SYSTEM, point)[module] + shift, 1e-6 * SYSTEM.period
+        W = leading_order(SYSTEM, point, time + h * np.array([-2, -1, 0, 1, 2])).W[:, module]
         assert W[2] == pytest.approx(wall, abs=1e-12)
         before, after = (W[1] - W[0]) / h, (W[4] - W[3]) / h
         assert after == pytest.approx(-SYSTEM.kappa * before, abs=2e-5)
@@ -38,7 +36,7 @@ def test_impacts_at_the_walls_obey_restitution(point, module):
 
 @each
 def test_box_and_ball_satisfy_the_equations_to_leading_order(point):
-    """First harmonic of (10.2)'s momentum balance U'' + ... = f sin: the residual must be of order epsilon^2."""
+    """The residual in the first harmonic of the momentum balance U'' + ... = f sin of (10.2) is O(epsilon^2)."""
 
     def residual(epsilon):
         system = SYSTEM.with_(epsilon=epsilon)
@@ -56,25 +54,25 @@ def test_box_and_ball_satisfy_the_equations_to_leading_order(point):
     assert residual(1e-3) / residual(1e-4) == pytest.approx(100, rel=0.02)
 
 
-@pytest.mark.parametrize("forces", FORCES.values(), ids=FORCES)
-def test_what_the_forces_supply_is_dissipated(forces):
-    system = vi.System(**PARAMETERS, f10_hat=forces[0], f20_hat=forces[1])
+@pytest.mark.parametrize("case", FORCES)
+def test_the_power_of_the_forces_is_dissipated(case):
+    system = system_of(case)
     for point in vi.fixed_points(system):
         power = mean_power(system, point)
-        spent = power.ground.sum() + power.coupling + power.impacts.sum()
-        assert power.work.sum() == pytest.approx(spent, rel=1e-11)
+        dissipated = power.ground.sum() + power.coupling + power.impacts.sum()
+        assert power.work.sum() == pytest.approx(dissipated, rel=1e-11)
         assert 0 < power.impact_share < 1
 
 
-def test_the_exact_orbits_differ_by_the_order_of_epsilon():
-    """Halving epsilon halves the relative error of every part of the power and of the share of the impacts."""
+def test_the_power_differs_from_that_of_exact_orbits_by_the_order_of_epsilon():
+    """If epsilon is halved, the relative errors of all parts of the power and of the impact share are halved."""
 
     def parts(power):
         return np.hstack([power.work, power.ground, power.coupling, power.impacts])
 
     errors = []
     for epsilon in (0.02, 0.01, 0.005):
-        system = vi.System(**{**PARAMETERS, "epsilon": epsilon}, f10_hat=1.0, f20_hat=0.89)
+        system = system_of("unequal", epsilon=epsilon)
         orbits = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
         found = []
         for point in vi.fixed_points(system):

@@ -1,4 +1,4 @@
-"""The slow flow by computer algebra from (10.3); its linearisation against differences in high precision."""
+"""The slow flow follows from (10.3) by computer algebra; its linearisation agrees with high-precision differences."""
 
 import functools
 from types import SimpleNamespace
@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from amplitude_rates import jacobian
-from chapter import PARAMETERS
+from chapter import system_of
 from vibroimpact.theory import manifold, slow_flow
 from vibroimpact.theory.slow_flow import linearisation, slow_eigenvalues
 
@@ -29,10 +29,9 @@ theta = sp.symbols("theta_1:3", real=True)
 
 
 def equations_10_3(U, W, D, forcing, hats):
-    """Left minus right of (10.3) with the misprints in the forcing of W_1 corrected; impulses left out.
+    """Return the residuals (U equation, W equation) of (10.3) for each module, with misprints corrected, no impulses.
 
-    D differentiates with respect to tau; `hats` turns a hatted parameter into the physical one.
-    Returns the pair of residuals (U equation, W equation) per module.
+    D differentiates with respect to tau; `hats` converts a hatted parameter into the physical one.
     """
     X = [(U[i] + eps * W[i]) / (1 + eps) for i in (0, 1)]
     stiffness = (1, 1 + hats(sigma20))
@@ -45,7 +44,7 @@ def equations_10_3(U, W, D, forcing, hats):
 
 
 def test_10_3_follows_from_10_2():
-    """With U = X + eps Y and W = X - Y; the impulse is eps P on the box and -eps P / eps on the ball."""
+    """With U = X + eps Y and W = X - Y, and the contact force eps P / (1 + eps) on the ball."""
     X, Y, P = ([sp.Function(f"{name}_{i}")(tau) for i in (1, 2)] for name in "XYP")
     force = [sp.Function(f"F_{i}")(tau) for i in (1, 2)]
     accelerations = {}
@@ -59,12 +58,12 @@ def test_10_3_follows_from_10_2():
     residuals = equations_10_3(U, W, lambda e: e.diff(tau), force, lambda hat: hat)
     for (of_U, of_W), impulse in zip(residuals, P, strict=True):
         assert sp.simplify(of_U.subs(accelerations)) == 0
-        # The impulses stand in the W equations alone: P / (1 + eps) * (1 + eps) = P.
+        # Only the W equations contain the impulses: P / (1 + eps) * (1 + eps) = P.
         assert sp.simplify(of_W.subs(accelerations) + impulse) == 0
 
 
 def multiple_scales(order):
-    """Coefficients of eps^order of the residuals of (10.3) under (10.4)-(10.7), and the leading-order parts."""
+    """Return the coefficients of eps^order in (10.3) under (10.4)-(10.7), and the leading-order parts."""
 
     def D(expression):
         return expression.diff(t0) + eps * expression.diff(t1)
@@ -85,13 +84,13 @@ def test_leading_order_is_10_8():
     residuals, U0, _, Z = multiple_scales(0)
     for i, (of_U, of_W) in enumerate(residuals):
         assert sp.simplify(of_U) == 0
-        # W_i0'' + U_i0 with W_i0 = U_i0 + Z_i leaves the curvature of Z, that is the impulses.
+        # W_i0'' + U_i0 with W_i0 = U_i0 + Z_i is the curvature of Z, that is, the impulses.
         assert sp.simplify(of_W - (U0[i].diff(t0, 2) + Z[i].diff(t0, 2) + U0[i])) == 0
 
 
 @functools.cache
 def solvability():
-    """D_1 B_i and D_1 phi_i, (10.20), from the absence of secular terms at order eps."""
+    """Return D_1 B_i and D_1 phi_i, (10.20), which follow since secular terms vanish at order eps."""
     residuals, _, U1, Z = multiple_scales(1)
     first_harmonic = {Z[i]: 8 / sp.pi**2 * C[i] * sp.cos(t0 - theta[i]) for i in (0, 1)}  # (10.19), n = 1
     conditions = []
@@ -107,7 +106,7 @@ def solvability():
 
 
 def test_slow_flow_is_the_solvability_condition(monkeypatch):
-    """(10.20) -> (10.22) by (10.17) and (10.21), against the implementation with symbols for every parameter."""
+    """(10.22) follows from (10.20) by (10.17) and (10.21); the implementation is evaluated with symbols."""
     solution, unknown = solvability()
     b = np.array(sp.symbols("b_1:3", positive=True))
     psi = np.array(sp.symbols("psi_1:3", real=True))
@@ -138,8 +137,8 @@ def test_slow_flow_is_the_solvability_condition(monkeypatch):
         assert sp.expand((derived_psi - dpsi[i]).rewrite(sp.exp)) == 0
 
 
-def test_complex_form_holds_for_a_saw_tooth_of_any_harmonic():
-    """2i D_1 b_i = f_i - (e_i + N_i) b_i - K (b_i - b_j), N_i U_i the first harmonic of Z_i, whatever that is."""
+def test_the_complex_form_of_the_slow_flow_holds_for_any_first_harmonic_of_the_saw_tooth():
+    """2i D_1 b_i = f_i - (e_i + N_i) b_i - K (b_i - b_j), where N_i U_i is the first harmonic of Z_i."""
     solution, unknown = solvability()
     turn = [sp.exp(sp.I * (phi[i] - sigma_e * t1)) for i in (0, 1)]
     b = [B[i] * turn[i] for i in (0, 1)]
@@ -151,16 +150,16 @@ def test_complex_form_holds_for_a_saw_tooth_of_any_harmonic():
         assert sp.simplify(sp.expand((2 * sp.I * D1_b - balance).rewrite(sp.exp))) == 0
 
 
-CHAPTER = vi.System(**PARAMETERS | dict(gamma2_hat=0.3, gamma12_hat=0.1), f10_hat=1.0, f20_hat=0.89)
+SYSTEM = system_of("unequal", gamma2_hat=0.3, gamma12_hat=0.1)
 C_values = st.floats(0.02, 4)
 angles = st.floats(-3, 3)
 
 
 @settings(max_examples=15)
 @given(st.tuples(C_values, C_values), st.tuples(angles, angles))
-def test_jacobian_against_high_precision_differences(C, psi):
-    """Of the rates at any point of the manifold, C following B on its arm."""
-    r = mpmath.mpf(manifold.rho(CHAPTER.kappa))
+def test_the_jacobian_agrees_with_high_precision_differences(C, psi):
+    """At any point of the manifold; C follows from B on its arm."""
+    r = mpmath.mpf(manifold.rho(SYSTEM.kappa))
     if min(abs(c - manifold.C_min(float(r))) for c in C) < 1e-3:
         return
     with mpmath.workdps(50):
@@ -171,29 +170,29 @@ def test_jacobian_against_high_precision_differences(C, psi):
             B, angle = state[0::2], state[1::2]
             along = [(1 + s * mpmath.sqrt((1 + r**2) * x**2 - r**2)) / (1 + r**2) for s, x in zip(arm, B, strict=True)]
             cosine, sine = ([of(x) for x in angle] for of in (mpmath.cos, mpmath.sin))
-            return np.ravel(slow_flow.rates_from_phasors(CHAPTER, *map(np.array, (B, cosine, sine, along))), order="F")
+            return np.ravel(slow_flow.rates_from_phasors(SYSTEM, *map(np.array, (B, cosine, sine, along))), order="F")
 
         base = np.array([on_manifold[0], mpmath.mpf(psi[0]), on_manifold[1], mpmath.mpf(psi[1])])
         steps = mpmath.mpf(10) ** -20 * np.eye(4, dtype=object)
         columns = [(flow(base + step) - flow(base - step)) / (2 * step.sum()) for step in steps]
         expected = np.array(columns, dtype=float).T
-    found = jacobian(CHAPTER, np.array(psi), np.array(C))
+    found = jacobian(SYSTEM, np.array(psi), np.array(C))
     assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max())
 
 
-def test_eigenvalues_are_those_of_the_jacobian():
-    for point in vi.fixed_points(CHAPTER):
-        expected = np.linalg.eigvals(jacobian(CHAPTER, point.psi, point.C))
+def test_eigenvalues_of_fixed_points_are_those_of_the_jacobian():
+    for point in vi.fixed_points(SYSTEM):
+        expected = np.linalg.eigvals(jacobian(SYSTEM, point.psi, point.C))
         for value in point.slow_eigenvalues:
             assert np.abs(expected - value).min() < 1e-10
         assert np.all(np.diff(point.slow_eigenvalues.real) <= 0)
 
 
-def test_at_the_fold_one_eigenvalue_is_infinite():
-    """C cannot follow B there: the slow flow jumps. With some kappa rounding leaves the slope at C_min exactly 0."""
+def test_one_eigenvalue_is_infinite_at_the_fold():
+    """The slow flow jumps there. For some kappa, the rounded slope of the manifold at C_min is exactly 0."""
     folds = {kappa: manifold.C_min(manifold.rho(kappa)) for kappa in np.linspace(0.4, 0.8, 401)}
     kappa = next(kappa for kappa, fold in folds.items() if manifold.slope(fold, manifold.rho(kappa)) == 0)
-    system, psi, C = CHAPTER.with_(kappa=kappa), np.array([0.3, 0.4]), np.array([folds[kappa], 1.2])
+    system, psi, C = SYSTEM.with_(kappa=kappa), np.array([0.3, 0.4]), np.array([folds[kappa], 1.2])
     J, M = linearisation(system, psi, C)
     assert np.isfinite(J).all()
     assert np.diag(M)[[0, 1, 3]] == pytest.approx([0, 1, 1])
