@@ -1,4 +1,4 @@
-"""One row per method: cost of an error of 1e-6, and stress tests; the two cheapest methods."""
+"""The table of methods has the cost of an error of 1e-6 and the stress tests; the cheapest methods are chosen."""
 
 import numpy as np
 import pandas as pd
@@ -12,12 +12,13 @@ def run(problem, method, error, seconds, **other):
     return RUN | {"problem": problem, "method": method, "error_state": error, "seconds_per_cycle": seconds} | other
 
 
-def test_the_cost_is_that_of_the_fastest_good_run_on_the_worst_problem_and_the_cheapest_are_chosen():
+def test_the_cost_is_the_largest_over_all_problems_and_the_cheapest_methods_are_chosen():
+    """The cost of a method in a problem is that of its fastest run within the error and without missed impacts."""
     runs = [
         run("p", "a", 1e-9, 1.0, setting="coarse"),
         run("p", "a", 1e-13, 5.0, setting="fine"),
         run("q", "a", 1e-9, 2.0),
-        run("p", "b", 1e-5, 0.5),  # not good enough
+        run("p", "b", 1e-5, 0.5),  # error too large
         run("p", "b", 1e-7, 3.0),
         run("q", "b", 1e-7, 8.0),
         run("p", "c", 1e-7, 0.8),
@@ -44,8 +45,8 @@ def test_the_cost_is_that_of_the_fastest_good_run_on_the_worst_problem_and_the_c
     ]
 
 
-def test_what_the_article_says_of_a_build(built):
-    """All four solvers of SciPy handle chatter, and are silently wrong in grazing only, where impacts are missed."""
+def test_statements_of_the_article_on_stress_tests_hold_in_a_build(built):
+    """All four solvers of SciPy handle chatter; they are silently wrong only in grazing, where they miss impacts."""
     stress_tests = pd.read_csv(built / "results/accuracy/stress_tests.csv")
     scipy = stress_tests[stress_tests["method"].isin(["RK45", "DOP853", "Radau", "LSODA"])]
     bad = scipy[scipy["verdict"] == "silently wrong"]

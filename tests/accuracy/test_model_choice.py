@@ -1,4 +1,4 @@
-"""The motion of a fixed point by each model, against simulations by the engine and the orders of their errors."""
+"""The motion of a fixed point by each model agrees with simulations, with errors of the expected order in epsilon."""
 
 from typing import get_args
 
@@ -6,20 +6,18 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from chapter import FORCES, PARAMETERS
+from chapter import FORCES, system_of
 from vibroimpact.accuracy.model_choice import CHOICES, MODELS, motion, motions
 from vibroimpact.accuracy.window import window
 from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 from vibroimpact_pipeline.config import figures
 
-SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f10, f20) in FORCES.items()}
 
-
-def by(model, system):
+def motions_by(model, system):
     return motions(system, labelled_points(fixed_point_table("", system)), model)
 
 
-def test_the_config_offers_the_models_that_there_are():
+def test_the_config_offers_all_models_and_describes_them():
     sections = figures.FixedPoints, figures.Response, figures.SimulatedMotion
     for notebook, section in zip(("fixed_points", "theoretical_response", "simulation"), sections, strict=True):
         model = section.model_fields["model"]
@@ -28,13 +26,13 @@ def test_the_config_offers_the_models_that_there_are():
     assert {model for models in CHOICES.values() for model in models} == set(MODELS)
 
 
-@pytest.mark.parametrize("case", SYSTEMS)
-def test_an_exact_orbit_is_a_motion_of_the_engine(case):
-    """Simulated from its state for a period: all coordinates, and the times of the impacts at W = +1."""
-    system = SYSTEMS[case]
+@pytest.mark.parametrize("case", FORCES)
+def test_the_motion_of_an_exact_orbit_is_that_of_a_run_from_its_state(case):
+    """All coordinates over a period, and the times of the impacts at W = +1."""
+    system = system_of(case)
     tau = np.linspace(0.0, system.period, 50)
     orbits = [orbit for orbit in vi.orbits(system) if orbit.symmetric]
-    for found in by("exact_orbit", system):
+    for found in motions_by("exact_orbit", system):
         orbit = min(orbits, key=lambda orbit: np.abs(orbit.C - found.point.C).max())
         run, shown = vi.simulate(system, orbit.state, 1, sample_times=tau), found.response(tau)
         X, Y = run.samples[:, [0, 2]], run.samples[:, [1, 3]]
@@ -43,19 +41,19 @@ def test_an_exact_orbit_is_a_motion_of_the_engine(case):
         for module in (1, 2):
             (at,) = run.events["tau"][(run.events["module"] == module) & (run.events["wall"] == 1)]
             assert found.impacts[module - 1] == pytest.approx(at, abs=1e-9)
-        turning = 2 * np.mean(shown.U[:-1] * np.exp(1j * system.Omega * tau[:-1, None]), axis=0)
-        np.testing.assert_allclose(found.point.B, np.abs(turning), atol=1e-5)
+        harmonic = 2 * np.mean(shown.U[:-1] * np.exp(1j * system.Omega * tau[:-1, None]), axis=0)
+        np.testing.assert_allclose(found.point.B, np.abs(harmonic), atol=1e-5)
 
 
-@pytest.mark.parametrize("case", SYSTEMS)
-def test_errors_of_the_slow_flow_fall_like_epsilon_and_with_the_second_term_like_its_square(case):
+@pytest.mark.parametrize("case", FORCES)
+def test_the_error_of_the_slow_flow_is_of_order_epsilon_and_with_the_second_term_of_order_epsilon_squared(case):
     errors = {}
     for epsilon in (4e-3, 2e-3):
-        system = SYSTEMS[case].with_(epsilon=epsilon)
+        system = system_of(case, epsilon=epsilon)
         tau = np.linspace(0.0, system.period, 100)
-        exact = [one.response(tau) for one in by("exact_orbit", system)]
+        exact = [one.response(tau) for one in motions_by("exact_orbit", system)]
         for model in ("slow_flow", "second_term"):
-            for found, truth in zip(by(model, system), exact, strict=True):
+            for found, truth in zip(motions_by(model, system), exact, strict=True):
                 shown = found.response(tau)
                 error = max(np.abs(getattr(shown, name) - getattr(truth, name)).max() for name in "UXWY")
                 errors.setdefault((model, found.point.label), []).append(error)
@@ -64,11 +62,11 @@ def test_errors_of_the_slow_flow_fall_like_epsilon_and_with_the_second_term_like
 
 
 @pytest.mark.parametrize("model", CHOICES["theoretical_response"])
-def test_of_a_single_machine_its_module_moves_as_in_company(model):
-    uncoupled = SYSTEMS["equal"].with_(alpha12_hat=0.0, gamma12_hat=0.0, f10_hat=1.5, f20_hat=1.4)
+def test_a_single_machine_has_the_motion_of_an_uncoupled_module(model):
+    uncoupled = system_of("equal", alpha12_hat=0.0, gamma12_hat=0.0, f10_hat=1.5, f20_hat=1.4)
     tau = np.linspace(0.0, uncoupled.period, 20)
-    (alone,) = by(model, uncoupled.with_(f20_hat=0.0))
-    together = min(by(model, uncoupled), key=lambda one: abs(one.point.C[0] - alone.point.C[0]))
+    (alone,) = motions_by(model, uncoupled.with_(f20_hat=0.0))
+    together = min(motions_by(model, uncoupled), key=lambda one: abs(one.point.C[0] - alone.point.C[0]))
     for name in "UXWY":
         shown = getattr(alone.response(tau), name)
         np.testing.assert_allclose(shown[:, 0], getattr(together.response(tau), name)[:, 0], atol=1e-8)
@@ -76,24 +74,24 @@ def test_of_a_single_machine_its_module_moves_as_in_company(model):
     assert np.isnan([*(getattr(alone.point, name)[1] for name in ("C", "B", "psi")), alone.impacts[1]]).all()
 
 
-def test_a_point_without_an_exact_orbit_and_other_models_are_refused_in_one_line():
-    """Further from every orbit than any is from its point."""
-    system, settings = SYSTEMS["weak"], {"transient_cycles": 0, "window_cycles": 1, "samples_per_cycle": 8}
+def test_points_without_an_exact_orbit_and_unsupported_models_are_refused_in_one_line():
+    """C1 = 9 is further from every orbit than any orbit is from its point."""
+    system, settings = system_of("weak"), {"transient_cycles": 0, "window_cycles": 1, "samples_per_cycle": 8}
     table = fixed_point_table("weak", system).assign(C1=9.0)
     assert motion(system, table, "a", "slow_flow").point.C[0] == 9.0
-    for label, model, said in (
+    for label, model, text in (
         ("a", "exact_orbit", r"\Amodel: exact_orbit has no orbit next to fixed point 'a'"),
         ("a", "float64", r"\Amodel: 'float64' should be slow_flow, exact_orbit or second_term\Z"),
         ("z", "exact_orbit", r"\Afixed_point: "),
     ):
-        with pytest.raises(ValueError, match=said):
+        with pytest.raises(ValueError, match=text):
             motion(system, table, label, model)
     with pytest.raises(ValueError, match=r"\Amodel: 'slow_flow' should be float64 or reference\Z"):
         window(system, settings | {"initial_state": [0.0] * 8, "model": "slow_flow"})
 
 
-def test_the_arithmetic_is_that_of_the_model_whatever_digits_the_case_has():
-    system = SYSTEMS["equal"]
+def test_the_model_determines_the_arithmetic_and_the_case_its_digits():
+    system = system_of("equal")
     settings = {"initial_state": [0.0] * 8, "transient_cycles": 0, "window_cycles": 2, "samples_per_cycle": 8}
     for digits, given in ((None, {}), (50, {"digits": 50})):
         trusts = [window(system, settings | given | {"model": model}).trust for model in CHOICES["simulation"]]

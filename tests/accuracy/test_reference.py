@@ -1,4 +1,4 @@
-"""The arbitrary-precision reference against closed forms, mpmath, SciPy and symmetries."""
+"""The arbitrary-precision reference agrees with closed forms, matrix exponentials of mpmath and symmetries."""
 
 from fractions import Fraction
 from types import SimpleNamespace
@@ -17,19 +17,18 @@ from vibroimpact.accuracy.reference.run import departure, proven_run, reference_
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 MODULATED = {name: str(value) for name, value in PARAMETERS.items()} | {"f10_hat": "0.5", "f20_hat": "0.5"}
-# Box 1 alone, a unit oscillator without damping or forcing; box 2 at rest with its ball.
-BUSY = ["0.1", "0.3", "0", "-0.2", "0", "0", "1.4", "0.1"]  # both balls impact from here
-BARE = dict.fromkeys(MODULATED, "0") | {"epsilon": "0.1", "kappa": "0.65"}
+OSCILLATOR = dict.fromkeys(MODULATED, "0") | {"epsilon": "0.1", "kappa": "0.65"}
+"""Box 1 is a unit oscillator without damping and forcing; box 2 and its ball are at rest in most tests."""
 TO_CHATTER = ["-1.9", "-2.88", "0", "0", "0", "-0.05", "0", "0"]
 
 
 def mp(value):
-    """A reference number as an mpf with all its digits."""
+    """Return a number of the reference as an mpf with all its digits."""
     return mpmath.mpf(value.str(200, radius=False)) if hasattr(value, "mid") else mpmath.mpf(value)
 
 
 def rate_matrix(parameters, walls):
-    """Rate matrix of [X1, X2, X1', X2', sin, cos] as an mpmath matrix, for balls that stick to walls or fly (0)."""
+    """Return the rate matrix of [X1, X2, X1', X2', sin, cos] in mpmath, for balls that stick to walls or fly (0)."""
     decimal = SimpleNamespace(**{name: mpmath.mpf(value) for name, value in parameters.items()})
     return mpmath.matrix(BoxesByHand(decimal).rate([wall != 0 for wall in walls]).tolist())
 
@@ -46,8 +45,8 @@ def rate_matrix(parameters, walls):
     ],
     ids=["chapter", "repeated", "defective", "undamped", "stiff", "ball 1 sticks", "ball 2 sticks", "both stick"],
 )
-def test_between_events_the_boxes_follow_the_matrix_exponential(changes, walls):
-    """Balls fly, or stick to the wall that pushes them: +1 of box 1, -1 of box 2."""
+def test_flights_are_those_of_the_matrix_exponential(changes, walls):
+    """Balls fly, or stick to the wall that pushes them: +1 in box 1, -1 in box 2."""
     parameters = MODULATED | changes
     x, v = ("-1", "0.8"), ("0.05", "-0.1")
     y = [("-2", "1.8")[i] if walls[i] else ("-0.9", "0.5")[i] for i in range(2)]
@@ -69,18 +68,18 @@ def test_between_events_the_boxes_follow_the_matrix_exponential(changes, walls):
                 found.append((box[2 + i], box[2 + i] if wall else mpmath.mpf(u[i])))
             return [value for pair in found for value in pair]
 
-        wanted = after(mpmath.pi / rate[4, 5] / 5)
-        worst = max(abs(mp(value) - other) for value, other in zip(run.final_exact, wanted, strict=True))
+        expected = after(mpmath.pi / rate[4, 5] / 5)
+        worst = max(abs(mp(value) - other) for value, other in zip(run.final_exact, expected, strict=True))
         assert worst < mpmath.mpf(10) ** -50
         np.testing.assert_allclose(run.samples[0], [float(v) for v in after(mpmath.mpf(4) / 10)], rtol=0, atol=2e-16)
 
 
 @pytest.mark.parametrize("exponent", [2, 10, 20, 30])
-def test_grazing_is_told_from_contact(exponent):
-    """X1 = sin tau and a ball at rest at Y1 = delta: W1 peaks at 1 - delta."""
+def test_hits_and_misses_are_distinguished(exponent):
+    """X1 = sin tau and a ball at rest at Y1 = delta, so that the maximum of W1 is 1 - delta."""
     delta = Fraction(1, 10**exponent)
-    clears = reference_run(BARE, [0, delta, 0, 0, 1, 0, 0, 0], "0.45", 80)
-    hits = reference_run(BARE, [0, -delta, 0, 0, 1, 0, 0, 0], "0.45", 80)
+    clears = reference_run(OSCILLATOR, [0, delta, 0, 0, 1, 0, 0, 0], "0.45", 80)
+    hits = reference_run(OSCILLATOR, [0, -delta, 0, 0, 1, 0, 0, 0], "0.45", 80)
     assert len(clears.events) == 0
     assert tuple(hits.events[["module", "wall", "kind"]][0]) == (1, 1, IMPACT)
     with mpmath.workdps(100):
@@ -90,12 +89,12 @@ def test_grazing_is_told_from_contact(exponent):
 
 def test_exact_grazing_is_undecidable():
     with pytest.raises(Undecidable, match="cannot decide whether a ball touches"):
-        reference_run(BARE, [0, 0, 0, 0, 1, 0, 0, 0], "0.45", 40)
+        reference_run(OSCILLATOR, [0, 0, 0, 0, 1, 0, 0, 0], "0.45", 40)
 
 
-def test_release_from_rest_on_the_wall():
-    """Ball stuck at wall +1: mass 1 + epsilon swings from -1/2 at rest, lets go at X1 = 0, then X1 = V sin t."""
-    run = reference_run(BARE, ["-0.5", "-1.5", 0, 0, 0, 0, 0, 0], "1.2", 50)
+def test_a_ball_at_rest_on_the_wall_is_released_and_impacts_at_the_times_of_the_closed_form():
+    """The mass 1 + epsilon starts at rest at -1/2; the ball leaves wall +1 at X1 = 0, after which X1 = V sin t."""
+    run = reference_run(OSCILLATOR, ["-0.5", "-1.5", 0, 0, 0, 0, 0, 0], "1.2", 50)
     assert [tuple(e) for e in run.events[["module", "wall", "kind"]]][:2] == [(1, 1, RELEASE), (1, -1, IMPACT)]
     with mpmath.workdps(70):
         frequency = 1 / mpmath.sqrt(mpmath.mpf(11) / 10)
@@ -106,8 +105,8 @@ def test_release_from_rest_on_the_wall():
         assert abs(mp(run.event_states[0][4]) - speed) < mpmath.mpf(10) ** -50
 
 
-def test_stuck_ball_is_released_by_an_impact_in_the_other_module():
-    parameters = BARE | {"epsilon": "0.5", "gamma12_hat": "5"}
+def test_an_impact_in_the_other_module_releases_a_stuck_ball():
+    parameters = OSCILLATOR | {"epsilon": "0.5", "gamma12_hat": "5"}
     run = reference_run(parameters, [0, "-0.9", "-0.2", "-1.2", 0, -2, 0, 0], "0.02", 40)
     assert [tuple(e) for e in run.events[["module", "wall", "kind"]]] == [(1, 1, IMPACT), (2, 1, RELEASE)]
     assert run.event_taus[0].overlaps(run.event_taus[1])
@@ -116,9 +115,9 @@ def test_stuck_ball_is_released_by_an_impact_in_the_other_module():
     assert -x2 + 2.5 * (before - v2) > 0 > -x2 + 2.5 * (v1 - v2)
 
 
-def test_coincident_chatter_of_identical_modules():
-    """Equal modules in equal states move as one alone: the coupling never acts, both balls do everything together."""
-    twins = BARE | {"alpha12_hat": "3", "gamma12_hat": "1", "gamma1_hat": "0.4", "gamma2_hat": "0.4"}
+def test_identical_modules_in_equal_states_move_like_a_single_module():
+    """The coupling has no effect, and the events of both balls coincide, chatter included."""
+    twins = OSCILLATOR | {"alpha12_hat": "3", "gamma12_hat": "1", "gamma1_hat": "0.4", "gamma2_hat": "0.4"}
     x, y, v, u = (TO_CHATTER[place] for place in (0, 1, 4, 5))
     both = reference_run(twins, [x, y, x, y, v, u, v, u], "0.9", 40)
     alone = reference_run(twins | {"alpha12_hat": "0", "gamma12_hat": "0"}, TO_CHATTER, "0.9", 40)
@@ -130,13 +129,13 @@ def test_coincident_chatter_of_identical_modules():
         assert max(float(abs(one).upper()) for one in apart) < 1e-36
 
 
-def test_energy_is_lost_in_impacts_only():
-    """Without damping and forcing the energy falls by (1 - kappa^2) epsilon / (1 + epsilon) W'^2 / 2 per impact.
+def test_impacts_alone_dissipate_energy_without_damping_and_forcing():
+    """An impact reduces the energy by (1 - kappa^2) epsilon / (1 + epsilon) W'^2 / 2; sticking conserves it.
 
-    Sticking conserves it, and impacts of a chatter slower than 1e-12 are too weak to count.
+    Impacts of a chatter slower than 1e-12 are not listed and have no effect within the tolerance.
     """
     start = ["-1.9", "-2.88", "1", "0.5", "0", "-0.05", "0.3", "0"]
-    run = reference_run(BARE | {"alpha12_hat": "2", "sigma20_hat": "1.5"}, start, 6, 40)
+    run = reference_run(OSCILLATOR | {"alpha12_hat": "2", "sigma20_hat": "1.5"}, start, 6, 40)
 
     def energy(state):
         x1, _, x2, _, v1, u1, v2, u2 = state
@@ -153,36 +152,37 @@ def test_energy_is_lost_in_impacts_only():
         assert abs(left - energy([mp(value) for value in run.final_exact])) < 1e-23
 
 
-def test_doubled_digits_prove_the_modulated_case_through_chatter():
+def test_runs_with_more_digits_agree_in_the_modulated_case_with_chatter():
     start = ["0.1", "0.3", "0", "-0.2", "0", "0", "0.4", "0"]
     proven = proven_run(MODULATED, start, 160, digits=60)
     assert proven.agreement < 1e-18
     assert proven.run.digits == 2 * proven.coarse.digits
     assert proven.run.chatters == np.sum(proven.run.events["kind"] == STICK) > 0
-    # A perturbation far below float64's resolution of the start is amplified, so digits are really needed.
+    # The motion amplifies a perturbation far below the resolution of float64, so that the digits are necessary.
     nudged = [Fraction(start[0]) + Fraction(1, 10**20), *start[1:]]
     apart = departure(reference_run(MODULATED, nudged, 160, 60), proven.run)[1]
     assert apart.max() > 1e-10
 
 
-def test_impact_at_the_start_comes_before_a_sample_there():
-    run = reference_run(BARE, [0, -1, 0, 0, 1, 0, 0, 0], 0, 30, sample_times=[0])
+def test_a_sample_at_the_start_is_the_state_after_an_impact_there():
+    run = reference_run(OSCILLATOR, [0, -1, 0, 0, 1, 0, 0, 0], 0, 30, sample_times=[0])
     assert tuple(run.events[["module", "wall", "kind"]][0]) == (1, 1, IMPACT)
     np.testing.assert_allclose(run.samples[0][[4, 5]], [1 - 0.15, 1.5], rtol=1e-15)
     np.testing.assert_array_equal(run.samples[0], run.final)
 
 
 def test_mirror_symmetry():
-    """Minus the state under minus the forcing, which is the forcing half a period later."""
-    run = reference_run(MODULATED, BUSY, 6, 40)
-    mirrored = [-Fraction(value) for value in BUSY]
+    """The run from minus the state under minus the forcing is minus the run. Both balls impact."""
+    start = [Fraction(value) for value in ("0.1", "0.3", "0", "-0.2", "0", "0", "1.4", "0.1")]
+    run = reference_run(MODULATED, start, 6, 40)
+    mirrored = [-value for value in start]
     other = reference_run(MODULATED | {"f10_hat": "-0.5", "f20_hat": "-0.5"}, mirrored, 6, 40)
     assert np.array_equal(run.events["wall"], -other.events["wall"])
     assert max(float(abs(a + b).upper()) for a, b in zip(run.final_exact, other.final_exact, strict=True)) < 1e-38
 
 
-def test_a_system_is_judged_with_its_floats_and_decimals_where_one_asks():
-    """Of one undamped box in closed form, at the float Omega and start; decimals give another motion."""
+def test_the_reference_uses_the_floats_of_a_system_or_their_decimals():
+    """The floats give the closed form of an undamped box with the same floats, the decimals another motion."""
     system, start = one_box.one_box(0.1, 0.7, 0.3), [0.3, 0.1, 0.2, 0.9]
     state = [start[0], start[1], 0, 0, start[2], start[3], 0, 0]
     impacts, final = one_box.motion(system, start, 3)

@@ -1,4 +1,4 @@
-"""Stress tests: the problems are what their names say, and the verdicts follow from what was measured."""
+"""Stress tests have the properties that their names state, and their verdicts follow from the results of runs."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ ENGINE = METHODS[0]
 
 
 @pytest.mark.parametrize("digits", [2, 14])
-def test_grazing_starts_clear_and_hit_as_they_say(digits):
+def test_grazing_starts_clear_or_hit_the_wall_by_the_given_distance(digits):
     clears = grazing_start(SYSTEM, BOXES, VELOCITY, 1.0, f"1e-{digits}")
     hits = grazing_start(SYSTEM, BOXES, VELOCITY, 1.0, f"-1e-{digits}")
     times = np.linspace(0.4, 0.9, 400)
@@ -34,7 +34,7 @@ def test_a_grazing_start_needs_a_maximum():
 
 
 @pytest.mark.parametrize("test", [h for h in table.stress_tests() if h.quick], ids=lambda h: f"{h.group}: {h.name}")
-def test_the_engine_is_right_or_says_that_it_cannot_decide(test):
+def test_the_engine_is_right_or_in_grazing_undecided(test):
     (row,) = table.judge(test, [ENGINE])
     assert row["verdict"] in (table.RIGHT, table.UNDECIDABLE)
     if row["verdict"] == table.RIGHT:
@@ -44,7 +44,7 @@ def test_the_engine_is_right_or_says_that_it_cannot_decide(test):
 
 
 class Scripted(Method):
-    """A method whose result is given beforehand."""
+    """A method that returns a given result."""
 
     name, family, knob, settings, careful = "scripted", "test", "none", (0,), 0
 
@@ -64,7 +64,7 @@ class Scripted(Method):
         (MethodRun(None, [], 1, outcome=UNFINISHED, reason="long"), table.ENDLESS),
     ],
 )
-def test_verdicts(result, verdict):
+def test_the_verdict_follows_from_the_result(result, verdict):
     at_rest = table.StressTest("test", "rest", SYSTEM.with_(f10_hat=0.0, f20_hat=0.0), table.REST, 1)
     scripted = Scripted()
     scripted.result = result
@@ -72,7 +72,7 @@ def test_verdicts(result, verdict):
     assert (row["test"], row["verdict"], row["reason"]) == ("rest", verdict, result.reason or result.doubt())
 
 
-def test_a_motion_that_has_not_settled_is_no_reference():
+def test_a_motion_that_has_not_settled_is_refused_as_a_reference():
     moving = table.StressTest("test", "transient", SYSTEM, table.REST, 1000, reference_cycles=3)
     with pytest.raises(ArithmeticError, match="still changes"):
         table.reference_of(moving)

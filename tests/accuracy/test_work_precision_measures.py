@@ -1,23 +1,22 @@
-"""Errors of impact sequences, fitted orders, and rows of the work-precision chart."""
+"""Errors of impact sequences, fitted orders, and rows of the work-precision chart are right."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from chapter import PARAMETERS
+from chapter import system_of
 from vibroimpact.accuracy.errors import run_errors
 from vibroimpact.accuracy.work_precision import Problem, fitted_order, measure
 from vibroimpact.integrators.protocol import IMPACT, REFUSED, Method, MethodRun, failed
-from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
 
-SYSTEM = System(**PARAMETERS, f10_hat=1.0, f20_hat=1.0)
+SYSTEM = system_of("equal")
 PROBLEM = Problem("settled", SYSTEM, (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869), 2)
 
 
 def reference(times, speeds):
-    """Impacts at given times of module 1 at wall +1, with given rebound speeds."""
+    """Return a run with impacts of module 1 at wall +1, with given times and rebound speeds."""
     events = np.zeros(len(times), EVENT)
     events["tau"], events["module"], events["wall"], events["state"][:, 4] = times, 1, 1, speeds
     return SimpleNamespace(final=np.zeros(8), events=events)
@@ -37,15 +36,15 @@ def impacts(*times):
     ],
 )
 def test_impacts_are_paired_in_order_and_by_their_walls(found, times, missed, spurious):
-    expected, theirs = reference((1.0, 2.0, 3.0), 1.0), impacts(*found)
-    errors = run_errors(MethodRun(np.zeros(8), theirs, 1), expected, period=1.0)
+    expected, listed = reference((1.0, 2.0, 3.0), 1.0), impacts(*found)
+    errors = run_errors(MethodRun(np.zeros(8), listed, 1), expected, period=1.0)
     assert (errors.missed, errors.spurious, errors.error_time) == (missed, spurious, pytest.approx(times))
-    theirs["wall"] = -1
-    errors = run_errors(MethodRun(np.zeros(8), theirs, 1), expected, period=1.0)
+    listed["wall"] = -1
+    errors = run_errors(MethodRun(np.zeros(8), listed, 1), expected, period=1.0)
     assert (errors.missed, errors.spurious) == (3, len(found))
 
 
-def test_the_tail_of_a_chatter_need_not_be_followed_to_the_end():
+def test_missed_or_spurious_slow_impacts_at_the_end_of_a_chatter_do_not_count():
     tail = reference((1.0, 1.1, 1.101), (0.5, 5e-4, 5e-5))
     for found in (impacts(1.0), impacts(1.0, 1.1), impacts(1.0, 1.1, 1.1005, 1.1008)):
         errors = run_errors(MethodRun(np.zeros(8), found, 1), tail, period=1.0)
@@ -54,7 +53,7 @@ def test_the_tail_of_a_chatter_need_not_be_followed_to_the_end():
     assert strict.missed == 2
 
 
-def test_order_is_fitted_where_it_is_resolved_only():
+def test_the_order_is_fitted_only_to_errors_above_rounding():
     scales = np.geomspace(1.0, 1e-4, 9)
     points = [(h, max(1e-2 * h**3, 1e-13)) for h in scales]
     assert fitted_order(points) == pytest.approx(3.0, abs=0.05)
@@ -77,9 +76,7 @@ class Missing(Refusing):
 
 
 @pytest.mark.parametrize(("compiles", "settings"), [(False, [1, 1, 2]), (True, [1, 2, 1, 2])])
-def test_methods_that_fail_keep_their_rows_and_what_is_compiled_is_compiled_before_anything_is_timed(
-    compiles, settings
-):
+def test_failed_methods_have_rows_and_compiled_settings_run_once_before_the_timing(compiles, settings):
     refusing = Refusing()
     refusing.compiles_settings, refusing.seen = compiles, []
     rows = measure(PROBLEM, [refusing, Missing()], seconds=0.0)

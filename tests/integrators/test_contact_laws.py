@@ -1,4 +1,4 @@
-"""Every law of contact has the restitution coefficient it is tuned to: one contact, with another integrator."""
+"""Each contact law has the restitution coefficient for which it is tuned, in one contact integrated by SciPy."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ LAWS["power law"] = laws.power_law(20)
 
 
 def contact(law, stiffness, damping, speed):
-    """(speed afterwards over speed before, duration, deepest W) of a ball on its way into a wall that does not move."""
+    """Return (ratio of speeds after and before, duration, largest W) of a contact of a ball with a fixed wall."""
     numbers = law_numbers(law, stiffness, damping, 1.0)
     begin = 1.0 if law.walls else 0.0
 
@@ -51,7 +51,7 @@ def test_restitution_is_kappa_at_every_speed(name, kappa):
         assert found == pytest.approx(kappa, rel=1e-6)
 
 
-def test_an_undamped_contact_lasts_as_long_as_it_is_tuned_to_and_the_power_law_turns_the_ball_at_the_wall():
+def test_an_undamped_contact_has_the_tuned_duration_and_the_power_law_turns_the_ball_at_the_wall():
     for name in ("spring", "Hertz"):
         stiffness = stiffness_in(LAWS[name], 0.65)
         assert contact(LAWS[name], stiffness, 0.0, 1.0)[1] == pytest.approx(DURATION, rel=1e-6)
@@ -63,7 +63,7 @@ def test_an_undamped_contact_lasts_as_long_as_it_is_tuned_to_and_the_power_law_t
 @pytest.mark.parametrize("kappa", [1e-9, 0.1, 0.999])
 def test_the_hunt_crossley_number_solves_its_equation(kappa):
     d = laws.hunt_crossley_number(kappa)
-    if kappa > 0.05:  # below, 1 - kappa d is lost in rounding
+    if kappa > 0.05:  # below, 1 - kappa d is smaller than rounding errors
         assert (1.0 + kappa) * d == pytest.approx(np.log1p(d) - np.log1p(-kappa * d), rel=1e-9)
-    assert 1.5 * (1.0 - kappa) <= d * (1.0 + 1e-6)  # its limit where kappa tends to 1
+    assert 1.5 * (1.0 - kappa) <= d * (1.0 + 1e-6)  # limit for kappa to 1
     assert d * kappa <= 1.0

@@ -1,4 +1,4 @@
-"""Every method tends to the reference where nothing is difficult, and at the order that theory expects."""
+"""All methods converge to the reference in easy motions, with the order that theory predicts."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from vibroimpact.accuracy.errors import run_errors
 from vibroimpact.accuracy.work_precision import fitted_order
 from vibroimpact.integrators.protocol import FINISHED
 
-# name, settings from coarse to fine, error of the final state at the finest in the periodic motion
+# name, settings from coarse to fine, bound on the error of the final state with the finest setting
 SETTINGS = [
     ("heyoka", (1e-4, 1e-8, 1e-12), 1e-10),
     ("RK4, compiled", (32, 128, 1_024), 1e-9),
@@ -33,7 +33,7 @@ def errors(method, motion, setting):
 
 
 @pytest.mark.parametrize(("name", "settings", "finest"), SETTINGS)
-def test_error_falls_with_every_finer_setting_and_no_impact_is_lost(name, settings, finest, method, motion):
+def test_the_error_decreases_with_finer_settings_and_no_impact_is_missed(name, settings, finest, method, motion):
     found = [errors(method(name), motion("periodic"), setting) for setting in settings]
     final = [error.error_state for error in found]
     assert final == sorted(final, reverse=True)
@@ -45,7 +45,7 @@ ORDERLY = "Moreau-Jean", "penalty", "Hertz", "Hunt-Crossley", "power law", "Ivan
 
 
 @pytest.mark.parametrize("name", ORDERLY)
-def test_order_of_convergence(name, method, motion):
+def test_the_order_of_convergence_is_that_of_theory(name, method, motion):
     rival = method(name)
     system, state, cycles, reference = motion("periodic")
     points = []
@@ -55,8 +55,8 @@ def test_order_of_convergence(name, method, motion):
     assert fitted_order(points) == pytest.approx(rival.order, rel=0.2)
 
 
-def test_ivanovs_jumps_make_it_of_first_order_if_they_are_not_located(method, motion):
-    """The error of a step depends on where in it the jump falls: it is averaged over neighbouring numbers of steps."""
+def test_ivanov_s_method_is_of_first_order_if_jumps_are_not_located(method, motion):
+    """The error depends on the place of the jump in a step, so that it is averaged over similar numbers of steps."""
     system, state, cycles, reference = motion("periodic")
     errors = []
     for steps in (100, 1_000, 10_000):
@@ -87,12 +87,12 @@ def test_methods_with_exact_flights_are_exact_to_rounding_at_every_setting(name,
             assert (found.missed, found.spurious) == (0, 0)
 
 
-def test_a_start_at_another_time_is_respected(method, motion):
-    """Mirroring the state and moving the clock by half a period is a symmetry of (10.2)."""
+def test_methods_use_the_time_of_the_start(method, motion):
+    """The run from minus the state half a period later is minus the run."""
     system, state, cycles, _ = motion("periodic")
     for name in ("modal scan", "heyoka", "RK4, compiled", "DOP853", "Moreau-Jean", "penalty", "power law", "Ivanov"):
         rival = method(name)
         setting = rival.settings[-2]
         one = rival.run(system, state, cycles, 0.0, setting).final
         other = rival.run(system, [-value for value in state], cycles, 0.5 * system.period, setting).final
-        assert np.abs(one + other).max() < 1e-5  # what the tolerance of the loosest, the compliant ones', allows
+        assert np.abs(one + other).max() < 1e-5  # the tolerance of the compliant methods
