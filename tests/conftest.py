@@ -1,4 +1,4 @@
-"""The same examples in every run; compiled code kept apart for each state of its sources; the project, built once."""
+"""Settings of all tests, and fixtures with copies and builds of the project."""
 
 import gc
 import os
@@ -20,7 +20,7 @@ settings.load_profile("same")
 providers._get_local_constants = providers.Constants
 
 
-gc.set_threshold(100_000, 50, 50)  # nothing here hangs on memory being freed at once
+gc.set_threshold(100_000, 50, 50)  # faster; no test depends on early collection
 
 
 def pytest_addoption(parser):
@@ -28,7 +28,7 @@ def pytest_addoption(parser):
 
 
 def pytest_collection_modifyitems(items):
-    """What takes a core for minutes is left to `make test-all`, and says so."""
+    """Skip tests that take a core for minutes; `make test-all` runs them."""
     if os.environ.get("THOROUGH") != "1":
         for item in items:
             if item.get_closest_marker("thorough"):
@@ -37,24 +37,24 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session")
 def built(tmp_path_factory) -> Tree:
-    """The project after the default build. Read it, do not change it."""
+    """Return the project after the default build; tests must not change it."""
     return made_once(tmp_path_factory, "built", lambda path: with_results(ROOT, path))
 
 
 @pytest.fixture(scope="session")
 def alone(built, tmp_path_factory) -> Tree:
-    """The same without the studies. Read it, do not change it."""
+    """Return the project after the default build without the studies; tests must not change it."""
     return made_once(tmp_path_factory, "alone", lambda path: without_studies(whole_copy(built, path)))
 
 
 @pytest.fixture(scope="module")
 def browser():
-    """For a module, no longer: while it runs, nobody else in this process can run an event loop, as notebooks do."""
+    """Return a browser for one test module; while it is open, notebooks cannot run an event loop in this process."""
     from headless_browser import Browser, executable
 
     path = executable()
     if path is None:
-        pytest.skip("no page was opened in a browser: there is no Chromium here (Debian: apt install chromium)")
+        pytest.skip("Chromium is not installed (Debian: apt install chromium)")
     browser = Browser(path)
     yield browser
     browser.close()
@@ -62,11 +62,11 @@ def browser():
 
 @pytest.fixture
 def tree(tmp_path) -> Tree:
-    """The project before a build, which a test may change."""
+    """Return a copy of the project before a build, which a test may change."""
     return copied(ROOT, tmp_path / "tree")
 
 
 @pytest.fixture
 def rebuilt(built, tmp_path) -> Tree:
-    """A built tree that a test may change."""
+    """Return a copy of the built project, which a test may change."""
     return whole_copy(built, tmp_path / "tree")

@@ -1,4 +1,4 @@
-"""Results as frames, pictures and sections; proofs by their public names."""
+"""Results as tables, pictures and sections, and public names of proofs."""
 
 import pickle
 
@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from chapter import PARAMETERS
+from chapter import system_of
 from vibroimpact import frames
 
-SYSTEM = vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.89)
+SYSTEM = system_of("unequal")
 RUN = vi.simulate(SYSTEM, [0.0] * 8, 60, tau0=2.0)
 
 
-def test_fixed_points_bear_the_labels_of_the_figures_and_their_stability():
-    """In the order of C_1 the labels are a, c, b; a is lost by its impacts, b by the slow flow."""
-    points = vi.fixed_points(SYSTEM.with_(f20_hat=1.0))
+def test_fixed_points_have_the_labels_of_the_figures_and_their_stability():
+    """In the order of C_1 the labels are a, c, b; impacts make a unstable, the slow flow b."""
+    points = vi.fixed_points(system_of("equal"))
     assert [point.label for point in points] == ["a", "c", "b"]
     assert [point.stability for point in points] == [
         ("unstable", "stable"), ("stable", "stable"), ("stable", "unstable")
@@ -28,7 +28,7 @@ def test_fixed_points_bear_the_labels_of_the_figures_and_their_stability():
     assert (frame["slow_growth"] < 0).tolist() == [point.stability.slow == "stable" for point in points]
 
 
-def test_orbits_say_whether_they_are_stable_and_whether_that_is_proved():
+def test_orbits_state_their_stability_and_whether_it_is_proved():
     found = [orbit for orbit in vi.orbits(SYSTEM) if orbit.symmetric]
     for orbit in found:
         proved = orbit.with_proof()
@@ -42,7 +42,7 @@ def test_orbits_say_whether_they_are_stable_and_whether_that_is_proved():
         vi.prove(SYSTEM)
 
 
-def test_a_run_and_an_ensemble_as_frames():
+def test_tables_of_runs_and_ensembles_contain_their_values():
     frame = RUN.to_frame()
     assert frame.equals(vi.to_frame(RUN))
     assert set(frame["kind"]) == {"impact"}
@@ -59,21 +59,20 @@ def test_a_run_and_an_ensemble_as_frames():
             vi.to_frame(other)
 
 
-def test_a_section_is_taken_once_per_cycle_from_the_start():
+def test_a_section_has_the_states_at_the_start_and_after_each_cycle():
     expected = vi.simulate(SYSTEM, RUN.start, RUN.cycles, RUN.begin, RUN.tau0 + np.arange(RUN.cycles) * SYSTEM.period)
     np.testing.assert_allclose(RUN.section(), [*expected.samples, RUN.final], rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize(("sigma", "before"), [(0.3, 9_999_999), (-0.17, 123_457), (-2.3, 1)])
-def test_a_section_far_from_the_origin_of_time_is_that_of_the_same_run_from_there(sigma, before):
-    """The forcing repeats, so that whole periods earlier or later the section is the same."""
+def test_a_section_does_not_change_if_the_run_starts_whole_periods_later(sigma, before):
     system = SYSTEM.with_(sigma_e_hat=sigma)
     start, cycles = [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, -0.5], 3
     expected = vi.simulate(system, start, cycles).section()
     end = vi.simulate(system, start, 0).end.later(before, system.Omega)
     np.testing.assert_array_equal(vi.simulate(system, start, cycles, tau0=end).section(), expected)
-    there = vi.simulate(system, start, cycles, tau0=before * system.period).section()  # to a float's rounding
-    np.testing.assert_allclose(there, expected, rtol=0, atol=1e-6)
+    rounded = vi.simulate(system, start, cycles, tau0=before * system.period).section()
+    np.testing.assert_allclose(rounded, expected, rtol=0, atol=1e-6)
 
 
 def test_a_picture_of_a_run_shows_boxes_and_balls_between_the_walls():
@@ -88,15 +87,15 @@ def test_a_picture_of_a_run_shows_boxes_and_balls_between_the_walls():
 
 
 @pytest.mark.parametrize("call", [vi.fixed_points, vi.orbits])
-def test_a_table_of_nothing_has_the_columns_of_what_could_be_in_it(call):
-    """So much damping leaves no motion with two impacts per cycle."""
-    found, nothing = call(SYSTEM), call(SYSTEM.with_(gamma1_hat=100.0, gamma2_hat=100.0))
-    assert len(found) > 0 == len(nothing)
-    for empty in (nothing, pickle.loads(pickle.dumps(nothing))):
-        assert vi.to_frame(empty).columns.tolist() == vi.to_frame(found).columns.tolist()
+def test_an_empty_table_has_the_same_columns(call):
+    """With so much damping no motion has two impacts per cycle."""
+    found, empty = call(SYSTEM), call(SYSTEM.with_(gamma1_hat=100.0, gamma2_hat=100.0))
+    assert len(found) > 0 == len(empty)
+    for one in (empty, pickle.loads(pickle.dumps(empty))):
+        assert vi.to_frame(one).columns.tolist() == vi.to_frame(found).columns.tolist()
 
 
-def test_a_system_in_newtons_is_told_how_to_lose_its_units():
+def test_the_error_for_a_physical_system_names_the_method_that_converts_it():
     plant = vi.PhysicalSystem.single(M=120.0, m=12.0, k=2e5, c=90.0, F=100.0, L=0.005)
     with pytest.raises(ValueError, match=r"^system: a PhysicalSystem is not a System; call \.dimensionless\(\)$"):
         vi.fixed_points(plant)
@@ -105,7 +104,7 @@ def test_a_system_in_newtons_is_told_how_to_lose_its_units():
 @pytest.mark.parametrize(
     ("call", "package"), [(lambda: vi.to_frame([]), "pandas"), (lambda: frames.plot(None, None, None), "matplotlib")]
 )
-def test_without_pandas_or_matplotlib_the_extra_is_named(monkeypatch, call, package):
+def test_an_error_without_pandas_or_matplotlib_names_the_extra(monkeypatch, call, package):
     monkeypatch.setattr("vibroimpact.system.extras.find_spec", lambda name: None)
     with pytest.raises(ModuleNotFoundError, match=rf"needs {package}: pip install '\.\[figures\]'$"):
         call()

@@ -1,4 +1,4 @@
-"""What the installed package promises: light, in need of three packages only, all that the README says of it."""
+"""The installed package needs three packages only, imports no others, and works as the README states."""
 
 import ast
 import ctypes
@@ -31,7 +31,7 @@ def test_importing_the_package_and_its_public_names_loads_neither_pandas_nor_mat
 
 @pytest.mark.thorough
 def test_a_users_script_passes_a_strict_type_checker_and_runs(tmp_path):
-    """Each of the scripts that there are."""
+    """Those of the chapter and of the studies."""
     scripts = sorted((ROOT / "tests/shared").rglob("users_script*.py"))
     check = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path)]
     checked = subprocess.run([*check, *scripts], capture_output=True, text=True, cwd=tmp_path, check=False)
@@ -57,23 +57,23 @@ def wheel(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def alone(wheel, tmp_path_factory):
-    """Runs Python with the wheel and the three packages that it needs, without those of the environment."""
+    """Return a function that runs Python with the wheel and the three packages that it needs, and no others."""
     site = tmp_path_factory.mktemp("site")
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(site)
-    around = Path(numpy.__file__).parents[1]
+    packages = Path(numpy.__file__).parents[1]
     for name in ("numpy", "numpy.libs", "scipy", "scipy.libs", "numba", "llvmlite"):
-        if (around / name).exists():
-            (site / name).symlink_to(around / name)
+        if (packages / name).exists():
+            (site / name).symlink_to(packages / name)
 
-    def run(*arguments, check=True, preexec_fn=None, **environment):
-        own = {name: value for name, value in os.environ.items() if name not in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")}
+    def run(*arguments, preexec_fn=None, **environment):
+        kept = {name: value for name, value in os.environ.items() if name not in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")}
         return subprocess.run(
             [sys.executable, "-S", *arguments],
-            env={**own, "PYTHONPATH": str(site), **environment},
+            env={**kept, "PYTHONPATH": str(site), **environment},
             capture_output=True,
             text=True,
-            check=check,
+            check=True,
             preexec_fn=preexec_fn,
         )
 
@@ -94,21 +94,20 @@ for module in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact.", onerro
 """
 
 
-def test_every_module_of_the_wheel_imports_with_the_three_or_says_what_it_lacks(alone):
-    run = alone("-c", IMPORT_ALL)
-    said = dict(line.split(" ", 1) for line in run.stdout.splitlines())
+def test_every_module_of_the_wheel_imports_with_the_three_packages_or_names_those_it_lacks(alone):
+    outcomes = dict(line.split(" ", 1) for line in alone("-c", IMPORT_ALL).stdout.splitlines())
     library = ROOT / "src/vibroimpact"
-    rooms = {path.stem for path in library.iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()}
-    assert {name for name in said if name.count(".") == 1} == {
-        f"vibroimpact.{room}" for room in rooms - {"__init__", "__pycache__"}
+    parts = {path.stem for path in library.iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()}
+    assert {name for name in outcomes if name.count(".") == 1} == {
+        f"vibroimpact.{part}" for part in parts - {"__init__"}
     }
-    lacking = {name: words for name, words in said.items() if words != "imports"}
-    for name, words in lacking.items():
-        needs = re.fullmatch(r"this part of vibroimpact needs ([\w ]+): pip install '\.\[(\w+)\]'", words)
-        assert needs, (name, words)
-        assert set(needs[1].split(" and ")) <= EXTRAS[needs[2]], (name, words)
+    errors = {name: text for name, text in outcomes.items() if text != "imports"}
+    for name, text in errors.items():
+        needs = re.fullmatch(r"this part of vibroimpact needs ([\w ]+): pip install '\.\[(\w+)\]'", text)
+        assert needs, (name, text)
+        assert set(needs[1].split(" and ")) <= EXTRAS[needs[2]], (name, text)
     science = "vibroimpact.system", "vibroimpact.theory", "vibroimpact.exact", "vibroimpact.integrators"
-    assert {name for name in lacking if name.startswith(science)} == {
+    assert {name for name in errors if name.startswith(science)} == {
         "vibroimpact.theory.fixed_points.table",
         "vibroimpact.exact.orbits.proof",
     }
@@ -117,11 +116,12 @@ def test_every_module_of_the_wheel_imports_with_the_three_or_says_what_it_lacks(
 def test_the_wheel_needs_numpy_scipy_and_numba_only(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
-        texts = [
-            archive.read(next(n for n in names if n.endswith(e))).decode() for e in ("METADATA", "entry_points.txt")
-        ]
-    assert "vibroimpact = vibroimpact.__main__:main" in texts[1]
-    metadata = Parser().parsestr(texts[0])
+        information, entry_points = (
+            archive.read(next(name for name in names if name.endswith(end))).decode()
+            for end in ("METADATA", "entry_points.txt")
+        )
+    assert "vibroimpact = vibroimpact.__main__:main" in entry_points
+    metadata = Parser().parsestr(information)
     required = {re.split("[<>]", line)[0] for line in metadata.get_all("Requires-Dist") if "extra ==" not in line}
     assert required == {"numpy", "scipy", "numba"}
     assert metadata["License-Expression"] == "MIT"
@@ -136,8 +136,8 @@ BLOCKS = re.findall(r"```(\w*)\n(.*?)```", LIBRARY_SECTION, re.DOTALL)
 
 
 @pytest.mark.thorough
-def test_python_and_commands_of_the_readme_run_with_the_three(alone, tmp_path, monkeypatch):
-    compiled_code.share(alone.site / "vibroimpact", tmp_path / "code")  # so that it need not be compiled again
+def test_python_and_commands_of_the_readme_run_with_the_three_packages(alone, tmp_path, monkeypatch):
+    compiled_code.share(alone.site / "vibroimpact", tmp_path / "code")  # avoids compilation
     cache = {"NUMBA_CACHE_DIR": str(tmp_path / "code")}
     [code] = [text for language, text in BLOCKS if language == "python"]
     printed = alone("-c", code, **cache).stdout
@@ -155,7 +155,7 @@ def test_python_and_commands_of_the_readme_run_with_the_three(alone, tmp_path, m
         assert "compile" in line or len(text.splitlines()) > 3, line
 
 
-def test_the_stub_names_what_the_package_exports():
+def test_the_stub_contains_the_public_names_of_the_package():
     stub = ast.parse((ROOT / "src/vibroimpact/__init__.pyi").read_text(encoding="utf-8"))
     imported = {
         name.asname: node.module for node in stub.body if isinstance(node, ast.ImportFrom) for name in node.names
@@ -172,20 +172,20 @@ print(advance(flow_of(vi.System(**PARAMETERS, **CASES["equal"])), 0, (0.0, 0.0, 
 """
 
 
-def _bound_by_permissions():
-    """Let permissions bind the superuser too, after the next exec: without CAP_DAC_OVERRIDE."""
+def _drop_override_of_permissions():
+    """Drop CAP_DAC_OVERRIDE, so that permissions restrict root too, after the next exec."""
     ctypes.CDLL(None).prctl(24, 1, 0, 0, 0)  # PR_CAPBSET_DROP
 
 
 @pytest.mark.thorough
 def test_a_read_only_installation_without_a_home_works(alone, tmp_path):
-    """Python runs where only a folder for temporary files can be written to."""
+    """Only a folder for temporary files is writable."""
     folders = [alone.site, *(path for path in alone.site.rglob("*") if path.is_dir() and not path.is_symlink())]
     modes = {path: path.stat().st_mode for path in folders}
     for path in folders:
         path.chmod(0o555)
     places = {"HOME": str(alone.site), "TMPDIR": str(tmp_path)}
-    run = alone("-c", ADVANCE, preexec_fn=_bound_by_permissions, **places)
+    run = alone("-c", ADVANCE, preexec_fn=_drop_override_of_permissions, **places)
     for path, mode in modes.items():
         path.chmod(mode)
     [folder] = tmp_path.glob("vibroimpact-*")

@@ -1,4 +1,4 @@
-"""Periodic responses of a single machine: against its twin, company it does not feel, closed forms and simulations."""
+"""Periodic responses of a single machine agree with those of an uncoupled module, closed forms and runs."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from vibroimpact.theory.response import mean_power
 
 
 @MACHINES
-def test_fixed_points_are_those_of_the_module_in_company(machine):
+def test_fixed_points_are_those_of_a_module_next_to_another_machine(machine):
     (module,), both = machine.modules, company(machine)
     for point in search(machine):
         assert holds(partner(point, search(both), module).slow_eigenvalues, point.slow_eigenvalues)
@@ -24,7 +24,7 @@ def test_fixed_points_are_those_of_the_module_in_company(machine):
 
 
 @MACHINES
-def test_orbits_are_those_of_the_module_in_company(machine):
+def test_orbits_are_those_of_a_module_next_to_another_machine(machine):
     (module,), together = machine.modules, vi.orbits(company(machine))
     alone = vi.orbits(machine)
     names = ["C", "impact_phases", "ball_speeds"]
@@ -48,7 +48,7 @@ def test_orbits_are_those_of_the_module_in_company(machine):
 
 @pytest.mark.parametrize("machine", [MACHINE, FIRST.with_(gamma2_hat=0.3, sigma20_hat=0)])
 @pytest.mark.parametrize("of", [vi.fixed_points, vi.orbits])
-def test_verdicts_and_rows_are_those_of_the_twin(machine, of):
+def test_verdicts_and_rows_are_those_of_two_equal_machines(machine, of):
     twin = machine.with_(f20_hat=machine.f10_hat)
     names = ["C"] if of is vi.fixed_points else ["C", "impact_phases"]
     diagonal = [one for one in of(twin) if all(np.ptp(getattr(one, name), axis=0).max() < 1e-9 for name in names)]
@@ -63,7 +63,7 @@ def test_verdicts_and_rows_are_those_of_the_twin(machine, of):
             assert one.excursion == pytest.approx(same.excursion, abs=1e-9)
         assert one.stability == same.stability
         assert list(row) == list(expected)
-        # The twin has the moduli of both modules.
+        # two machines have the moduli of both modules
         differ = "residual", "label", *(f"modulus_{k}" for k in range(2, 9))
         shown = [name for name in row if "2" not in name and name not in differ]
         assert {name: row[name] for name in shown} == pytest.approx({name: expected[name] for name in shown}, abs=1e-9)
@@ -71,16 +71,13 @@ def test_verdicts_and_rows_are_those_of_the_twin(machine, of):
 
 
 @MACHINES
-def test_power_balances(machine):
+def test_the_power_balances(machine):
     power = mean_power(machine, vi.fixed_points(machine)[0])
     assert power.work.sum() == pytest.approx(power.ground.sum() + power.coupling + power.impacts.sum(), rel=1e-12)
 
 
-# A second module that is truly at rest.
-
-
 @MACHINES
-def test_orbits_are_periodic_under_simulation_beside_a_module_at_rest(machine):
+def test_runs_from_orbits_are_periodic_and_leave_the_other_module_at_rest(machine):
     (module,) = machine.modules
     own = np.flatnonzero(np.array([1, 1, 2, 2, 1, 1, 2, 2]) == module)
     rest = np.setdiff1d(np.arange(8), own)
@@ -95,31 +92,31 @@ def test_orbits_are_periodic_under_simulation_beside_a_module_at_rest(machine):
         assert holds(np.linalg.eigvals(run.jacobian[np.ix_(own, own)]), orbit.multipliers)
 
 
-# Masri's two impacts per cycle, in units of F / k and of natural time; d is the whole play.
+# Masri's motion with two impacts per cycle, in units of F / k and of natural time; D is the total play.
 MU, E, ZETA, D = 0.1, 0.8, 0.01, 20.0
 HALF, ETA = np.pi, np.sqrt(1 - ZETA**2)
 
 
 def free(x, v, t):
-    """Unforced box after a time t: position and velocity."""
+    """Return position and velocity of the unforced box after a time t."""
     c, s = np.exp(-ZETA * t) * np.cos(ETA * t), np.exp(-ZETA * t) * np.sin(ETA * t) / ETA
     return x * (c + ZETA * s) + v * s, v * (c - ZETA * s) - x * s
 
 
 def forced(t):
-    """Box without impacts at resonance, r = 1, under the force sin t: position and velocity."""
+    """Return position and velocity of the box without impacts at resonance, r = 1, under the force sin t."""
     return -np.cos(t) / (2 * ZETA), np.sin(t) / (2 * ZETA)
 
 
 def masri():
-    """Speed V of the ball and time of the impact at the wall where x - z = d / 2, of the larger V.
+    """Return the larger speed V of the ball, the time of the impact at the wall x - z = D / 2, and the free motion h.
 
-    All that the box does is linear in V. It is kicked by -2 mu V there, and its unforced part h returns with opposite
-    sign after half a cycle.
+    The motion of the box is linear in V: its velocity jumps by -2 mu V, and its unforced part h changes its sign in
+    half a cycle.
     """
     columns = np.transpose([free(*unit, HALF) for unit in np.eye(2)])
-    after = np.linalg.solve(np.eye(2) + columns, [0.0, -2 * MU])  # h, h' just after; h' before is 2 mu higher
-    # Newton's rule: (1 + e) v = V (1 + 2 mu - e), v before the impact. Way of the ball: 2 (d / 2 - x) = V pi.
+    after = np.linalg.solve(np.eye(2) + columns, [0.0, -2 * MU])  # h and h' after the impact; h' before is 2 mu larger
+    # Newton's rule: (1 + e) v = V (1 + 2 mu - e), v before the impact. Distance of the ball: 2 (D / 2 - x) = V pi.
     velocity = (1 + 2 * MU - E) / (1 + E) - (after[1] + 2 * MU)
     place = np.polysub([D / 2], [HALF / 2 + after[0], 0.0])
     V = np.roots(np.polyadd(np.polymul(place, place), [velocity**2, 0, 0]) - [0, 0, 1 / (2 * ZETA) ** 2]).max()
@@ -127,7 +124,7 @@ def masri():
 
 
 def half_cycle(state):
-    """The state just after an impact at that wall, x, x', z' and time, mapped to that after the next, mirrored."""
+    """Map the state after an impact at that wall, x, x', z' and time, to the mirrored state after the next impact."""
     x, v, u, t0 = state
     at, speed = forced(t0)
 
@@ -141,7 +138,7 @@ def half_cycle(state):
     return np.array([-x, -v, -u, t0 + t - HALF])
 
 
-def test_masris_closed_form_of_one_machine():
+def test_orbit_and_multiplier_of_a_machine_are_those_of_masri_s_closed_form():
     V, time, h = masri()
     start = np.array([*np.add(h, forced(time)), V, time])
     np.testing.assert_allclose(half_cycle(start), start, atol=1e-12)
@@ -155,12 +152,9 @@ def test_masris_closed_form_of_one_machine():
     machine = vi.PhysicalSystem.single(M=1, m=MU, k=1, c=2 * ZETA, F=1, L=D / 2, kappa=E).dimensionless()
     (orbit,) = (one for one in vi.orbits(machine) if one.admissible)
     run = vi.simulate(machine, orbit.state, 1, sample_times=np.linspace(0, machine.period, 8001))
-    mine = orbit.ball_speeds[0, 0] * D / 2, np.abs(run.samples[:, 0]).max() * D / 2, abs(orbit.multipliers[0])
-    assert mine == pytest.approx((V, largest, multiplier), abs=1e-6)
-    assert mine[0] == pytest.approx(V, rel=1e-12)
-
-
-# Proofs.
+    found = orbit.ball_speeds[0, 0] * D / 2, np.abs(run.samples[:, 0]).max() * D / 2, abs(orbit.multipliers[0])
+    assert found == pytest.approx((V, largest, multiplier), abs=1e-6)
+    assert found[0] == pytest.approx(V, rel=1e-12)
 
 
 @MACHINES
@@ -174,11 +168,8 @@ def test_orbits_are_proved(machine):
         assert orbit.with_proof().proved
 
 
-# What takes no part does not matter.
-
-
-def test_an_undamped_resonance_of_the_module_at_rest_is_no_obstacle():
-    """Its box would resonate with the force, and with the third harmonic of the impacts."""
+def test_an_undamped_resonance_of_the_module_at_rest_has_no_effect():
+    """The resonance is with the force, or with the third harmonic of the impacts."""
     for stiffness in (1.0, 9.0):
         resonant = FIRST.with_(gamma2_hat=0, sigma20_hat=(stiffness * FIRST.Omega**2 - 1) / FIRST.epsilon)
         assert resonant.modules == (1,)

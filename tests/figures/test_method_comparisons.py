@@ -1,4 +1,4 @@
-"""The accuracy charts show every row of the methods that they draw, and their names cover nothing."""
+"""The accuracy charts show all rows of the methods that they draw, and their labels cover nothing."""
 
 import numpy as np
 import pandas as pd
@@ -21,13 +21,13 @@ def texts(figure):
 
 
 def points(axes, hollow=False):
-    """Places of the markers, filled or hollow."""
+    """Return the places of the filled or of the hollow markers."""
     marked = [line for line in axes.lines if line.get_marker() not in ("", "None")]
     chosen = [line for line in marked if (line.get_markerfacecolor() == "white") == hollow]
     return {tuple(place) for line in chosen for place in line.get_xydata()}
 
 
-def test_the_chart_shows_runs_that_failed_in_their_lane_and_says_what_is_not_installed():
+def test_the_chart_shows_failed_runs_in_their_lane_and_names_methods_that_are_not_installed():
     rows = [
         ROW,
         ROW | dict(setting="2", error_state=1e-8, missed=1),
@@ -46,20 +46,20 @@ def test_the_chart_shows_runs_that_failed_in_their_lane_and_says_what_is_not_ins
     assert "Hertz" not in shown
 
 
-def test_names_cover_no_curve_marker_or_name_whatever_the_timings_are():
-    """Timings of the reference set, each moved by a factor of up to some 3, as another machine would."""
+def test_labels_cover_no_curve_marker_or_label_with_the_timings_of_another_machine():
+    """The timings of the reference set are multiplied by random factors of up to some 3."""
     table = read(ROOT / "figures/work_precision.csv")
     random = np.random.default_rng(0)
     factors = dict(zip(table["method"].unique(), np.exp(random.normal(0.0, 0.5, 99)), strict=False))
     table["seconds_per_cycle"] *= table["method"].map(factors) * np.exp(random.normal(0.0, 0.15, len(table)))
     figure = work_precision.draw(table)
     for axes in figure.axes:
-        expect_clear_names(axes)
+        assert_labels_cover_nothing(axes)
         assert len(axes.texts) == len(LOOKS)
 
 
 @pytest.mark.parametrize("figure", [fig10_06, fig10_09])
-def test_names_of_points_cover_nothing_and_points_near_the_fold_are_drawn_larger(figure):
+def test_labels_of_points_cover_nothing_and_an_inset_shows_points_near_the_fold(figure):
     table = read(ROOT / f"figures/{figure.__name__.rpartition('.')[2]}.csv")
     drawn = figure.draw(table)
     points = table[table["series"].str.fullmatch("[SP]_[12]")]
@@ -67,7 +67,7 @@ def test_names_of_points_cover_nothing_and_points_near_the_fold_are_drawn_larger
     for axes, panel in zip(drawn.axes, table["panel"].unique(), strict=True):
         assert len(axes.child_axes) == (near.get(panel, 0) > 1)
         for pane in (axes, *axes.child_axes):
-            expect_clear_names(pane)
+            assert_labels_cover_nothing(pane)
         names = [text.get_text() for pane in (axes, *axes.child_axes) for text in pane.texts]
         inside, S = points.loc[points["panel"] == panel, "series"], f"S_{panel[-1]}"
         beyond = table.loc[(table["panel"] == panel) & (table["series"] == f"{S} beyond"), "C"]
@@ -75,14 +75,14 @@ def test_names_of_points_cover_nothing_and_points_near_the_fold_are_drawn_larger
         assert sorted(names) == sorted([*(f"${name}$" for name in inside), *corner])
 
 
-def expect_clear_names(axes):
-    """No box of a text meets another one, a segment of a line, or a marker; leaders may end next to their own."""
+def assert_labels_cover_nothing(axes):
+    """Check that no text overlaps another text, a line or a marker; a leader may end at the edge of its text."""
     boxes = [text.get_window_extent() for text in axes.texts]
     for n, box in enumerate(boxes):
         assert not any(box.overlaps(other) for other in boxes[:n])
         assert axes.get_window_extent().contains(box.x0, box.y0)
         assert axes.get_window_extent().contains(box.x1, box.y1)
-        inner = box.padded(-1)  # the end of a leader is on the edge
+        inner = box.padded(-1)  # excludes the end of a leader
         for line in axes.lines:
             path = line.get_transform().transform_path(line.get_path())
             if line.get_linestyle() != "None" and len(path.vertices) > 1:
@@ -92,7 +92,7 @@ def expect_clear_names(axes):
                 assert not any(box.overlaps(Bbox([place - half, place + half])) for place in path.vertices)
 
 
-def test_a_group_of_stress_tests_has_its_worst_verdict_and_the_number_of_right_ones():
+def test_a_group_of_stress_tests_shows_its_worst_verdict_and_the_number_of_right_ones():
     verdicts = list(stress_tests.VERDICTS)
     rows = [dict(group=worst, method="m", verdict=verdict) for worst in verdicts for verdict in ("right", worst)]
     shown = texts(stress_tests.draw(pd.DataFrame(rows)))
@@ -102,13 +102,13 @@ def test_a_group_of_stress_tests_has_its_worst_verdict_and_the_number_of_right_o
     assert [shown.count("2/2"), shown.count("1/2")] == [1, len(verdicts) - 1]
 
 
-def test_a_missed_impact_costs_an_error_that_falls_with_the_root_of_the_depth():
-    """The impact that a method misses has a speed that is the root of twice the depth times the acceleration."""
+def test_the_error_of_a_missed_impact_is_proportional_to_the_square_root_of_its_depth():
+    """The speed of the missed impact is the square root of twice the depth times the acceleration."""
     table = read(ROOT / "figures/grazing.csv")
     missed = table[(table["method"] == "DOP853") & (table["missed"] > 0)]
     assert len(missed) > 8
     slope = np.polyfit(-np.log(10) * missed["digits"], np.log(missed["error_state"]), 1)[0]
     assert slope == pytest.approx(0.5, abs=0.01)
-    ours = table[table["method"] == "this engine"]
-    assert (ours["missed"] + ours["spurious"] == 0).all()
-    assert (ours["error_state"] < 1e-7).all()
+    engine = table[table["method"] == "this engine"]
+    assert (engine["missed"] + engine["spurious"] == 0).all()
+    assert (engine["error_state"] < 1e-7).all()

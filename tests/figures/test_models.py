@@ -1,4 +1,4 @@
-"""The chart of models: its errors, the choice of the config, and what is drawn."""
+"""The chart of models has the right errors, justifies the models in the config, and shows all models."""
 
 import numpy as np
 import pandas as pd
@@ -17,7 +17,7 @@ CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"
 
 
 def scene(figure):
-    """An entry of the chart as its rule gives it."""
+    """Return an entry of the chart as the rule passes it to `compute`."""
     settings, notebook = dict(CONFIG["figures"][figure]), SPECS[figure]["notebook"]
     case, model = dict(CONFIG["cases"][settings.pop("case")]), settings.pop("model")
     simulation = case.pop("simulation")
@@ -29,13 +29,13 @@ def scene(figure):
 
 @pytest.fixture(scope="module")
 def table():
-    """Of all figures with a choice: some 4 s, most of it the reference arithmetic of figure 10.11."""
+    """Return the table for all figures with a choice of models; figure 10.11 takes most of the 4 s."""
     scenes = {figure: scene(figure) for figure, entry in CONFIG["figures"].items() if "model" in entry}
     return models.compute(scenes, seconds=1e-3)
 
 
 def test_each_figure_has_the_cheapest_model_within_its_tolerance(table):
-    """By the order of the models; their measured times are no part of it."""
+    """The models are listed by cost; measured times are not used."""
     assert table["figure"].unique().tolist() == [f"fig10_{n:02d}" for n in range(6, 12)]
     for figure, rows in table.groupby("figure"):
         assert rows["model"].tolist() == [*CHOICES[SPECS[figure]["notebook"]]]
@@ -50,7 +50,7 @@ def test_errors_are_distances_from_the_reference_in_percent_of_the_axis(table):
         exact = [orbit.C for orbit in vi.orbits(system) if orbit.symmetric]
         points = [point.C for point in vi.fixed_points(system)]
         apart = max(np.abs(C - min(exact, key=lambda one: np.abs(one - C).max())).max() for C in points)
-        assert error[figure, "slow_flow"] > 100 * apart / end  # B, on the shorter axis, is farther off
+        assert error[figure, "slow_flow"] > 100 * apart / end  # the error of B, whose axis is shorter, is larger
         assert error[figure, "slow_flow"] == pytest.approx(100 * apart / end, rel=1.0)
     for figure in ("fig10_07", "fig10_10"):
         assert 0.1 < error[figure, "second_term"] < error[figure, "slow_flow"] / 10
@@ -59,7 +59,7 @@ def test_errors_are_distances_from_the_reference_in_percent_of_the_axis(table):
     assert not table.loc[table["model"].isin(["exact_orbit", "reference"]), "error"].any()
 
 
-def test_the_largest_error_of_hand_made_tables():
+def test_the_largest_error_of_constructed_tables_is_known():
     tau = np.linspace(0, 1, 5)
     truth = join([curve("a", "X_2", tau=tau, value=2 * tau), curve("b", "W_2", tau=tau, value=tau)])
     other = join([curve("a", "X_2", tau=tau, value=2 * tau + 0.1), curve("b", "W_2", tau=tau, value=tau + 0.2)])
@@ -73,7 +73,7 @@ def test_the_largest_error_of_hand_made_tables():
         assert np.isinf(models.largest_error(one, reference))
 
 
-def test_all_models_are_drawn_and_named_those_in_use_filled():
+def test_all_models_are_drawn_and_labelled_and_those_in_use_are_filled():
     names = ("figure", "model", "error", "seconds", "in_use")
     rows = [("fig10_07", "slow_flow", 4.0, 0.01, True), ("fig10_07", "exact_orbit", 0.0, 0.02, False)]
     rows += [("fig10_07", "second_term", np.inf, 0.03, False), ("mine", "float64", 1e-9, 5.0, True)]

@@ -1,4 +1,4 @@
-"""The notebooks as they lie in the repository: valid, stripped, with the parameters that the pipeline sets."""
+"""The notebooks in the repository are valid and without outputs, and have the parameters that the pipeline sets."""
 
 import ast
 import tomllib
@@ -10,7 +10,7 @@ from pipeline_trees import ROOT
 
 FOLDER = ROOT / "notebooks"
 NOTEBOOKS = sorted(path.relative_to(FOLDER).with_suffix("").as_posix() for path in FOLDER.rglob("*.ipynb"))
-"""Those of the chapter, and whatever else there is."""
+"""Notebooks of the chapter and of the studies."""
 
 
 def opened(name):
@@ -18,14 +18,14 @@ def opened(name):
 
 
 def code(notebook, tag=None):
-    """Sources of the code cells, or of those with a tag, without the lines for IPython alone."""
+    """Return the sources of the code cells, or of those with a tag, without the commands of IPython."""
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     chosen = [cell for cell in cells if tag is None or tag in cell.metadata.get("tags", [])]
     return ["\n".join(line for line in cell.source.splitlines() if not line.startswith("%")) for cell in chosen]
 
 
 @pytest.mark.parametrize("name", NOTEBOOKS)
-def test_valid_and_stripped_with_readable_cell_ids_and_begins_with_the_question_and_its_equations(name):
+def test_notebooks_are_valid_without_outputs_and_begin_with_question_and_equations(name):
     notebook = opened(name)
     nbformat.validate(notebook)
     assert (notebook.nbformat, notebook.nbformat_minor) == (4, 5)
@@ -39,23 +39,22 @@ def test_valid_and_stripped_with_readable_cell_ids_and_begins_with_the_question_
 
 
 @pytest.mark.parametrize("name", [name for name in NOTEBOOKS if name != "play"])
-def test_parameters_are_plain_names_with_values_and_functions_belong_to_a_solution_by_hand(name):
-    """Whatever else computes belongs to the library, where it is tested."""
+def test_parameters_are_literals_and_only_solutions_by_hand_define_functions(name):
+    """Other computations belong to the library, where they are tested."""
     notebook = opened(name)
     (source,) = code(notebook, "parameters")
     values = {node.targets[0].id: ast.literal_eval(node.value) for node in ast.parse(source).body}
     assert list(values)[:2] == ["figure", "alt"]
     assert "refuse_unknown(" in code(notebook)[2]
-    assert values["inputs"] == {}  # a reader's run is a reader's own
+    assert values["inputs"] == {}  # a run by hand reads no files of a build
     for source in set(code(notebook)) - set(code(notebook, "by-hand")):
         assert not any(isinstance(node, (ast.FunctionDef, ast.ClassDef)) for node in ast.walk(ast.parse(source)))
 
 
-def test_the_one_to_play_with_needs_what_its_extra_installs():
+def test_the_notebook_play_imports_only_what_its_extra_installs():
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
     assert {"vibroimpact[figures]", "ipykernel>=6.29"} < set(extras["notebooks"])
     imports = [node for source in code(opened("play")) for node in ast.walk(ast.parse(source))]
     names = {alias.name for node in imports if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module for node in imports if isinstance(node, ast.ImportFrom)}
-    brought = {"vibroimpact", "numpy", "scipy", "matplotlib", "IPython"}  # by the library, Matplotlib and the kernel
-    assert {name.split(".")[0] for name in names} == brought
+    assert {name.split(".")[0] for name in names} == {"vibroimpact", "numpy", "scipy", "matplotlib", "IPython"}

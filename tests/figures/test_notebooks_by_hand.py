@@ -1,4 +1,4 @@
-"""Notebooks with parameters that a reader has changed: what they say follows from these, and no file is written."""
+"""Notebooks with parameters changed by a reader show results of these parameters, and write no files."""
 
 import re
 import subprocess
@@ -11,14 +11,14 @@ from nbclient import NotebookClient
 from PIL import Image
 
 import vibroimpact as vi
-from chapter import PARAMETERS
+from chapter import system_of
 from pipeline_trees import ROOT
 
-LESS = {"f20_hat = 1.0": "f20_hat = 0.72"}
+SMALLER_FORCE = {"f20_hat = 1.0": "f20_hat = 0.72"}
 RUNS = {
-    "points": ("fixed_points", LESS),
-    "no points": ("fixed_points", LESS | {"kappa = 0.65": "kappa = 0.3"}),
-    "response": ("theoretical_response", LESS | {'fixed_point = "c"': 'fixed_point = "b"'}),
+    "points": ("fixed_points", SMALLER_FORCE),
+    "no points": ("fixed_points", SMALLER_FORCE | {"kappa = 0.65": "kappa = 0.3"}),
+    "response": ("theoretical_response", SMALLER_FORCE | {'fixed_point = "c"': 'fixed_point = "b"'}),
     "motion": ("simulation", {"f20_hat = 1.0": "f20_hat = 0.5"}),
     "manifold": ("closed_form", {"kappa = 0.65": "kappa = 0.3"}),
     "drawing": ("drawings", {'"fig10_01"': '"fig10_02"'}),
@@ -36,17 +36,14 @@ NUMBER = r"([\d.]+(?:e[+-]?\d+)?)"
 
 
 def printed(runs, folder):
-    """Outputs of notebooks with edited parameters, {key: (name, edits)}, by their keys; images are "<picture>".
+    """Return the outputs of notebooks with edited parameters, {key: (name, edits)}, by key; images are "<picture>".
 
-    One kernel, started in the folder, runs all of them; its variables are deleted before the next one.
+    One kernel, started in the folder, runs all notebooks; its variables are deleted before each notebook.
     """
     cells, keys = [], []
     for key, (name, edits) in runs.items():
-        code = [
-            one
-            for one in nbformat.read(ROOT / f"notebooks/{name}.ipynb", as_version=4).cells
-            if one.cell_type == "code"
-        ]
+        notebook = nbformat.read(ROOT / f"notebooks/{name}.ipynb", as_version=4)
+        code = [cell for cell in notebook.cells if cell.cell_type == "code"]
         (parameters,) = (cell for cell in code if "parameters" in cell.metadata.get("tags", []))
         for old, new in edits.items():
             assert parameters.source.count(old) == 1, (name, old)
@@ -64,70 +61,66 @@ def printed(runs, folder):
     return shown
 
 
-def sums(folder):
+def contents(folder):
     return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
 @pytest.fixture(scope="module")
 def shown(tmp_path_factory):
-    """What each of RUNS shows, opened beside files that bear the names of results and hold nothing of use."""
+    """Return the outputs of RUNS in a folder whose files have the names of results, but no valid content."""
     folder = tmp_path_factory.mktemp("opened")
     for name in ("fixed_points/equal.csv", "simulations/equal/float64/summary.json", "figures/fig10_06.png"):
         for results in (folder / "results", folder / "notebooks/results"):
             (results / name).parent.mkdir(parents=True, exist_ok=True)
-            (results / name).write_text("of a build")
-    before = sums(folder)
+            (results / name).write_text("invalid")
+    before = contents(folder)
     shown = printed(RUNS, folder / "notebooks")
-    assert sums(folder) == before
+    assert contents(folder) == before
     return shown
 
 
-def points_of(f20_hat, **changes):
-    return vi.fixed_points(vi.System(**PARAMETERS | changes, f10_hat=1.0, f20_hat=f20_hat))
-
-
-def table_of(text, columns):
-    """Numbers in the rows of a printed table with the labels a, b, ..."""
-    rows = re.findall(rf"^\d+ +equal +(\w)((?: +-?{NUMBER}){{{columns}}})", text, re.MULTILINE)
+def printed_points(shown):
+    """Return the numbers in the printed table of fixed points by label."""
+    rows = re.findall(rf"^\d+ +equal +(\w)((?: +-?{NUMBER}){{6}})", shown["points"], re.MULTILINE)
     return {label: [float(value) for value in values.split()] for label, values, *_ in rows}
 
 
 def test_fixed_points_are_those_of_the_parameters(shown):
-    rows = sorted(table_of(shown["points"], 6).values())
-    expected = [[*point.C, *point.B, *point.psi] for point in points_of(0.72)]
-    np.testing.assert_allclose(rows, expected, atol=2e-5)
+    points = vi.fixed_points(system_of("equal", f20_hat=0.72))
+    expected = [[*point.C, *point.B, *point.psi] for point in points]
+    np.testing.assert_allclose(sorted(printed_points(shown).values()), expected, atol=2e-5)
     assert "fixed points: 3" in shown["points"]
     assert float(re.search(rf"from the table: {NUMBER}", shown["points"])[1]) < 1e-8  # the root by hand
 
 
-def test_without_a_fixed_point_none_is_shown(shown):
-    assert points_of(0.72, kappa=0.3) == []
-    said = ("fixed points: 0. By (10.26): none", "the theory has no fixed point here", "no fixed point to find.")
-    assert [words for words in said if words not in shown["no points"]] == []
+def test_a_system_without_fixed_points_has_a_notebook_that_states_it(shown):
+    assert vi.fixed_points(system_of("equal", f20_hat=0.72, kappa=0.3)) == []
+    texts = ("fixed points: 0. By (10.26): none", "the theory has no fixed point here", "no fixed point to find.")
+    assert [text for text in texts if text not in shown["no points"]] == []
 
 
 def test_the_response_is_that_of_the_point(shown):
     on_manifold = re.findall(rf"b +[12] +{NUMBER} +{NUMBER}", shown["response"])
-    angles = table_of(shown["points"], 6)["b"][4:]
+    angles = printed_points(shown)["b"][4:]
     phases = re.search(rf"module 1: {NUMBER}, module 2: {NUMBER}", shown["response"]).groups()
     for (C, B), psi, phase in zip(on_manifold, angles, phases, strict=True):
         U = float(B) * np.sin(2 * np.pi * float(phase) - psi)
         assert U + float(C) == pytest.approx(1.0, abs=2e-3)  # W = U + Z at the wall
-    assert "**b**: **no orbit**" in shown["response"]  # lost in a fold at 0.732
+    assert "**b**: **no orbit**" in shown["response"]  # its orbit vanishes in a fold at 0.732
 
 
 def test_the_motion_is_that_of_the_parameters(shown):
-    text, system = shown["motion"], vi.System(**PARAMETERS, f10_hat=1.0, f20_hat=0.5)
-    said = [float(re.search(rf"^X{i} +{NUMBER}", text, re.MULTILINE)[1]) for i in (1, 2)]
-    np.testing.assert_allclose(said, vi.ensemble(system, np.zeros(8), 300, settle=295)["largest"], atol=1e-4)
+    text, system = shown["motion"], system_of("equal", f20_hat=0.5)
+    largest = [float(re.search(rf"^X{i} +{NUMBER}", text, re.MULTILINE)[1]) for i in (1, 2)]
+    np.testing.assert_allclose(largest, vi.ensemble(system, np.zeros(8), 300, settle=295)["largest"], atol=1e-4)
     assert "Ball 2 has no impact in the window" in text
     assert "**repeats every period**" in text
     assert int(re.search(r"changes after one period by up to \$[^$]*10\^\{-(\d+)\}", text)[1]) > 6
     assert not re.search("not repeat|modulated", text)
     rows = re.findall(rf"^(?:time|velocity of \w+ [12]) +-?{NUMBER} +-?{NUMBER}", text, re.MULTILINE)  # an impact
     assert len(rows) == 3
-    for by_hand, in_the_table in rows:
-        assert float(by_hand) == pytest.approx(float(in_the_table), abs=1e-8)
+    for by_hand, in_table in rows:
+        assert float(by_hand) == pytest.approx(float(in_table), abs=1e-8)
 
 
 def test_the_manifold_is_that_of_kappa(shown):
@@ -146,8 +139,8 @@ def test_every_notebook_shows_its_picture_once(shown):
 
 
 @pytest.mark.thorough
-def test_playing_tells_the_truth_and_writes_the_animation_alone(tmp_path):
-    """Numbers of points and orbits as in the documents; the motion of the equal case repeats, the weak one does not."""
+def test_the_notebook_play_shows_correct_results_and_writes_only_the_animation(tmp_path):
+    """Numbers of points and orbits are those of the documents; the equal case repeats, the weak case does not."""
     shown = printed(PLAYED, tmp_path)
     assert {key: text.count("<picture>") for key, text in shown.items()} == dict.fromkeys(PLAYED, 3)
     assert all("IPython.core.display.HTML" in text for text in shown.values())
@@ -163,21 +156,21 @@ def test_playing_tells_the_truth_and_writes_the_animation_alone(tmp_path):
     assert "The motion does not repeat every period, or not yet." in weak
     assert len(re.findall(r"  symmetric, .*multiplier 0\.\d+$", light, re.MULTILINE)) == 1
     assert not re.search(r"  asymmetric, .*multiplier 0\.\d+$", light, re.MULTILINE)
-    apart = {
+    differences = {
         text: [float(n) for n in re.search(rf"differ by {NUMBER} after one period and by {NUMBER}", text).groups()]
         for text in (equal, light, weak)
     }
     for text in (equal, light):
-        assert max(apart[text]) < 1e-7
+        assert max(differences[text]) < 1e-7
         assert re.search(r"^(\d+) impacts by SciPy, \1 events by the library", text, re.MULTILINE)
-    assert apart[weak][0] < 1e-8
-    assert apart[weak][1] > 0.01  # chaos has parted them
+    assert differences[weak][0] < 1e-8
+    assert differences[weak][1] > 0.01  # the motion is chaotic
 
 
-def test_papermill_is_refused_a_parameter_that_the_notebook_has_not(tmp_path):
+def test_an_unknown_parameter_of_papermill_is_an_error(tmp_path):
     given = [str(ROOT / "notebooks/fixed_points.ipynb"), "executed.ipynb", "--no-progress-bar", "-p", "kapa", "0.5"]
-    done = subprocess.run(
+    run = subprocess.run(
         [sys.executable, "-m", "papermill", *given], cwd=tmp_path, capture_output=True, text=True, check=False
     )
-    assert done.returncode != 0
-    assert "ValueError: parameters: unknown kapa; this notebook has model, C_max, epsilon, kappa" in done.stderr
+    assert run.returncode != 0
+    assert "ValueError: parameters: unknown kapa; this notebook has model, C_max, epsilon, kappa" in run.stderr

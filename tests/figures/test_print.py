@@ -1,4 +1,4 @@
-"""All published figures, drawn of their tables: fit for print, told without colour, the same bytes every time."""
+"""All published figures, drawn from their tables, are suitable for print and grey print, and reproducible."""
 
 import json
 import sys
@@ -21,13 +21,13 @@ from vibroimpact_pipeline.figure_check.check import compared_files
 from vibroimpact_pipeline.specs import spec_of, specs
 
 PUBLISHED = {path.stem: path.parent for path in sorted((ROOT / "figures").rglob("*.png"))}
-"""Folders of the reference sets by figure."""
+"""Folder of the reference set of each figure."""
 FIGURES = {figure: spec_of(figure, {}, specs()) for figure in PUBLISHED}
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_fit_for_print(name):
-    """Width of a column or page; nothing beyond the paper; lettering that can be read; no line told by hue alone."""
+def test_figures_are_suitable_for_print(name):
+    """Figures have the width of a column or page, nothing beyond the paper, legible text, and no line by hue alone."""
     spec = FIGURES[name]
     read = {key: tables.read(PUBLISHED[name] / file) for key, (file, _) in compared_files(name, spec).items()}
     figure = style.draw_tables(import_module(spec["module"]), read)
@@ -46,14 +46,14 @@ def test_fit_for_print(name):
     looks = {(str(line.get_marker()), matplotlib.colors.to_rgb(line.get_color())) for line in figure.findobj(Line2D)}
     hues = {hue for _, hue in looks if len(set(hue)) > 1}
     for marker in {marker for marker, _ in looks}:
-        alike = {hue for other, hue in looks if other == marker and hue in hues}
-        apart = np.diff(sorted(lightness(hue) for hue in alike | {(0.0, 0.0, 0.0)}))
-        assert all(apart > 15), f"colours that look alike in grey print: {alike}"
+        same_marker = {hue for other, hue in looks if other == marker and hue in hues}
+        contrast = np.diff(sorted(lightness(hue) for hue in same_marker | {(0.0, 0.0, 0.0)}))
+        assert all(contrast > 15), f"colours that look alike in grey print: {same_marker}"
     unlabelled = hues - {matplotlib.colors.to_rgb(text.get_color()) for text in figure.findobj(Text)}
-    assert not unlabelled, f"a line of colour {unlabelled} needs a label in its colour: no colour speaks alone"
+    assert not unlabelled, f"lines of colour {unlabelled} need a label in their colour"
 
 
-def test_same_bytes_again_whatever_the_user_has_set_and_no_date_but_the_versions_that_draw(tmp_path):
+def test_files_have_the_same_bytes_under_other_settings_and_contain_versions_but_no_date(tmp_path):
     """Matplotlib writes its own version into a picture."""
     table = tables.read(ROOT / "figures/fig10_04.csv")
     written = []
@@ -72,10 +72,10 @@ def test_same_bytes_again_whatever_the_user_has_set_and_no_date_but_the_versions
     assert versions["python"] == sys.version.split()[0]
 
 
-def test_a_picture_is_drawn_of_what_was_written_with_every_digit(tmp_path, monkeypatch):
+def test_a_picture_is_drawn_from_the_written_table_which_has_all_digits(tmp_path, monkeypatch):
     values = np.array([0.1, 1 / 3, 5e-324, 1.7976931348623157e308, -0.0, np.pi])
-    given, written = [], tables.join([tables.curve("p", "s", x=values, y=values[::-1])])
-    monkeypatch.setattr(fig10_04, "draw", lambda table: given.append(table) or style.new_figure(84, 50))
+    drawn, written = [], tables.join([tables.curve("p", "s", x=values, y=values[::-1])])
+    monkeypatch.setattr(fig10_04, "draw", lambda table: drawn.append(table) or style.new_figure(84, 50))
     style.write_and_draw(fig10_04, written, {"csv": tmp_path / "t.csv", "png": tmp_path / "t.png"})
-    assert given[0] is not written
-    assert (given[0]["x"].to_numpy().view("i8") == values.view("i8")).all()
+    assert drawn[0] is not written
+    assert (drawn[0]["x"].to_numpy().view("i8") == values.view("i8")).all()

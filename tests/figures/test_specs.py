@@ -1,4 +1,4 @@
-"""Rules and SPECs of figures: literals that need no library, arguments of `compute`."""
+"""SPECs of figures are literals that need no library, and rules pass what notebooks and figures need."""
 
 import papermill
 import pytest
@@ -21,8 +21,8 @@ def of_the_chapter(tmp_path_factory):
 
 
 @pytest.mark.parametrize("notebook", PAGES)
-def test_the_parameters_of_a_notebook_are_those_that_rules_give(notebook, of_the_chapter):
-    """All of them, or the rest stays at None or is of another figure of the notebook."""
+def test_rules_set_all_parameters_of_a_notebook(notebook, of_the_chapter):
+    """Parameters of other figures of the same notebook are None."""
     known = papermill.inspect_notebook(str(ROOT / f"notebooks/{notebook}.ipynb"))
     given = {}
     for figure, page in of_the_chapter[f"pages_{notebook}"].params.pages.items():
@@ -36,7 +36,7 @@ def test_the_parameters_of_a_notebook_are_those_that_rules_give(notebook, of_the
             assert {known[name]["default"] for name in known.keys() - names} <= {"None"}
 
 
-def test_the_config_of_the_chapter_makes_the_reference_set(of_the_chapter):
+def test_the_figures_of_the_config_are_those_of_the_reference_set(of_the_chapter):
     assert sorted(made(of_the_chapter, "figure_check")) == DRAWN
     for figure in DRAWN:
         folder = "figures" if figure.startswith("fig10_") else "accuracy"
@@ -46,11 +46,11 @@ def test_the_config_of_the_chapter_makes_the_reference_set(of_the_chapter):
 @pytest.mark.parametrize(
     ("lacking", "gone"), [(("figures", "fig10_06"), {"fig10_06"}), (("cases", "weak"), {"fig10_10", "fig10_11"})]
 )
-def test_a_figure_whose_settings_the_config_lacks_is_not_made(lacking, gone, tmp_path):
+def test_a_figure_without_settings_in_the_config_is_not_drawn(lacking, gone, tmp_path):
     assert set(DRAWN) - made(rules(tmp_path, without(*lacking)), "figure_check") == gone
 
 
-def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own_and_names_another_model():
+def test_captions_and_files_of_a_user_s_figure_are_its_own_and_captions_name_another_model():
     planes, own = (spec_of("mine", OWN | {"like": like, "C_max": 2.0}, SPECS) for like in ("fig10_10", "fig10_07"))
     assert [one["module"].rpartition(".")[2] for one in (planes, own)] == ["fig10_10", "fig10_07"]
     assert planes["tables"]["csv"]["file"] == "results/figures/mine.csv"
@@ -60,7 +60,7 @@ def test_a_figure_of_one_s_own_has_the_words_and_files_of_its_own_and_names_anot
     assert exact["caption"] == f"{plain['caption']} Drawn with the model *exact orbit*."
 
 
-def test_what_decides_on_a_figure_is_named_by_its_place_in_the_config(of_the_chapter):
+def test_the_record_of_a_figure_names_its_settings_by_their_place_in_the_config(of_the_chapter):
     params, run = of_the_chapter["fig10_11"].params, GOOD["cases"]["weak"]["simulation"]
     assert of_the_chapter["fig10_11"].input.samples == "results/simulations/weak/reference/samples.csv"
     assert params.settings == {}
