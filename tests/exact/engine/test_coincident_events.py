@@ -56,10 +56,13 @@ def start_of(first, second):
     return np.array([*first[:2], *second[:2], *first[2:], *second[2:]])
 
 
-def swapped(system):
-    return system.with_(
-        gamma1_hat=system.gamma2_hat, gamma2_hat=system.gamma1_hat, f10_hat=system.f20_hat, f20_hat=system.f10_hat
-    )
+def arranged(system, start, swap):
+    """Return system, start and number of the first module, with the modules swapped or not."""
+    if not swap:
+        return system, start, 1
+    changes = {"gamma1_hat": system.gamma2_hat, "gamma2_hat": system.gamma1_hat}
+    changes |= {"f10_hat": system.f20_hat, "f20_hat": system.f10_hat}
+    return system.with_(**changes), start[SWAP], 2
 
 
 def events_of(events, module, kind):
@@ -99,14 +102,14 @@ def coincident(pair):
 
 @cache
 def ending(problem):
-    """Return the system whose forcing period equals the time of the event of a problem."""
+    """Return the sigma_e_hat at which the forcing period equals the time of the event of a problem."""
     *parts, kind = PROBLEMS[problem]
 
     def lag(sigma):
         system = SYSTEM.with_(sigma_e_hat=sigma)
         return time_of(system, start_of(*parts), 1, kind) - system.period
 
-    return SYSTEM.with_(sigma_e_hat=brentq(lag, 3.0, 200.0, xtol=1e-15))
+    return brentq(lag, 3.0, 200.0, xtol=1e-15)
 
 
 NUDGES = [-1e-9, -1e-12, -4e-16, 0.0, 4e-16, 1e-12, 1e-9]
@@ -116,24 +119,22 @@ NUDGES = [-1e-9, -1e-12, -4e-16, 0.0, 4e-16, 1e-12, 1e-9]
 @SWAPPED
 @pytest.mark.parametrize("pair", PAIRS)
 def test_two_events_at_the_same_or_almost_the_same_time(pair, swap, nudge):
-    system, start = SYSTEM, coincident(pair)
+    """Rounding may decide the order of two events, in which case the run is undecided."""
+    start = coincident(pair).copy()
     start[6:] *= 1.0 + nudge
-    if swap:
-        system, start = swapped(system), start[SWAP]
+    system, start, _ = arranged(SYSTEM, start, swap)
     run, truth = vi.simulate(system, start, 2), truth_of(system, start, 2)
-    assert_same_motion(run, truth.events, truth.final)
+    np.testing.assert_allclose(run.final, truth.final, rtol=0, atol=1e-12)
+    assert same_events(run.events, truth.events, late=1e-6) or run.certificate.undecided
 
 
 @pytest.mark.parametrize("nudge", NUDGES)
 @SWAPPED
 @pytest.mark.parametrize("problem", PROBLEMS)
 def test_an_event_at_the_end_belongs_to_the_run_and_not_to_its_continuation(problem, swap, nudge):
-    system = ending(problem)
-    system = system.with_(sigma_e_hat=system.sigma_e_hat * (1.0 + nudge))
     *parts, kind = PROBLEMS[problem]
-    start, module = start_of(*parts), 1
-    if swap:
-        system, start, module = swapped(system), start[SWAP], 2
+    system = SYSTEM.with_(sigma_e_hat=ending(problem) * (1.0 + nudge))
+    system, start, module = arranged(system, start_of(*parts), swap)
     whole, truth = vi.simulate(system, start, 2), truth_of(system, start, 2)
     assert_same_motion(whole, truth.events, truth.final)
     if problem == "impact that releases the other":
@@ -165,9 +166,7 @@ def test_an_impact_within_rounding_of_the_end_is_undecided(module, late):
 @pytest.mark.parametrize("problem", PROBLEMS)
 def test_a_sample_at_an_event_is_the_state_after_it(problem, tau0, swap):
     *parts, kind = PROBLEMS[problem]
-    system, start, module = SYSTEM, start_of(*parts), 1
-    if swap:
-        system, start, module = swapped(system), start[SWAP], 2
+    system, start, module = arranged(SYSTEM, start_of(*parts), swap)
     event = events_of(vi.simulate(system, start, 2, tau0).events, module, kind)[0]
     around = np.nextafter(event["tau"], [-np.inf, event["tau"], np.inf])
     before, at, after = vi.simulate(system, start, 2, tau0, sample_times=around).samples
@@ -195,11 +194,10 @@ STARTS = {
 @SWAPPED
 @pytest.mark.parametrize(("first", "second", "expected"), STARTS.values(), ids=STARTS)
 def test_events_at_the_start(first, second, expected, swap):
-    system, start = SYSTEM, start_of(first, second)
-    if swap:
-        system, start, expected = swapped(system), start[SWAP], {(3 - module, kind) for module, kind in expected}
+    system, start, _ = arranged(SYSTEM, start_of(first, second), swap)
     run, truth = vi.simulate(system, start, 1), truth_of(system, start, 1)
-    assert {(e["module"], e["kind"]) for e in run.events if e["tau"] == 0.0} == expected
+    found = {(3 - e["module"] if swap else e["module"], e["kind"]) for e in run.events if e["tau"] == 0.0}
+    assert found == expected
     assert_same_motion(run, truth.events, truth.final)
     instant = vi.simulate(system, start, 0, sample_times=[0.0])  # the start is also the end, and a sample
     assert_same_motion(vi.simulate(system, instant.final, 1), run.events[run.events["tau"] > 0.0], run.final)
