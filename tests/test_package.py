@@ -31,7 +31,7 @@ def test_importing_the_package_and_its_public_names_loads_neither_pandas_nor_mat
 
 @pytest.mark.thorough
 def test_a_users_script_passes_a_strict_type_checker_and_runs(tmp_path):
-    """Those of the chapter and of the studies."""
+    """The test includes the script of the studies if they are installed."""
     scripts = sorted((ROOT / "tests/shared").rglob("users_script*.py"))
     check = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path)]
     checked = subprocess.run([*check, *scripts], capture_output=True, text=True, cwd=tmp_path, check=False)

@@ -52,6 +52,3 @@ def test_statements_of_the_article_on_stress_tests_hold_in_a_build(built):
     bad = scipy[scipy["verdict"] == "silently wrong"]
     assert set(bad["test"]) == {"hits by 1e-6", "hits by 1e-10", "hits by 1e-14"}
     assert (bad["missed"] > 0).all()
-    chatter = stress_tests[stress_tests["group"] == "chatter"].groupby("method")["verdict"].unique()
-    assert chatter["power law"].tolist() == ["silently wrong"]
-    assert chatter["Ivanov, events"].tolist() == ["did not finish"]

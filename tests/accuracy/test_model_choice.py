@@ -28,7 +28,7 @@ def test_the_config_offers_all_models_and_describes_them():
 
 @pytest.mark.parametrize("case", FORCES)
 def test_the_motion_of_an_exact_orbit_is_that_of_a_run_from_its_state(case):
-    """All coordinates over a period, and the times of the impacts at W = +1."""
+    """All coordinates over a period and the times of the impacts at W = +1 agree."""
     system = system_of(case)
     tau = np.linspace(0.0, system.period, 50)
     orbits = [orbit for orbit in vi.orbits(system) if orbit.symmetric]

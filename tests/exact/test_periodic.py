@@ -79,10 +79,10 @@ def test_grazing_is_reported():
         return max((one for one in found if one.ball_speeds[0, 0] > 0), key=lambda one: one.excursion)
 
     f = brentq(lambda f: motion(f).excursion - 1, 4.64, 4.66, xtol=1e-13)
-    near, apart = (vi.periodic_orbit(one.system, one.state) for one in (motion(f - 1e-9), motion(f - 1e-3)))
+    near, clear = (vi.periodic_orbit(one.system, one.state) for one in (motion(f - 1e-9), motion(f - 1e-3)))
     assert "stability=unstable (grazing)" in repr(near)
-    assert "(grazing)" not in repr(apart)
-    assert apart.run.certificate.nearest_miss == pytest.approx(1 - motion(f - 1e-3).excursion, rel=1e-6)
+    assert "(grazing)" not in repr(clear)
+    assert clear.run.certificate.nearest_miss == pytest.approx(1 - motion(f - 1e-3).excursion, rel=1e-6)
     with pytest.raises(ValueError, match=r"\Astate: .* no motion with periods=1 near .*; a ball grazes a wall"):
         vi.periodic_orbit(MACHINE.with_(f10_hat=f + 1e-7), motion(f).state)
 

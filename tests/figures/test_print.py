@@ -12,7 +12,6 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from PIL import Image
 
-from figure_tables import lightness
 from pipeline_trees import ROOT
 from vibroimpact import tables
 from vibroimpact.figures import fig10_04
@@ -23,6 +22,13 @@ from vibroimpact_pipeline.specs import spec_of, specs
 PUBLISHED = {path.stem: path.parent for path in sorted((ROOT / "figures").rglob("*.png"))}
 """Folder of the reference set of each figure."""
 FIGURES = {figure: spec_of(figure, {}, specs()) for figure in PUBLISHED}
+
+
+def lightness(colour):
+    """Return the lightness CIE L* of an RGB colour, 0 to 100, which is all that grey print shows."""
+    channels = np.array(colour)
+    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+    return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
 
 
 @pytest.mark.parametrize("name", FIGURES)

@@ -197,11 +197,11 @@ def same_events(one, other, late=np.inf, slow=SLOW):
     does not list for a ball that sticks from the start.
     """
 
-    def alike(mine, theirs):
-        same = mine[["kind", "wall"]].tolist() == theirs[["kind", "wall"]].tolist()
-        return same and np.abs(mine["tau"] - theirs["tau"]).max(initial=0.0) <= late
+    def equal(some, others):
+        same = some[["kind", "wall"]].tolist() == others[["kind", "wall"]].tolist()
+        return same and np.abs(some["tau"] - others["tau"]).max(initial=0.0) <= late
 
-    return any(all(map(alike, _by_module(one, bound), _by_module(other, bound))) for bound in slow)
+    return any(all(map(equal, _by_module(one, bound), _by_module(other, bound))) for bound in slow)
 
 
 def _by_module(events, slow):

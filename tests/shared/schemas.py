@@ -33,8 +33,8 @@ def refused_by_both(model, configs, of_file) -> int:
         except ConfigError:
             continue  # the config contains values that no config can have
         except ValidationError as error:
-            told = [found for found in error.errors() if found["loc"][-1:] != ("case",)]  # which may be the default
-            if any(found["type"] not in MODELS and not isinstance(found["input"], str) for found in told):
+            errors = [one for one in error.errors() if one["loc"][-1:] != ("case",)]  # a missing case has a default
+            if any(one["type"] not in MODELS and not isinstance(one["input"], str) for one in errors):
                 assert not check.is_valid(values), values
                 refused += 1
     return refused

@@ -158,7 +158,7 @@ angles = st.floats(-3, 3)
 @settings(max_examples=15)
 @given(st.tuples(C_values, C_values), st.tuples(angles, angles))
 def test_the_jacobian_agrees_with_high_precision_differences(C, psi):
-    """At any point of the manifold; C follows from B on its arm."""
+    """The points are on the manifold, and C follows from B on an arm."""
     r = mpmath.mpf(manifold.rho(SYSTEM.kappa))
     if min(abs(c - manifold.C_min(float(r))) for c in C) < 1e-3:
         return

@@ -57,7 +57,7 @@ def test_the_slope_by_computer_algebra():
 
 @pytest.mark.parametrize("kappa", [0.4, 0.65])
 def test_a_half_period_multiplier_of_exact_orbits_is_minus_one_at_the_closed_form(kappa):
-    """In an uncoupled module, the second one, at epsilon = 0.1."""
+    """The force on the second of two uncoupled modules is varied, at epsilon = 0.1."""
 
     def orbit(force):
         system = system_of("equal", alpha12_hat=0, gamma12_hat=0, sigma20_hat=0, kappa=kappa, f20_hat=force)

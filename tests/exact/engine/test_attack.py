@@ -29,12 +29,12 @@ PER_SYSTEM = 10
 
 @pytest.fixture
 def seeds(request):
-    """One seed for each system attacked."""
+    """Return one seed for each system."""
     return range(-(-request.config.getoption("--attack") // PER_SYSTEM))
 
 
 def test_the_reported_nearest_miss_never_exceeds_the_true_one(seeds):
-    """It is smaller than that of the observer only if the grid of the observer skips a turn, which is rare."""
+    """The observer's nearest miss is larger only if its grid skips a turn, which is rare."""
     smaller = 0
     for seed in seeds[::2]:
         rng = np.random.default_rng([seed, 1])

@@ -34,7 +34,7 @@ def chatter(x, v, u, kappa, impacts):
 
 @pytest.mark.parametrize("kappa", ["0.3", "0.65", "0.9"])
 def test_times_of_a_chatter_agree_with_high_precision(chapter, kappa):
-    """Those of the engine and those of the reference, with which other tests compare chatters."""
+    """The times of the reference, with which other tests compare chatters, agree too."""
     system, start = chapter(0.0, 0.0, kappa=float(kappa), **ALONE), [-1.5, -2.5, 0.0, 0.0, 0.0, 0.05, 0.0, 0.0]
     events, truth = vi.simulate(system, start, 1).events, reference_run(system, start, 1, 40).events
     stick, true_stick = (found["tau"][found["kind"] == STICK][0] for found in (events, truth))

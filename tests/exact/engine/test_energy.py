@@ -34,14 +34,14 @@ def test_the_energy_balance_closes_to_rounding_in_every_cycle():
         energy, rows = run.energy, run.energy.per_cycle
         kinds += np.bincount(run.events["kind"], minlength=3)
         assert abs(energy.residual) <= 1e-13 * scale(run), number
-        apart = total(rows, "work") - sum(total(rows, name) for name in PARTS)
-        assert np.abs(apart).max() <= 1e-13 * scale(run), number
+        residuals = total(rows, "work") - sum(total(rows, name) for name in PARTS)
+        assert np.abs(residuals).max() <= 1e-13 * scale(run), number
         assert min(*energy.ground, energy.coupling, *energy.impacts) >= 0, number
     assert (kinds > 500).all()
 
 
 def test_parts_of_the_balance_equal_quadrature_of_the_reference_in_every_cycle():
-    """Gauss's rule on reference samples in every flight, in a run with chatter, sticking and release."""
+    """Gauss's rule applies to reference samples in every flight of a run with chatter, sticking and release."""
     system = vi.System(
         epsilon=0.25, kappa=0.3, alpha12_hat=1.0, gamma1_hat=0.5, gamma2_hat=0.25, gamma12_hat=1.0, sigma20_hat=0.5,
         sigma_e_hat=0.5, f10_hat=1.5, f20_hat=-0.75,

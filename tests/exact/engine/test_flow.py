@@ -44,7 +44,7 @@ polynomials = st.tuples(st.floats(1e-6, 2), *[numbers] * 7)
 
 @pytest.mark.parametrize("changes", SPECTRA.values(), ids=SPECTRA)
 def test_entries_of_the_flow_table_are_the_floats_nearest_to_the_exact_values(chapter, changes):
-    """Positions, velocities and phases at some of the times."""
+    """Positions, velocities and phases are compared at some of the times."""
     system = chapter(1.0, 0.6, **changes)
     flow = flow_of(system)
     with mp.workdps(60):
@@ -90,7 +90,7 @@ def test_no_polynomial_with_a_zero_passes_the_quick_or_the_sharp_test_of_positiv
 @given(c=polynomials, horizon=st.floats(0.01, 3))
 @example(c=(0.25, -0.25, 1, 0, 0, 1, 0, -0.125), horizon=3)
 def test_polynomials_are_positive_up_to_the_safe_time(c, horizon):
-    """It is at least half of the longest time t for which the disc with diameter [0, t] contains no complex zero."""
+    """The safe time is at least half of the largest t for which the disc with diameter [0, t] contains no zero."""
     t = safe_time(c, horizon)
     assert 0 < t <= horizon
     assert np.polyval(c[::-1], np.linspace(0, t, 400)).min() > -1e-14

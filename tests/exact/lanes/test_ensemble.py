@@ -132,7 +132,7 @@ def test_the_mean_speed_of_a_ball_includes_the_time_in_which_it_sticks(chapter):
 
 
 def test_the_largest_displacement_is_that_at_the_turn_of_the_box(case):
-    """It exceeds the largest sample by at most h^2 / 8 times the largest acceleration, which is below 3."""
+    """The largest sample is smaller by at most h^2 / 8 times the largest acceleration, which is below 3."""
     state = starts(1)[0]
     (outcome,) = vi.ensemble([case], state, 3)
     grid = np.linspace(0.0, 3 * case.period, 400_001)
@@ -180,7 +180,7 @@ def test_statistics_are_nan_if_all_cycles_settle(case):
 
 
 def test_statistics_of_a_periodic_motion_do_not_depend_on_where_the_observation_begins(chapter):
-    """It begins at an impact, which is just before or just after the beginning by the rounding of times."""
+    """The observation begins at an impact, which is just before or just after it by the rounding of times."""
     case = chapter(1.0, 0.89)
     orbit = next(one for one in vi.orbits(case) if one.admissible and max(abs(one.multipliers)) < 1)
     run = vi.simulate(case, orbit.state, 200)

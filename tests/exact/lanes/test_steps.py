@@ -6,7 +6,7 @@ from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 from mpmath import mp
 from scipy.linalg import expm
 
-from attacks import GENES, bred, random_system
+from attacks import ensembles, random_system
 from by_hand import exact_rate
 from programs import run_program
 from vibroimpact.exact.engine.flow import numbers_of
@@ -26,14 +26,9 @@ def constants(system):
 
 
 def systems(count):
+    """Return random systems with moderate parameters, and as many stiff ones."""
     rng = np.random.default_rng(3)
-    yield from (random_system(rng) for _ in range(count))
-    while count:
-        try:
-            yield bred(rng.uniform(0, 1, GENES))[0].system
-            count -= 1
-        except ValueError:
-            continue
+    return [*(random_system(rng) for _ in range(count)), *ensembles["stiff"](rng, count)[0]]
 
 
 def test_the_matrix_of_a_step_is_known_beyond_float_accuracy():

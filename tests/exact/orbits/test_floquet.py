@@ -31,8 +31,8 @@ def test_monodromy_matrix_and_multipliers_agree_with_extended_precision(case):
             exact = np.array(expected.tolist(), dtype=float)
             np.testing.assert_allclose(orbit.passage.jacobian[np.ix_(ORDER, ORDER)], exact, rtol=0, atol=1e-9)
             values = np.array(mp.eig(expected, left=False, right=False), dtype=complex)
-            apart = abs(values[:, None] - orbit.multipliers)
-            assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-9
+            distances = abs(values[:, None] - orbit.multipliers)
+            assert max(distances.min(axis=0).max(), distances.min(axis=1).max()) < 1e-9
 
 
 @pytest.mark.parametrize("module", [1, 2])
@@ -59,7 +59,7 @@ def test_the_saltation_matrix_satisfies_its_definition(chapter, module, gamma12_
 
 @pytest.mark.parametrize("changes", [{}, {"kappa": 0.3}, {"gamma12_hat": 2.0}, {"epsilon": 0.7, "gamma1_hat": 0.0}])
 def test_the_product_of_multipliers_is_that_of_liouville_s_formula(chapter, changes):
-    """It is the exponential of the integrated divergence times kappa^2 for each of four impacts."""
+    """The formula is the exponential of the integrated divergence times kappa^2 for each of four impacts."""
     system = chapter(**changes)
     damping = system.gamma1 + system.gamma2 + 2 * system.gamma12
     expected = np.exp(-damping * system.period) * system.kappa**8
@@ -73,8 +73,8 @@ def test_the_product_of_multipliers_is_that_of_liouville_s_formula(chapter, chan
 def test_half_period_multipliers_square_to_the_multipliers(case):
     for orbit in orbits(case):
         if orbit.symmetric:
-            apart = abs(half_period_multipliers(orbit)[:, None] ** 2 - orbit.multipliers)
-            assert (apart.min(axis=0) < 1e-9 * np.maximum(1.0, abs(orbit.multipliers))).all()
+            distances = abs(half_period_multipliers(orbit)[:, None] ** 2 - orbit.multipliers)
+            assert (distances.min(axis=0) < 1e-9 * np.maximum(1.0, abs(orbit.multipliers))).all()
         else:
             with pytest.raises(ValueError, match="not symmetric"):
                 half_period_multipliers(orbit)

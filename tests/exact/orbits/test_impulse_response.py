@@ -4,22 +4,18 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from by_hand import BoxesByHand
 from vibroimpact.exact.orbits.impulse_response import ImpulseResponse, forced_amplitude
-from vibroimpact.system.matrices import dynamic_stiffness
 
 
 def fourier(system, sign, s, harmonics=4000):
     """Return the displacements (2, 2) from unit impulses that repeat with the given sign, summed over harmonics."""
     orders = np.arange(1, harmonics, 2) if sign == -1 else np.arange(1, harmonics)
     weight = 2 / (system.period / 2 if sign == -1 else system.period)
-    mass = np.eye(2)
-    one = dynamic_stiffness(system)
-    damping = one.imag / system.Omega
-    stiffness = one.real + system.Omega**2 * mass
-    omega = orders[:, None, None] * system.Omega
-    receptance = np.linalg.inv(stiffness - omega**2 * mass + 1j * omega * damping)
+    hand, omega = BoxesByHand(system), orders[:, None, None] * system.Omega
+    receptance = np.linalg.inv(hand.stiffness - omega**2 * np.eye(2) + 1j * omega * hand.damping)
     total = weight * (receptance * np.exp(1j * omega * s)).real.sum(axis=0)
-    return total if sign == -1 else total + np.linalg.inv(stiffness) / system.period
+    return total if sign == -1 else total + np.linalg.inv(hand.stiffness) / system.period
 
 
 def motion(response, s):

@@ -110,15 +110,6 @@ def test_C_is_the_amplitude_of_the_saw_tooth_in_a_simulation(case):
             assert 1 - (x + case.epsilon * y) == pytest.approx(orbit.C[module], abs=1e-10)
 
 
-def test_swapped_modules_have_swapped_orbits(chapter):
-    plain = orbits(chapter(1.0, 0.7, gamma1_hat=0.1, gamma2_hat=0.4, sigma20_hat=0))
-    swapped = orbits(chapter(0.7, 1.0, gamma1_hat=0.4, gamma2_hat=0.1, sigma20_hat=0))
-    assert len(plain) == len(swapped) > 0
-    for orbit in plain:
-        (partner,) = [p for p in swapped if np.abs(p.state - orbit.state[[2, 3, 0, 1, 6, 7, 4, 5]]).max() < 1e-8]
-        np.testing.assert_allclose(abs(partner.multipliers), abs(orbit.multipliers), rtol=1e-7, atol=1e-9)
-
-
 @pytest.mark.parametrize("mistuning", [1e-3, 1e-6, 1e-9, 1e-12, 1e-15])
 def test_almost_identical_modules_have_the_solutions_of_identical_modules(chapter, mistuning):
     """Identical modules have a line of solutions at lag 0; both solutions at its ends are found near it."""

@@ -117,9 +117,9 @@ systems = st.builds(vi.System, epsilon=st.just(0.1), **numbers)
 @given(systems)
 def test_the_power_balances_and_swapped_modules_have_swapped_points(system):
     """Dampers and balls dissipate the power of the forces; detunings are relative to module 1."""
-    ours = search(system)
+    points = search(system)
     f = np.array([system.f10_hat, system.f20_hat])
-    for point in ours:
+    for point in points:
         assert np.linalg.norm(point.C) <= search_radius(system)
         b = point.B * np.exp(-1j * point.psi)
         dampers = np.array([system.gamma1_hat, system.gamma2_hat]) @ point.B**2
@@ -130,11 +130,11 @@ def test_the_power_balances_and_swapped_modules_have_swapped_points(system):
         gamma1_hat=system.gamma2_hat, gamma2_hat=system.gamma1_hat, f10_hat=system.f20_hat, f20_hat=system.f10_hat,
         sigma20_hat=-system.sigma20_hat, sigma_e_hat=system.sigma_e_hat - system.sigma20_hat / 2,
     )  # fmt: skip
-    theirs = search(swapped)
-    if not any(point.multiple for point in ours + theirs):
-        assert len(ours) == len(theirs)
-        for point in ours:
-            assert min(np.abs(point.C - other.C[::-1]).max() for other in theirs) < 1e-5
+    others = search(swapped)
+    if not any(point.multiple for point in points + others):
+        assert len(points) == len(others)
+        for point in points:
+            assert min(np.abs(point.C - other.C[::-1]).max() for other in others) < 1e-5
 
 
 @pytest.mark.parametrize("changes", [{}, IDENTICAL, {"gamma1_hat": 0.0, "f20_hat": 3.0}, {"f10_hat": 0.0}])
@@ -177,7 +177,7 @@ def test_an_undamped_resonance_on_which_the_forces_do_no_work_is_refused(changes
 
 
 def test_merging_points_are_reported_as_multiple():
-    """At a fold; the distance of the pair is proportional to the square root of the distance to the fold."""
+    """The distance of two points near a fold is proportional to the square root of the distance to the fold."""
     found = {h: vi.fixed_points(build({"f20_hat": FOLD + h})) for h in (-1e-6, 0.0, 1e-6, 1e-4)}
     assert [len(points) for points in found.values()] == [1, 2, 3, 3]
     (merged,) = (point for points in found.values() for point in points if point.multiple)

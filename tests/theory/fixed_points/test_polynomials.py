@@ -10,22 +10,18 @@ from vibroimpact.theory.fixed_points.balance import determinant, singular_points
 from vibroimpact.theory.fixed_points.real_zeros import real_zeros
 
 
-def product(in_x, in_y):
-    return np.outer(in_x, in_y)
-
-
 def from_roots(a, b):
     """Return the coefficients of (x - a)(x - b), constant first."""
     return np.array([a * b, -(a + b), 1.0])
 
 
 ONE = np.array([1.0, 0.0, 0.0])
-CIRCLE = product([0, 0, 1.0], ONE) + product(ONE, [0, 0, 1.0]) - product(ONE, ONE)  # x^2 + y^2 = 1
+CIRCLE = np.outer([0, 0, 1.0], ONE) + np.outer(ONE, [0, 0, 1.0]) - np.outer(ONE, ONE)  # x^2 + y^2 = 1
 
 
 def line(slope, offset):
     """Return the coefficients of y - slope x - offset."""
-    return product(ONE, [0, 1.0, 0]) - slope * product([0, 1.0, 0], ONE) - offset * product(ONE, ONE)
+    return np.outer(ONE, [0, 1.0, 0]) - slope * np.outer([0, 1.0, 0], ONE) - offset * np.outer(ONE, ONE)
 
 
 def solve(*polynomials):
@@ -43,7 +39,7 @@ def solve(*polynomials):
 )
 def test_all_zeros_on_a_grid_are_found(roots):
     in_x, in_y = roots
-    zeros, multiple = solve(product(from_roots(*in_x), ONE), product(ONE, from_roots(*in_y)))
+    zeros, multiple = solve(np.outer(from_roots(*in_x), ONE), np.outer(ONE, from_roots(*in_y)))
     expected = sorted((x, y) for x in in_x for y in in_y)
     assert np.array(zeros) == pytest.approx(np.array(expected), abs=1e-10)
     assert not multiple.any()
@@ -67,7 +63,7 @@ def test_a_tangent_has_one_multiple_zero():
 
 def test_a_double_zero_next_to_a_simple_zero_is_found_once():
     """(x - 1) y^2 = 0 and x = y have a double zero at the origin and a simple one at (1, 1)."""
-    zeros, multiple = solve(product([-1.0, 1.0, 0], [0, 0, 1.0]), line(1.0, 0.0))
+    zeros, multiple = solve(np.outer([-1.0, 1.0, 0], [0, 0, 1.0]), line(1.0, 0.0))
     assert zeros == pytest.approx(np.array([[0.0, 0.0], [1.0, 1.0]]), abs=1e-6)
     assert multiple.tolist() == [True, False]
 
