@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from vibroimpact.accuracy import stress_tests as table
+from vibroimpact.accuracy import stress_tests
 from vibroimpact.accuracy.grazing import grazing_start
 from vibroimpact.accuracy.reference.run import proven_run
 from vibroimpact.integrators import METHODS
 from vibroimpact.integrators.protocol import REFUSED, UNFINISHED, Method, MethodRun
 from vibroimpact.system import System
 
-SYSTEM = System(**table.CHAPTER)
+SYSTEM = System(**stress_tests.CHAPTER)
 BOXES, VELOCITY = ("0.4", "-0.3", "0.5", "0.2"), "0.15"
 ENGINE = METHODS[0]
 
@@ -33,14 +33,16 @@ def test_a_grazing_start_needs_a_maximum():
         grazing_start(SYSTEM, BOXES, VELOCITY, 3.9, "1e-3")
 
 
-@pytest.mark.parametrize("test", [h for h in table.stress_tests() if h.quick], ids=lambda h: f"{h.group}: {h.name}")
+@pytest.mark.parametrize(
+    "test", [one for one in stress_tests.stress_tests() if one.quick], ids=lambda one: f"{one.group}: {one.name}"
+)
 def test_the_engine_is_right_or_in_grazing_undecided(test):
-    (row,) = table.judge(test, [ENGINE])
-    assert row["verdict"] in (table.RIGHT, table.UNDECIDABLE)
-    if row["verdict"] == table.RIGHT:
+    (row,) = stress_tests.judge(test, [ENGINE])
+    assert row["verdict"] in (stress_tests.RIGHT, stress_tests.UNDECIDABLE)
+    if row["verdict"] == stress_tests.RIGHT:
         assert row["error_state"] < 1e-7
     if test.group != "grazing":
-        assert row["verdict"] == table.RIGHT
+        assert row["verdict"] == stress_tests.RIGHT
 
 
 class Scripted(Method):
@@ -55,24 +57,24 @@ class Scripted(Method):
 @pytest.mark.parametrize(
     ("result", "verdict"),
     [
-        (MethodRun(np.zeros(8), [], 1), table.RIGHT),
-        (MethodRun(np.full(8, 0.02), [], 1), table.SILENTLY_WRONG),
-        (MethodRun(np.full(8, np.nan), [], 1), table.SILENTLY_WRONG),
-        (MethodRun(np.zeros(8), [(1.0, 1, 1, 0.5)], 1), table.SILENTLY_WRONG),
-        (MethodRun(np.full(8, 0.02), [], 1, doubt=lambda: "unsure"), table.UNDECIDABLE),
-        (MethodRun(None, [], 1, outcome=REFUSED, reason="no"), table.ERROR),
-        (MethodRun(None, [], 1, outcome=UNFINISHED, reason="long"), table.ENDLESS),
+        (MethodRun(np.zeros(8), [], 1), stress_tests.RIGHT),
+        (MethodRun(np.full(8, 0.02), [], 1), stress_tests.SILENTLY_WRONG),
+        (MethodRun(np.full(8, np.nan), [], 1), stress_tests.SILENTLY_WRONG),
+        (MethodRun(np.zeros(8), [(1.0, 1, 1, 0.5)], 1), stress_tests.SILENTLY_WRONG),
+        (MethodRun(np.full(8, 0.02), [], 1, doubt=lambda: "unsure"), stress_tests.UNDECIDABLE),
+        (MethodRun(None, [], 1, outcome=REFUSED, reason="no"), stress_tests.ERROR),
+        (MethodRun(None, [], 1, outcome=UNFINISHED, reason="long"), stress_tests.ENDLESS),
     ],
 )
 def test_the_verdict_follows_from_the_result(result, verdict):
-    at_rest = table.StressTest("test", "rest", SYSTEM.with_(f10_hat=0.0, f20_hat=0.0), table.REST, 1)
+    at_rest = stress_tests.StressTest("test", "rest", SYSTEM.with_(f10_hat=0.0, f20_hat=0.0), stress_tests.REST, 1)
     scripted = Scripted()
     scripted.result = result
-    (row,) = table.judge(at_rest, [scripted])
+    (row,) = stress_tests.judge(at_rest, [scripted])
     assert (row["test"], row["verdict"], row["reason"]) == ("rest", verdict, result.reason or result.doubt())
 
 
 def test_a_motion_that_has_not_settled_is_refused_as_a_reference():
-    moving = table.StressTest("test", "transient", SYSTEM, table.REST, 1000, reference_cycles=3)
+    moving = stress_tests.StressTest("test", "transient", SYSTEM, stress_tests.REST, 1000, reference_cycles=3)
     with pytest.raises(ArithmeticError, match="still changes"):
-        table.reference_of(moving)
+        stress_tests.reference_of(moving)

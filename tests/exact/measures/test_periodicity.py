@@ -68,19 +68,13 @@ def test_impacts_are_counted_per_cycle_module_and_wall():
     assert counts.tolist() == [[[1, 1], [1, 0]], [[1, 2], [0, 0]], [[0, 0], [0, 1]]]
 
 
-def longer(off):
-    return times(4)[0] + (times(4) - times(4)[0]) * (1 + off)
-
-
-def uneven(off):
-    return times(4) + off * PERIOD / PER_CYCLE * (np.arange(len(times(4))) == 7)
-
-
 def test_samples_may_be_uneven_by_a_millionth_of_a_step():
-    for changed in (longer, uneven):
-        assert samples_per_cycle(changed(0.5e-6), PERIOD) == PER_CYCLE
+    tau = times(4)
+    all_steps, one_sample = tau - tau[0], PERIOD / PER_CYCLE * (np.arange(len(tau)) == 7)
+    for change in (all_steps, one_sample):
+        assert samples_per_cycle(tau + 0.5e-6 * change, PERIOD) == PER_CYCLE
         with pytest.raises(ValueError, match="evenly"):
-            samples_per_cycle(changed(2e-6), PERIOD)
+            samples_per_cycle(tau + 2e-6 * change, PERIOD)
 
 
 def test_an_odd_number_of_samples_has_no_mirror_image():
