@@ -1,4 +1,4 @@
-"""Test statements of the data dictionary on columns against other columns of a build."""
+"""Test that columns of built tables have the meaning that the data dictionary states."""
 
 import json
 
@@ -23,33 +23,34 @@ def table(built):
 
 
 def columns(table, name, ends=(1, 2)):
+    """Return the columns of a table whose names are a common name followed by one of the ends, as an array."""
     return table[[f"{name}{end}" for end in ends]].to_numpy(float)
 
 
-def test_C_of_an_orbit_is_half_of_what_the_saw_tooth_covers(table):
-    """In a flight that takes the fraction u of the period T at speed v, the ball covers u T v, and the same back."""
+def test_C_of_an_orbit_is_half_the_range_of_its_sawtooth(table):
+    """Both flights of a ball cover the same distance, duration times speed; the range is 1 + epsilon times as large."""
     orbits = table("orbits.csv")
     for module in (1, 2):
         plus, minus = (orbits[f"speed{module}_{side}"] for side in ("plus", "minus"))
-        away = PERIOD * (orbits[f"phase{module}_minus"] - orbits[f"phase{module}_plus"]).mod(1.0)
-        np.testing.assert_allclose(away * plus, (PERIOD - away) * minus, rtol=1e-8)
-        np.testing.assert_allclose(orbits[f"C{module}"], (1 + EPSILON) / 2 * away * plus, rtol=1e-8)
-        even = orbits[orbits["symmetric"]]
-        speed = even[f"speed{module}_plus"]
-        np.testing.assert_allclose(even[f"C{module}"], (1 + EPSILON) * np.pi * speed / (2 * OMEGA), rtol=1e-12)
+        duration = PERIOD * (orbits[f"phase{module}_minus"] - orbits[f"phase{module}_plus"]).mod(1.0)
+        np.testing.assert_allclose(duration * plus, (PERIOD - duration) * minus, rtol=1e-8)
+        np.testing.assert_allclose(orbits[f"C{module}"], (1 + EPSILON) / 2 * duration * plus, rtol=1e-8)
+        symmetric = orbits[orbits["symmetric"]]
+        C = (1 + EPSILON) * np.pi * symmetric[f"speed{module}_plus"] / (2 * OMEGA)
+        np.testing.assert_allclose(symmetric[f"C{module}"], C, rtol=1e-12)
 
 
-def test_phases_are_fractions_and_symmetric_orbits_meet_the_other_wall_half_a_period_later(table):
+def test_phases_are_fractions_of_a_period_and_flights_of_symmetric_orbits_last_half_a_period(table):
     orbits = table("orbits.csv")
     phases, moduli = columns(orbits, "phase", SIDES), columns(orbits, "modulus_", range(1, 9))
     assert ((phases >= 0) & (phases < 1)).all()
     assert (np.diff(moduli, axis=1) <= 0).all()
-    even = columns(orbits[orbits["symmetric"]], "phase", SIDES)
-    np.testing.assert_allclose(np.mod(even[:, 1::2] - even[:, ::2], 1.0), 0.5, atol=1e-12)
+    flights = np.mod(phases[:, 1::2] - phases[:, ::2], 1.0)
+    np.testing.assert_allclose(flights[orbits["symmetric"]], 0.5, atol=1e-12)
 
 
-def test_an_orbit_is_a_motion_with_the_impacts_and_multipliers_that_its_row_names(table):
-    """The motion is integrated from the state of the library's orbit with the same index."""
+def test_a_simulated_orbit_has_the_impacts_and_multipliers_of_its_row(table):
+    """The simulation starts from the state of the orbit with the same index in `vi.orbits`."""
     for case, rows in table("orbits.csv").groupby("case", sort=False):
         for (_, row), orbit in zip(rows.iterrows(), vi.orbits(SYSTEMS[case]), strict=True):
             if not row["admissible"]:
@@ -58,14 +59,14 @@ def test_an_orbit_is_a_motion_with_the_impacts_and_multipliers_that_its_row_name
             assert len(run.events) == 4
             for event in run.events:
                 side = f"{event['module']}_{'plus' if event['wall'] > 0 else 'minus'}"
-                apart = (event["tau"] / PERIOD - row[f"phase{side}"] + 0.5) % 1.0 - 0.5
-                assert abs(apart) < 1e-8
+                phase_error = (event["tau"] / PERIOD - row[f"phase{side}"] + 0.5) % 1.0 - 0.5
+                assert abs(phase_error) < 1e-8
                 assert abs(event["state"][3 + 2 * event["module"]]) == pytest.approx(row[f"speed{side}"], rel=1e-8)
             moduli = np.sort(np.abs(np.linalg.eigvals(run.jacobian)))[::-1]
             np.testing.assert_allclose(moduli[:2], columns(row.to_frame().T, "modulus_")[0], rtol=1e-4)
 
 
-def test_fixed_points_lie_on_the_manifold_and_criteria_say_what_their_limits_say(table):
+def test_fixed_points_lie_on_the_manifold_and_verdicts_of_criteria_follow_from_their_limits(table):
     points = table("fixed_points.csv")
     C, B = columns(points, "C"), columns(points, "B")
     np.testing.assert_allclose(B**2, 1 - 2 * C + (1 + RHO**2) * C**2, rtol=1e-9)
@@ -80,7 +81,7 @@ def test_fixed_points_lie_on_the_manifold_and_criteria_say_what_their_limits_say
 
 
 @pytest.mark.parametrize("run", ["equal/float64", "weak/reference"])
-def test_a_simulated_window_is_evenly_spaced_and_its_events_are_at_the_walls(built, table, run):
+def test_samples_of_a_window_are_evenly_spaced_and_events_are_at_the_walls(built, table, run):
     folder = f"simulations/{run}"
     samples, strobe, events = (table(f"{folder}/{name}.csv") for name in ("samples", "strobe", "events"))
     summary = json.loads((built / f"results/{folder}/summary.json").read_text(encoding="utf-8"))
