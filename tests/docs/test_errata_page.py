@@ -1,4 +1,4 @@
-"""Test the numbers of docs/errata.md on fixed points by computing them."""
+"""Compute the numbers that docs/errata.md states on fixed points."""
 
 import re
 
@@ -18,24 +18,24 @@ POINTS = {
 }
 
 
-def test_every_fixed_point_has_its_row():
+def test_the_table_has_a_row_for_each_fixed_point():
     assert {(case, label) for case, label, *_ in ROWS} == set(POINTS)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: "".join(row[:2]))
-def test_amplitudes_and_slow_eigenvalues(row):
+def test_a_row_has_the_amplitudes_and_slow_eigenvalues_of_its_point(row):
     case, label, C1, C2, eigenvalues = row
     point = POINTS[case, label]
     np.testing.assert_allclose(point.C, [float(C1), float(C2)], atol=5.01e-6)
-    said = []
+    stated = []
     for text in eigenvalues.split(", "):
         real, _, imaginary = text.removesuffix("i").partition(" ± ")
-        said += [complex(float(real), sign * float(imaginary)) for sign in (1, -1)] if imaginary else [float(real)]
+        stated += [complex(float(real), sign * float(imaginary)) for sign in (1, -1)] if imaginary else [float(real)]
     rounded = np.sort_complex(point.slow_eigenvalues.round(4))
-    np.testing.assert_allclose(np.sort_complex(np.array(said, complex)), rounded, atol=1.01e-4)
+    np.testing.assert_allclose(np.sort_complex(np.array(stated, complex)), rounded, atol=1.01e-4)
 
 
-def test_how_far_the_point_next_to_the_fold_is_from_it():
+def test_distance_of_point_b_of_the_unequal_case_from_the_fold():
     rho = 2 * (1 - PARAMETERS["kappa"]) / (np.pi * (1 + PARAMETERS["kappa"]))
     share = 100 * (1 - POINTS["unequal", "b"].C[0] * (1 + rho**2))
     assert f"{share:.1f} % before the fold" in PAGE
