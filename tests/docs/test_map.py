@@ -1,4 +1,4 @@
-"""Test that everything named in README and CONTRIBUTING exists, and that the README leads to every page."""
+"""Test that files, tests and functions named in the documents exist, and that the README links every page."""
 
 import ast
 import re
@@ -21,8 +21,8 @@ def test_every_page_is_linked_from_the_readme(page):
 
 
 @pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", *(f"docs/{page}" for page in PAGES)])
-def test_links_lead_somewhere(page):
-    """Links to the studies are tested only if the studies are installed."""
+def test_targets_of_links_exist(page):
+    """Links to the studies are tested only if the checkout has the studies."""
     links = [(ROOT / page).parent / link for link in LINK.findall((ROOT / page).read_text(encoding="utf-8"))]
     assert [link for link in links if not link.exists() and not is_of_studies(link)] == []
 
@@ -32,10 +32,10 @@ def is_of_studies(path) -> bool:
     return any(name.partition(".")[0] == "studies" for name in path.parts) and not LAYER.exists()
 
 
-def test_the_quick_tests_are_there():
-    """The paths that `make test-quick` passes to pytest exist."""
-    told = subprocess.run(["make", "-n", "test-quick"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    paths = re.findall(r" (tests/\S+)", told)
+def test_paths_of_the_quick_tests_exist():
+    """`make test-quick` passes paths to pytest."""
+    command = subprocess.run(["make", "-n", "test-quick"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    paths = re.findall(r" (tests/\S+)", command)
     assert len(paths) > 10
     assert [path for path in paths if not (ROOT / path).exists() and not is_of_studies(ROOT / path)] == []
     assert "`make test-quick`" in CONTRIBUTING
@@ -59,14 +59,14 @@ def cited(text) -> set[int]:
 
 
 @pytest.mark.parametrize(("equations", "files", "names"), EQUATIONS, ids=[row[0] for row in EQUATIONS])
-def test_an_equation_is_where_the_map_says(equations, files, names):
+def test_docstrings_cite_the_equation_that_the_map_assigns_to_them(equations, files, names):
     modules = [ROOT / "src/vibroimpact" / name for name in re.findall(r"`([^`]+)`", files)]
     found = {name: text for module in modules for name, text in docstrings(module).items()}
-    said = set()
+    found_equations = set()
     for name in re.findall(r"`([^`]+)`", names):
         assert name in found
-        said |= cited(found[name])
-    assert cited(equations) <= said or "derived" in equations
+        found_equations |= cited(found[name])
+    assert cited(equations) <= found_equations or "derived" in equations
 
 
 RUNNING = (ROOT / "docs/running.md").read_text(encoding="utf-8")
@@ -74,9 +74,9 @@ NAMED = sorted(set(re.findall(r"test_\w+\.py", RUNNING)))
 
 
 @pytest.mark.parametrize("name", NAMED)
-def test_what_is_promised_has_its_test(name):
+def test_a_test_that_the_page_on_running_names_exists(name):
     assert list((ROOT / "tests").rglob(name)) or not LAYER.exists()
 
 
-def test_every_fault_that_is_injected_is_told():
+def test_the_page_on_running_names_every_test_of_faults():
     assert {path.name for path in (ROOT / "tests/faults").glob("test_*.py")} <= set(NAMED)
