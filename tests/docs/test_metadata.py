@@ -1,4 +1,4 @@
-"""Test the metadata of the project: citation, deposit, changelog, and the files in .github."""
+"""Test the metadata of the project: citation, archive deposit, changelog and files in .github."""
 
 import json
 import re
@@ -25,14 +25,14 @@ def bibtex(entry) -> dict[str, str]:
     return {"type": kind, "key": key} | {name: re.sub("[{}]", "", value) for name, value in fields.items()}
 
 
-def described():
+def metadata():
     """Return the parsed contents of pyproject.toml, CITATION.cff, CITATION.bib, .zenodo.json and codemeta.json."""
     parsers = (lambda text: tomllib.loads(text)["project"], yaml.safe_load, bibtex, json.loads, json.loads)
     return [parse(text(name)) for parse, name in zip(parsers, PLACES, strict=True)]
 
 
-def test_version_title_licence_authors_and_keywords_are_the_same_everywhere():
-    project, citation, entry, deposit, meta = found = described()
+def test_version_title_licence_authors_and_keywords_agree_in_all_files():
+    project, citation, entry, deposit, meta = found = metadata()
     assert {str(one["version"]) for one in found} == {project["version"]}
     assert citation["title"] == deposit["title"] == entry["title"].replace("`", "'")
     assert citation["license"] == deposit["license"] == project["license"]
@@ -53,38 +53,41 @@ def test_the_changelog_has_a_dated_section_for_each_version_newest_first():
     released = [re.fullmatch(r"\[(\d+\.\d+\.\d+)\] - (\d{4}-\d\d-\d\d)", heading).groups() for heading in headings]
     versions = [(date, Version(version)) for version, date in released]
     assert versions == sorted(versions, reverse=True)
-    now = Version(described()[0]["version"])
+    now = Version(metadata()[0]["version"])
     assert now.is_devrelease or now in [version for _, version in versions]
 
 
-def test_a_release_finds_each_version_and_date_once():
+def test_each_pattern_of_the_release_tool_occurs_once_in_its_file():
     changes = tomllib.loads(text("pyproject.toml"))["tool"]["bumpversion"]["files"]
     assert {change["filename"] for change in changes} == {*PLACES, "CHANGELOG.md"}
     for change in changes:
         assert len(re.findall(change["search"], text(change["filename"]), re.MULTILINE)) == 1
 
 
-def test_continuous_integration_runs_the_whole_matrix():
-    asked = yaml.safe_load(text(".github/workflows/ci.yml"))["jobs"]["matrix"]["strategy"]["matrix"]
+def test_continuous_integration_covers_all_declared_python_and_package_versions():
+    matrix = yaml.safe_load(text(".github/workflows/ci.yml"))["jobs"]["matrix"]["strategy"]["matrix"]
     classifiers = tomllib.loads(text("pyproject.toml"))["project"]["classifiers"]
-    assert [f"Programming Language :: Python :: {version}" for version in asked["python"]] == classifiers[3:6]
-    assert asked["packages"] == re.findall(r'id="(\w+)"', text("noxfile.py"))
+    assert [f"Programming Language :: Python :: {version}" for version in matrix["python"]] == classifiers[3:6]
+    assert matrix["packages"] == re.findall(r'id="(\w+)"', text("noxfile.py"))
 
 
-def test_actions_are_pinned_by_commits_and_the_same_in_every_workflow():
-    used = re.findall(r"uses: (\S+)@(\S+)( # v[\d.]+)?\n", "".join(path.read_text() for path in WORKFLOWS))
-    assert len(used) > 8
-    assert all(re.fullmatch("[0-9a-f]{40}", commit) and version for _, commit, version in used)
+def test_actions_are_pinned_by_commit_agree_between_workflows_and_leave_no_credentials():
+    content = "".join(path.read_text(encoding="utf-8") for path in WORKFLOWS)
+    used = re.findall(r"uses: (actions/[\w-]+)@([0-9a-f]{40}) # (v\d+\.\d+\.\d+)\n", content)
+    assert len(used) == content.count("uses: ") > 8
     assert len({name for name, _, _ in used}) == len(set(used))
+    jobs = [job for path in WORKFLOWS for job in yaml.safe_load(path.read_text(encoding="utf-8"))["jobs"].values()]
+    checkouts = [step for job in jobs for step in job["steps"] if "actions/checkout" in step.get("uses", "")]
+    assert [step for step in checkouts if step["with"]["persist-credentials"] is not False] == []
 
 
 @pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)
-def test_a_workflow_runs_what_the_makefile_has_and_only_the_job_that_publishes_may_write(path):
+def test_a_workflow_uses_existing_make_targets_and_only_publishing_jobs_may_write(path):
     targets = set(re.findall(r"^([a-z-]+):", text("Makefile"), re.MULTILINE))
     content = path.read_text(encoding="utf-8")
     for line in re.findall(r"(?:- run: |vibroimpact )make ([a-z -]+)", content):
         assert set(line.split()) <= targets
     workflow = yaml.safe_load(content)
     assert workflow["permissions"] == {"contents": "read"}
-    writing = [name for name, job in workflow["jobs"].items() if "write" in job.get("permissions", {}).values()]
-    assert writing == (["publish"] if path.stem in ("pages", "release") else [])
+    may_write = [name for name, job in workflow["jobs"].items() if "write" in job.get("permissions", {}).values()]
+    assert may_write == (["publish"] if path.stem in ("pages", "release") else [])
