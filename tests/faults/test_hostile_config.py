@@ -1,15 +1,20 @@
-"""A config that cannot be built: lines that name the key, no traceback, nothing run, however the config is given."""
+"""Test that a build with an invalid config runs no job and prints only errors, one line each, that name the key."""
 
 import pytest
 
 from configs import LAUGHS
 from pipeline_trees import ROOT, Tree, copied, run_module
 
-SNAKEMAKES = ("Using workflow specific profile", "Config file ")
-"""What Snakemake says before it reads a config, by its beginnings."""
-FILES = [LAUGHS, "- 1\n", b"system: \xff\n", "__use_yte__: true\nsystem:\n  kappa: ?open('ran', 'w').write('')\n"]
-"""The last would be a program in the YAML of Snakemake."""
-OVERRIDES = {
+SNAKEMAKE_MESSAGES = ("Using workflow specific profile", "Config file ")
+"""Beginnings of lines that Snakemake prints before it reads a config."""
+INVALID_FILES = [
+    LAUGHS,
+    "- 1\n",
+    b"system: \xff\n",
+    "__use_yte__: true\nsystem:\n  kappa: ?open('ran', 'w').write('')\n",
+]
+"""Contents of config files; the last would run Python code if Snakemake rendered it as a YTE template."""
+INVALID_OVERRIDES = {
     "system={kappa:0.7}": "system.kappa:0.7: unknown key, did you mean 'kappa'?",
     "system={kappa: yes}": "system.kappa: 'yes' should be a valid number",
     "accuracy={problems: {transient: {7: 1}}}": "accuracy.problems.transient.7: unknown key",
@@ -18,36 +23,35 @@ OVERRIDES = {
 
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory) -> Tree:
-    """The project before a build, which no refusal changes."""
+    """Return the project without results; a refused build does not change it."""
     return copied(ROOT, tmp_path_factory.mktemp("hostile") / "tree")
 
 
-def said(tree, *arguments):
-    """What is said of a build that is refused, but for what Snakemake says of its own."""
+def errors(tree, *arguments):
+    """Start a build that must be refused; return its output without the messages of Snakemake."""
     status, output = run_module(tree.path, "snakemake", "--cores", "1", "fig10_03", *arguments)
     assert status == 1, output
     assert not (tree / "results").exists()
-    return [line for line in output.splitlines() if not line.startswith(SNAKEMAKES)]
+    return [line for line in output.splitlines() if not line.startswith(SNAKEMAKE_MESSAGES)]
 
 
-@pytest.mark.parametrize("content", FILES)
-def test_the_config_of_a_directory_is_refused_in_lines(tree, content, tmp_path):
+@pytest.mark.parametrize("content", INVALID_FILES)
+def test_errors_of_a_config_file_in_the_working_directory_name_the_file(tree, content, tmp_path):
     (tmp_path / "config").mkdir()
     (tmp_path / "config/config.yaml").write_bytes(content.encode() if isinstance(content, str) else content)
-    for line in said(tree, "--directory", str(tmp_path)):
+    for line in errors(tree, "--directory", str(tmp_path)):
         assert line.startswith("config/config.yaml: ")
         assert len(line) < 250
     assert not (tmp_path / "ran").exists()
 
 
-def test_a_file_on_the_command_line_is_named(tree, tmp_path):
+def test_an_error_of_a_config_file_on_the_command_line_names_file_and_key(tree, tmp_path):
     (tmp_path / "try.yaml").write_text("system: {kappa: 1.2}\n", encoding="utf-8")
-    assert said(tree, "--configfile", str(tmp_path / "try.yaml")) == [
-        f"{tmp_path}/try.yaml: system.kappa: 1.2 should be less than 1"
-    ]
+    (only,) = errors(tree, "--configfile", str(tmp_path / "try.yaml"))
+    assert only == f"{tmp_path}/try.yaml: system.kappa: 1.2 should be less than 1"
 
 
-@pytest.mark.parametrize("override", OVERRIDES)
-def test_an_override_is_refused_in_a_line(tree, override):
-    (only,) = said(tree, "--config", override)
-    assert only.startswith(f"--config: {OVERRIDES[override]}")
+@pytest.mark.parametrize("override", INVALID_OVERRIDES)
+def test_an_invalid_override_is_one_error_that_names_the_key(tree, override):
+    (only,) = errors(tree, "--config", override)
+    assert only.startswith(f"--config: {INVALID_OVERRIDES[override]}")
