@@ -1,4 +1,4 @@
-"""Test the set-up: it runs once, uses only the lock, starts over if killed, and explains a failure in one line."""
+"""Test the set-up: it runs once, installs only packages of the locks, and starts over if killed."""
 
 import ast
 import hashlib
@@ -23,7 +23,7 @@ from pipeline_trees import ROOT, Tree
 from vibroimpact_pipeline import environment
 
 RECORDING = """#!/bin/sh
-# An interpreter that makes an environment of itself, and writes down what pip and uv are to install, and with what.
+# Replaces Python, pip and uv: creates files of an environment, and records calls and environment variables.
 env | grep -E '^(PYTHON[A-Z]|UV_)' >>variables
 case "$*" in *"-m pip "*) env | grep '^PIP_' >>variables ;; esac
 case "$*" in
@@ -48,13 +48,14 @@ esac
 
 @pytest.fixture
 def recording(tree):
-    """Return variables for a set-up that only records calls and installs nothing."""
+    """Return variables for a set-up that records calls of Python, pip and uv and installs nothing."""
     (tree / "recording").write_text(RECORDING)
     (tree / "recording").chmod(0o755)
     return {"PYTHON": str(tree / "recording")}
 
 
 def start(tree, *lock, **environment):
+    """Start a set-up in the background in its own process group."""
     return subprocess.Popen(
         ["bash", "workflow/set_up.sh", *lock],
         cwd=tree.path,
@@ -74,14 +75,14 @@ def set_up(tree, *lock, expected=0, **environment):
     return output
 
 
-def test_an_interpreter_that_does_not_fit_is_refused(tree):
+def test_an_unsuitable_interpreter_is_refused(tree):
     (tree / "old").write_text("#!/bin/sh\nexit 1\n")
     (tree / "old").chmod(0o755)
     assert "Python 3.11 or newer" in set_up(tree, expected=1, PYTHON=str(tree / "old"))
     assert not (tree / ".venv").exists()
 
 
-def test_a_killed_set_up_starts_over_and_a_finished_one_does_not(tree, recording):
+def test_a_set_up_starts_over_if_killed_and_does_nothing_if_complete(tree, recording):
     (tree / "hold").touch()
     first = start(tree, **recording)
     while not (tree / "started").exists():
@@ -108,7 +109,7 @@ def installs(tree) -> list[str]:
 
 
 @pytest.mark.parametrize("source", [{}, {"WHEELS": "wheels"}], ids=["network", "folder"])
-def test_everything_is_installed_from_the_lock_and_first_of_all_what_installs_and_builds(tree, recording, source):
+def test_all_packages_come_from_the_lock_and_uv_and_setuptools_are_installed_first(tree, recording, source):
     (tree / "wheels").mkdir()
     set_up(tree, **recording, **source)
     first, rest = installs(tree)
@@ -120,18 +121,17 @@ def test_everything_is_installed_from_the_lock_and_first_of_all_what_installs_an
         assert re.search(rf"^{name}==\S+ \\\n +--hash=sha256:", (ROOT / "environment.lock").read_text(), re.MULTILINE)
 
 
-def test_pip_installs_what_uv_cannot_reach(tree, recording):
+def test_pip_takes_over_if_uv_fails(tree, recording):
     (tree / "unreachable").touch()
     assert "trying pip" in set_up(tree, **recording)
     assert [call.split()[0] for call in installs(tree)] == ["python", "uv", "python"]
 
 
-def test_a_second_lock_is_added_once_to_what_is_set_up(tree, recording):
+def test_a_second_lock_is_installed_once_into_the_environment(tree, recording):
     set_up(tree, **recording)
     count = (tree / "development.lock").read_text().count("==")
-    added = set_up(tree, "development", **recording).splitlines()
-    assert [line for line in added if "Adding" in line] == added
-    assert re.search(r"Adding (\d+) packages of development.lock", added[0])[1] <= str(count)
+    (line,) = set_up(tree, "development", **recording).splitlines()
+    assert int(re.search(r"Adding (\d+) packages of development.lock", line)[1]) <= count
     assert "--requirement development.lock" in installs(tree)[-1]
     assert set_up(tree, "development", **recording) == set_up(tree, **recording) == ""
     (tree / "development.lock").write_text("other==1 --hash=sha256:0\n")
@@ -141,7 +141,7 @@ def test_a_second_lock_is_added_once_to_what_is_set_up(tree, recording):
     assert "Adding 1 packages" in again
 
 
-def test_a_second_lock_that_was_not_installed_is_tried_again(tree, recording):
+def test_a_failed_installation_of_a_second_lock_is_retried(tree, recording):
     set_up(tree, **recording)
     (tree / ".venv/bin/python").write_text("#!/bin/sh\nexit 1\n")
     (tree / "unreachable").touch()
@@ -150,7 +150,7 @@ def test_a_second_lock_that_was_not_installed_is_tried_again(tree, recording):
     assert "Adding" in set_up(tree, "development", **recording)
 
 
-def test_a_set_up_works_in_its_own_folder_and_without_paths_of_others(tree, recording, tmp_path):
+def test_variables_of_the_user_change_neither_the_folder_nor_the_packages(tree, recording, tmp_path):
     """CDPATH would change the target of `cd workflow/..`; variables of Python, pip and uv would change packages."""
     (tmp_path / "elsewhere/workflow").mkdir(parents=True)
     names = ("HOME", "PATH", "USERBASE", "STARTUP", "DONTWRITEBYTECODE")
@@ -164,9 +164,16 @@ def test_a_set_up_works_in_its_own_folder_and_without_paths_of_others(tree, reco
         **dict.fromkeys(("PIP_TARGET", "PIP_PREFIX", "PIP_CONSTRAINT", "PIP_REQUIREMENT", "PIP_PYTHON"), "/nowhere"),
     )
     assert not (tmp_path / "elsewhere/.venv").exists()
-    told = (tree / "variables").read_text().splitlines()
-    assert "PIP_CONFIG_FILE=/dev/null" in told
-    assert [line for line in told if line.endswith(("=/nowhere", "=1"))] == []
+    variables = (tree / "variables").read_text().splitlines()
+    assert "PIP_CONFIG_FILE=/dev/null" in variables
+    assert [line for line in variables if line.endswith(("=/nowhere", "=1"))] == []
+
+
+def run_pip(tree, *arguments, **settings):
+    """Run workflow/pip.sh with the given settings of pip as environment variables, and no other settings."""
+    variables = {name: value for name, value in os.environ.items() if not name.startswith("PIP_")}
+    variables |= {f"PIP_{name}": value for name, value in settings.items()}
+    return subprocess.run([tree / "workflow/pip.sh", *arguments], env=variables, capture_output=True, text=True)
 
 
 PIP_CONF = """
@@ -185,23 +192,15 @@ trusted-host = of.the.command
 """
 
 
-def test_of_the_settings_of_pip_those_count_that_say_how_to_reach_packages(tree, tmp_path):
-    """They may be set in a file or in a variable, which overrides the file, as `pip config list` shows."""
+def test_only_settings_of_pip_for_access_to_packages_are_used(tree, tmp_path):
+    """`pip config list` shows the settings that pip uses. A variable overrides the settings file."""
     (tree / ".venv").symlink_to(sys.prefix)
     (tmp_path / "pip.conf").write_text(PIP_CONF)
-    given = {"CONFIG_FILE": str(tmp_path / "pip.conf"), "USER": "1", "TARGET": "/nowhere", "RETRIES": "7"}
-    of_user = {name: value for name, value in os.environ.items() if not name.startswith("PIP_")}
-    run = subprocess.run(
-        [tree / "workflow/pip.sh", "config", "list"],
-        env=of_user | {f"PIP_{name}": value for name, value in given.items()} | {"PIP_TRUSTED_HOST": "of.the.variable"},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    told = dict(line.removeprefix(":env:.").split("=", 1) for line in run.stdout.splitlines())
-    told = {name: ast.literal_eval(value).split() for name, value in told.items()}
+    settings = {"CONFIG_FILE": str(tmp_path / "pip.conf"), "USER": "1", "TARGET": "/nowhere", "RETRIES": "7"}
+    run = run_pip(tree, "config", "list", **settings, TRUSTED_HOST="of.the.variable")
+    used = dict(line.removeprefix(":env:.").split("=", 1) for line in run.stdout.splitlines())
     of_this_machine = {"cert", "find-links", "proxy", "no-index", "timeout", "default-timeout"}
-    assert {name: value for name, value in told.items() if name not in of_this_machine} == {
+    assert {name: ast.literal_eval(value).split() for name, value in used.items() if name not in of_this_machine} == {
         "cache-dir": [str(tree / ".cache/pip")],
         "config-file": ["/dev/null"],
         "extra-index-url": ["https://one.example.org", "https://two.example.org"],
@@ -233,7 +232,7 @@ def tiny_wheel(folder) -> str:
     ],
     ids=["index", "second index", "folder", "file"],
 )
-def test_uv_takes_packages_from_where_pip_is_told_to_and_checks_their_hashes(tree, tmp_path, settings):
+def test_uv_uses_the_package_sources_set_for_pip_and_checks_hashes(tree, tmp_path, settings):
     places = {"index": tmp_path / "index", "empty": tmp_path / "empty"}
     line = tiny_wheel(places["index"] / "tiny")
     places["empty"].mkdir()
@@ -243,21 +242,16 @@ def test_uv_takes_packages_from_where_pip_is_told_to_and_checks_their_hashes(tre
     (tree / ".cache").mkdir(exist_ok=True)
     packages = next((tree / ".venv/lib").iterdir()) / "site-packages"
     (packages / "pip").symlink_to(Path(pip.__file__).parent)
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PIP_")}
-    environment |= {f"PIP_{name}": value.format(**places) for name, value in settings.items()}
+    settings = {name: value.format(**places) for name, value in settings.items()}
     for lock, expected in ((line.replace("256:", "256:0")[:-2], 1), (line, 0)):
         (tree / "tiny.lock").write_text(lock)
-        run = subprocess.run(
-            [tree / "workflow/pip.sh", "uv", "install", "--require-hashes", "--requirement", "tiny.lock"],
-            env=environment,
-            capture_output=True,
-            text=True,
-        )
+        run = run_pip(tree, "uv", "install", "--require-hashes", "--requirement", "tiny.lock", **settings)
         assert run.returncode == expected, run.stderr
         assert expected == 0 or "Hash mismatch" in run.stderr
     assert (packages / "tiny-1.dist-info").is_dir()
 
 
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 LOCKS = "environment", "development", "cluster"
 
 
@@ -266,8 +260,8 @@ def locked(name) -> set[str]:
     return {*re.findall(r"^([a-z][^=\s]*)==", (ROOT / f"{name}.lock").read_text(), re.MULTILINE)}
 
 
-def test_the_locks_are_whole():
-    """The locks together have each package once, with version and hash, without URLs, and heyoka with its marker."""
+def test_locks_pin_each_package_once_by_version_and_hash():
+    """The locks share no package and contain no URL; heyoka, which exists for Linux only, has a marker."""
     locks = [locked(name) for name in LOCKS]
     assert sum(map(len, locks)) == len(set().union(*locks))
     text = "".join((ROOT / f"{name}.lock").read_text().replace("\\\n", " ") for name in LOCKS)
@@ -281,21 +275,20 @@ def test_the_locks_are_whole():
 
 def requirements(*extras):
     """Return the requirements of the library and of some extras, including extras that an extra names."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    asked = [*project["dependencies"], *(one for extra in extras for one in project["optional-dependencies"][extra])]
-    others = [name for one in asked for name in Requirement(one).extras]
-    return {one for one in asked if not Requirement(one).extras} | (requirements(*others) if others else set())
+    named = [*PROJECT["dependencies"], *(one for extra in extras for one in PROJECT["optional-dependencies"][extra])]
+    others = [name for one in named for name in Requirement(one).extras]
+    return {one for one in named if not Requirement(one).extras} | (requirements(*others) if others else set())
 
 
-FOR_BUILDS = "pipeline", "integrators", "set-up"
-APART = "notebooks", "cluster"
-"""FOR_BUILDS: extras in environment.lock. APART: extras in neither environment.lock nor development.lock."""
+BUILD_EXTRAS = "pipeline", "integrators", "set-up"
+OTHER_EXTRAS = "notebooks", "cluster"
+"""Extras in environment.lock, and extras in neither environment.lock nor development.lock."""
 
 
 def test_each_lock_has_the_packages_of_its_extras():
-    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
-    for_builds = {Requirement(one).name for one in requirements(*FOR_BUILDS)}
-    others = {Requirement(one).name for one in requirements(*(extras.keys() - {*FOR_BUILDS, *APART}))}
+    extras = PROJECT["optional-dependencies"]
+    for_builds = {Requirement(one).name for one in requirements(*BUILD_EXTRAS)}
+    others = {Requirement(one).name for one in requirements(*(extras.keys() - {*BUILD_EXTRAS, *OTHER_EXTRAS}))}
     assert for_builds <= locked("environment")
     assert others - for_builds <= locked("development")
 
@@ -308,19 +301,20 @@ def imported(path) -> set[str]:
     return {name.partition(".")[0] for name in names} - sys.stdlib_module_names
 
 
-def test_builds_import_packages_of_their_lock_only_and_other_jobs_say_what_they_lack():
+def test_modules_import_only_packages_of_environment_lock_or_declare_others():
+    """A module declares other packages by a call of `need`, which names those that are not installed."""
     installed, for_builds = packages_distributions(), locked("environment")
     for path in (path for folder in ("src", "workflow/scripts") for path in (ROOT / folder).rglob("*.py")):
-        named = re.findall(r"^need\((.*)\)$", path.read_text(encoding="utf-8"), re.MULTILINE)
-        known = {"vibroimpact", "vibroimpact_pipeline"}.union(*(ast.literal_eval(f"({names},)") for names in named))
-        for name in (imported(path) & installed.keys()) - known:
+        calls = re.findall(r"^need\((.*)\)$", path.read_text(encoding="utf-8"), re.MULTILINE)
+        declared = {"vibroimpact", "vibroimpact_pipeline"}.union(*(ast.literal_eval(f"({names},)") for names in calls))
+        for name in (imported(path) & installed.keys()) - declared:
             assert {one.lower().replace("_", "-") for one in installed[name]} & for_builds, (path, name)
 
 
-def test_the_extra_pipeline_brings_what_a_build_asks_for():
-    brought = {Requirement(one).name for one in requirements("pipeline")}
+def test_the_extra_pipeline_contains_the_packages_that_a_build_requires():
+    contained = {Requirement(one).name for one in requirements("pipeline")}
     distributions = {"flint": "python-flint", "yaml": "pyyaml"}
-    assert {distributions.get(name, name) for name in environment.REQUIRED} <= brought
+    assert {distributions.get(name, name) for name in environment.REQUIRED} <= contained
 
 
 def test_the_workflow_names_packages_that_are_not_installed(tree):
@@ -339,7 +333,7 @@ def compiled_files(tree) -> dict[str, int]:
 
 
 @pytest.mark.thorough
-def test_the_first_build_compiles_nothing(tree):
+def test_the_first_build_after_a_set_up_compiles_nothing(tree):
     shutil.rmtree(tree / "src/vibroimpact/__pycache__")
     environment = os.environ | {"PYTHONPATH": str(tree / "src")}
     subprocess.run([sys.executable, "workflow/scripts/compile.py"], cwd=tree.path, env=environment, check=True)
