@@ -1,4 +1,4 @@
-"""Fixtures of a small reference set, drawn in the tests so that its pictures are comparable with any versions."""
+"""Fixtures of a small reference set, drawn by the tests since pictures depend on the versions of libraries."""
 
 import datetime
 import shutil
@@ -20,9 +20,9 @@ DAY = datetime.date(2020, 2, 29)
 
 
 @pytest.fixture(scope="session")
-def drawn(tmp_path_factory):
+def matching(tmp_path_factory):
     """Return a folder with a reference set and a build that match; their tables are the published tables."""
-    folder = tmp_path_factory.mktemp("drawn")
+    folder = tmp_path_factory.mktemp("matching")
     for figure in FIGURES:
         for file, path in compared_files(figure, SPECS[figure]).values():
             (folder / "build" / path).parent.mkdir(parents=True, exist_ok=True)
@@ -43,14 +43,14 @@ def redraw(build, figure):
 
 
 @pytest.fixture
-def tree(drawn, tmp_path):
-    """Copy the folder `drawn`; return its parts, and functions that change a table, redraw a figure and check one."""
-    shutil.copytree(drawn, tmp_path / "tree")
+def tree(matching, tmp_path):
+    """Return a copy of reference set and build, and functions that change a table, redraw a figure or check it."""
+    shutil.copytree(matching, tmp_path / "tree")
     reference, build = tmp_path / "tree/figures", tmp_path / "tree/build"
     results = build / "results/figures"
 
     def change(file, **columns):
-        """Change columns of a table in the build, each to a value or by a function of the table, and redraw."""
+        """Set columns of a table in the build to values or functions of the table, and redraw its figure."""
         write(read(results / file).assign(**columns), results / file)
         redraw(build, file.partition(".")[0])
 
