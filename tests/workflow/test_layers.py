@@ -1,4 +1,4 @@
-"""Test that the chapter does not need the studies: every folder and file named `studies` can be deleted."""
+"""Test that the chapter works after every folder and file named `studies` has been deleted."""
 
 import os
 import re
@@ -12,7 +12,7 @@ import pytest
 import vibroimpact as vi
 from pipeline_trees import ROOT, Tree, whole_copy
 
-AWARE = {
+REFER_TO_STUDIES = {
     "src/vibroimpact/__init__.py",
     "src/vibroimpact/__init__.pyi",
     "src/vibroimpact_pipeline/config/reading.py",
@@ -23,9 +23,9 @@ AWARE = {
     "workflow/rules/common.smk",
     "workflow/rules/figures.smk",
 }
-"""Files that refer to parts of the studies, after a check that the studies are installed."""
-LAYER = re.compile(r"\bstudies[/.](?!smk\b|yaml\b)\w|\b(?:from|import) studies\b|\bstudies\.(?:smk|yaml)\b")
-LAZY = {name for name, module in vi._PUBLIC.items() if module.startswith("vibroimpact.studies")}
+"""Files that may refer to parts of the studies, since they check first that the studies exist."""
+REFERENCE = re.compile(r"\bstudies[/.](?!smk\b|yaml\b)\w|\b(?:from|import) studies\b|\bstudies\.(?:smk|yaml)\b")
+NAMES_OF_STUDIES = {name for name, module in vi._PUBLIC.items() if module.startswith("vibroimpact.studies")}
 """Public names that need the studies."""
 
 
@@ -34,17 +34,21 @@ def sources():
     for top in ("src", "workflow", "tests", "notebooks"):
         for path in sorted((ROOT / top).rglob("*")):
             name = path.relative_to(ROOT)
-            own = not any(part.partition(".")[0] in ("studies", "__pycache__", "") for part in name.parts)
-            if own and path.suffix in (".py", ".pyi", ".ipynb", ".smk", ".sh", ".yaml", ".txt", "") and path.is_file():
+            of_chapter = not any(part.partition(".")[0] in ("studies", "__pycache__", "") for part in name.parts)
+            if (
+                of_chapter
+                and path.suffix in (".py", ".pyi", ".ipynb", ".smk", ".sh", ".yaml", ".txt", "")
+                and path.is_file()
+            ):
                 yield name.as_posix(), path.read_text(encoding="utf-8")
 
 
-def test_nothing_of_the_chapter_names_what_is_in_the_layer():
+def test_files_outside_the_studies_do_not_refer_to_parts_of_the_studies():
     texts = dict(sources())
     assert len(texts) > 250
-    assert {name for name, text in texts.items() if LAYER.search(text)} == AWARE
-    lazy = re.compile(rf"\bvi\.(?:{'|'.join(LAZY)})\b")
-    assert {name for name, text in texts.items() if lazy.search(text)} <= {"tests/workflow/test_layers.py"}
+    assert {name for name, text in texts.items() if REFERENCE.search(text)} == REFER_TO_STUDIES
+    public = re.compile(rf"\bvi\.(?:{'|'.join(NAMES_OF_STUDIES)})\b")
+    assert {name for name, text in texts.items() if public.search(text)} <= {"tests/workflow/test_layers.py"}
 
 
 @pytest.fixture
@@ -63,11 +67,11 @@ def run(tree, *arguments):
 
 
 def assert_tests_pass(tree, *arguments):
-    ended = run(tree, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments)
-    assert ended.returncode == 0, ended.stdout[-3000:] + ended.stderr[-1000:]
+    done = run(tree, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]
 
 
-SAID = """
+PUBLIC_NAMES = """
 import vibroimpact as vi
 try:
     vi.branches
@@ -77,10 +81,9 @@ vi.System, vi.orbits, vi.ensemble
 """
 
 
-def test_without_the_studies_the_chapter_is_built_and_checked_and_its_tests_are_found(chapter_alone):
+def test_the_chapter_without_the_studies_is_built_and_checked_and_pytest_collects_its_tests(chapter_alone):
     assert chapter_alone.planned() == set()  # results of the same code are up to date
-    made = "results/orbits/weak.csv", "fig10_04"
-    chapter_alone.snakemake("--forcerun", "fixed_points", "fig10_04", "--", *made)
+    chapter_alone.snakemake("--forcerun", "fixed_points", "fig10_04", "--", "results/orbits/weak.csv", "fig10_04")
     assert re.search(r"\b(\d+) figures: \1 passed", chapter_alone.snakemake("figure_check"))
     assert_tests_pass(chapter_alone, "--collect-only")
     contracts = run(chapter_alone, str(Path(sys.executable).with_name("lint-imports")))
@@ -88,16 +91,16 @@ def test_without_the_studies_the_chapter_is_built_and_checked_and_its_tests_are_
     listed = subprocess.run(["make", "-n", "test-quick"], cwd=chapter_alone.path, capture_output=True, text=True).stdout
     assert all((chapter_alone / path).exists() for path in re.findall(r"tests/\S+", listed))
     assert "tests/system" in listed
-    assert "vibroimpact.branches needs the studies" in run(chapter_alone, "-c", SAID).stdout
+    assert "vibroimpact.branches needs the studies" in run(chapter_alone, "-c", PUBLIC_NAMES).stdout
     machine = "design --M 120 --m 6 --k 3e5 --c 120 --F 40 --from 7 --to 9"
-    ended = run(chapter_alone, "-m", "vibroimpact", *machine.split())
-    assert ended.returncode == 2
-    assert "vibroimpact.design needs the studies" in ended.stderr
-    assert ended.stderr.count("\n") == 1
+    done = run(chapter_alone, "-m", "vibroimpact", *machine.split())
+    assert done.returncode == 2
+    assert "vibroimpact.design needs the studies" in done.stderr
+    assert done.stderr.count("\n") == 1
 
 
 @pytest.mark.thorough
-def test_all_of_the_chapter_is_built_and_tested_without_the_studies(chapter_alone):
+def test_the_chapter_without_the_studies_is_built_from_scratch_and_passes_all_its_tests(chapter_alone):
     shutil.rmtree(chapter_alone / "results")
     shutil.rmtree(chapter_alone / ".snakemake")
     chapter_alone.snakemake()
