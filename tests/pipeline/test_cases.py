@@ -1,4 +1,4 @@
-"""Test that a case may override any parameter of the system, and that all results of the case use its values."""
+"""Test cases that override parameters of the system: results, titles and records use the values of the case."""
 
 from chapter import FORCES, PARAMETERS
 from configs import GOOD, SOFT, edited
@@ -12,14 +12,14 @@ from vibroimpact_pipeline.specs import case_parameters
 CONFIG = checked(edited(f"{SOFT} & figures.soft_motion = {{like: fig10_08, model: float64, case: soft}}"))
 
 
-def test_its_parameters_are_its_own_and_else_those_of_all():
+def test_a_case_has_its_own_parameters_and_otherwise_those_of_the_system():
     own = {"f10_hat": 1.0, "f20_hat": 0.9, "kappa": 0.5, "epsilon": 0.05}
     assert case_parameters(CONFIG, "soft") == PARAMETERS | own
     for case, forces in FORCES.items():
         assert case_parameters(CONFIG, case) == PARAMETERS | dict(zip(("f10_hat", "f20_hat"), forces, strict=True))
 
 
-def test_its_words_say_in_what_it_differs():
+def test_titles_of_a_case_name_its_own_parameters():
     assert title_of(CONFIG, "soft") == "soft (epsilon = 0.05, kappa = 0.5)"
     assert title_of(CONFIG, "weak") == "weak"
     assert title_of(checked(edited("cases.weak.title = Faint & cases.weak.kappa = 0.5")), "weak") == "Faint"
@@ -27,7 +27,7 @@ def test_its_words_say_in_what_it_differs():
     assert texts["soft_motion"]["title"] == "Simulated motion of case soft (epsilon = 0.05, kappa = 0.5)"
 
 
-def test_a_case_of_the_chapter_with_a_parameter_of_its_own_is_a_departure():
+def test_a_changed_case_of_the_chapter_is_a_departure_from_the_chapter():
     changed = checked(edited("cases.weak.kappa = 0.5"))
     assert departures(checked(GOOD)) == departures(CONFIG) == []
     assert departures(changed) == ["cases.weak.kappa is 0.5 instead of 0.65"]
@@ -35,9 +35,9 @@ def test_a_case_of_the_chapter_with_a_parameter_of_its_own_is_a_departure():
     assert title.startswith("Figure 10.11 for other parameters. ")
 
 
-def test_a_record_tells_of_the_parameter(tmp_path):
+def test_a_changed_parameter_of_a_case_is_a_difference_from_the_record(tmp_path):
     others = {"versions": {"python": "2.7"}, "code": {}, "inputs": {}, "files": {}}
-    made = {"config": {"cases.weak": case_parameters(checked(GOOD), "weak")}, **others}
-    told, *_ = differences(tmp_path / "none", made, checked(edited("cases.weak.kappa = 0.5")))
-    assert told.startswith("config, cases.weak: was ")
-    assert "'kappa': 0.5" in told
+    record = {"config": {"cases.weak": case_parameters(checked(GOOD), "weak")}, **others}
+    difference, *_ = differences(tmp_path / "none", record, checked(edited("cases.weak.kappa = 0.5")))
+    assert difference.startswith("config, cases.weak: was ")
+    assert "'kappa': 0.5" in difference
