@@ -1,4 +1,4 @@
-"""Test calls of git: results do not depend on user settings, and missing, refusing and modified git differ."""
+"""Test calls of git: answers do not depend on user settings; missing git, refusals and modified files are reported."""
 
 import os
 import re
@@ -36,8 +36,8 @@ case "$*" in
        printf -- '-----BEGIN PGP SIGNATURE-----\\n\\nx\\n-----END PGP SIGNATURE-----\\n' ;;
 esac
 """
-CITED = "version: 0.1\ntitle: t\nlicense: MIT\nauthors: [{name: A}]\n"
-LETTERS = "zwei Kästen.txt"
+CITATION = "version: 0.1\ntitle: t\nlicense: MIT\nauthors: [{name: A}]\n"
+NAME_WITH_UMLAUT = "zwei Kästen.txt"
 
 
 @pytest.fixture
@@ -49,9 +49,9 @@ def repository(tmp_path):
     for name in ("Makefile", ".gitignore", "workflow/set_up.sh"):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, root / name)
-    (root / "CITATION.cff").write_text(CITED)
+    (root / "CITATION.cff").write_text(CITATION)
     (root / "Snakefile").touch()
-    (root / LETTERS).write_text("a\nb\n")
+    (root / NAME_WITH_UMLAUT).write_text("a\nb\n")
     commit(root)
     run_git(root, "-c", f"gpg.program={gpg}", "commit", "--amend", "--no-edit", "--gpg-sign")
     return root
@@ -59,7 +59,7 @@ def repository(tmp_path):
 
 @pytest.fixture
 def settings_of_a_user(tmp_path, monkeypatch):
-    """Return a function that sets options which change the output of git, and variables for another repository."""
+    """Return a function that sets options and variables which would change the output or the repository of git."""
     home, other = tmp_path / "home", tmp_path / "other"
     for folder in (home, other):
         folder.mkdir()
@@ -79,41 +79,42 @@ def settings_of_a_user(tmp_path, monkeypatch):
 
 
 def answers(root):
-    described = [git(*words.split(), root=root) for words in ("describe --always", "log -1 --format=%ct", "ls-files")]
-    return committed(root), origin(root), changes(root), described
+    """Return the results of all functions that call git."""
+    outputs = [git(*words.split(), root=root) for words in ("describe --always", "log -1 --format=%ct", "ls-files")]
+    return committed(root), origin(root), changes(root), outputs
 
 
-def test_settings_of_the_user_change_no_answer_and_no_byte_of_an_archive(repository, settings_of_a_user, tmp_path):
-    packed, before = tmp_path / "archive.tar.gz", answers(repository)
-    archive.write(repository, [], {}, packed)
-    content = packed.read_bytes()
+def test_settings_of_the_user_change_neither_answers_nor_archives(repository, settings_of_a_user, tmp_path):
+    path, before = tmp_path / "archive.tar.gz", answers(repository)
+    archive.write(repository, [], {}, path)
+    content = path.read_bytes()
     settings_of_a_user()
     assert answers(repository) == before
-    archive.write(repository, [], {}, packed)
-    assert packed.read_bytes() == content
+    archive.write(repository, [], {}, path)
+    assert path.read_bytes() == content
     assert before[1] == (before[0], "clean")
     assert not (tmp_path / "home/started").exists()
 
 
-def test_what_is_not_committed_is_named(repository, settings_of_a_user):
+def test_uncommitted_changes_are_listed(repository, settings_of_a_user):
     settings_of_a_user()
     (repository / "Makefile").write_text("all:\n")
     (repository / "new.py").touch()
-    (repository / LETTERS).unlink()
-    assert sorted(name.strip('"') for name in changes(repository)) == ["Makefile", "new.py", LETTERS]
+    (repository / NAME_WITH_UMLAUT).unlink()
+    assert sorted(name.strip('"') for name in changes(repository)) == ["Makefile", "new.py", NAME_WITH_UMLAUT]
     assert origin(repository)[1] == "modified"
     with pytest.raises(ValueError, match=r"^uncommitted changes in .*Makefile.*; commit, ignore or remove them first$"):
         committed(repository)
 
 
-def test_results_on_another_disk_are_no_change(repository, tmp_path):
+def test_symbolic_links_to_results_are_not_changes(repository, tmp_path):
     for name in ("results", ".venv", ".cache", ".snakemake", "dist"):
         (repository / name).symlink_to(tmp_path)
     assert changes(repository) == []
 
 
 @pytest.mark.parametrize("place", ["..", "copy", "."], ids=["outside", "inside another", "without the program"])
-def test_a_copy_without_git_is_told(repository, monkeypatch, place):
+def test_a_folder_without_git_is_reported(repository, monkeypatch, place):
     (repository / "copy").mkdir()
     if place == ".":
         monkeypatch.setenv("PATH", "/nowhere")
@@ -123,8 +124,10 @@ def test_a_copy_without_git_is_told(repository, monkeypatch, place):
         committed(repository / place)
 
 
-def test_a_refusal_is_told_in_one_line_with_what_allows_it(repository, tmp_path, monkeypatch, capsys):
-    """The checkout seems to belong to another user; git refuses it with its own message."""
+def test_a_refusal_by_git_is_reported_in_one_line_with_the_command_that_allows_access(
+    repository, tmp_path, monkeypatch, capsys
+):
+    """For git, the checkout belongs to another user."""
     program, home = tmp_path / "bin/git", tmp_path / "home"
     program.parent.mkdir()
     program.write_text(f'#!/bin/sh\nGIT_TEST_ASSUME_DIFFERENT_OWNER=1 exec {shutil.which("git")} "$@"\n')
@@ -141,7 +144,7 @@ def test_a_refusal_is_told_in_one_line_with_what_allows_it(repository, tmp_path,
     assert origin(repository)[1] == "clean"
 
 
-def test_a_clone_has_the_same_bytes_whatever_is_set_for_line_ends(tmp_path):
+def test_settings_of_line_ends_do_not_change_the_bytes_of_a_clone(tmp_path):
     """A shell cannot run scripts with carriage returns, and converted pictures would be damaged."""
     root, clone = tmp_path / "checkout", tmp_path / "clone"
     names = [".gitattributes", ".ci/run", "Makefile", "workflow/set_up.sh", "config/config.yaml"]
@@ -155,7 +158,7 @@ def test_a_clone_has_the_same_bytes_whatever_is_set_for_line_ends(tmp_path):
     assert [name for name in [*names, "text.pdf"] if (clone / name).read_bytes() != (root / name).read_bytes()] == []
 
 
-def test_one_place_calls_git():
+def test_only_one_module_calls_git():
     code = [path for top in ("src", "workflow") for end in ("*.py", "*.smk") for path in (ROOT / top).rglob(end)]
     calling = [path for path in code if re.search(r"""["']git["']""", path.read_text(encoding="utf-8"))]
     assert calling == [ROOT / "src/vibroimpact_pipeline/git.py"]
