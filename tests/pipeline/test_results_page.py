@@ -29,24 +29,24 @@ def add(path, text):
     path.write_text(text)
 
 
-def test_the_page_of_results_links_what_is_there_with_its_exact_line(results):
+def test_the_page_links_existing_results_and_shows_the_exact_verdicts(results):
     html = page(
         results,
-        {"The chapter": {"fig10_06": "Points & <planes>", "fig10_07": "Not made"}, "More": {"mine": "Beside it"}},
+        {"The chapter": {"fig10_06": "Points & <planes>", "fig10_07": "Not built"}, "More": {"mine": "Own figure"}},
     )
     assert "Points &amp; &lt;planes&gt;" in html
     assert PAGE.removeprefix("<p>").removesuffix("</p>") in html
     assert 'href="figures/mine.png"' in html
     assert '<img src="figures/fig10_06.svg"' in html
-    assert html.index("The chapter") < html.index("Points &amp;") < html.index("More") < html.index("Beside it")
+    assert html.index("The chapter") < html.index("Points &amp;") < html.index("More") < html.index("Own figure")
     assert 'href="report/index.html"' in html
-    assert "Not made" not in html
+    assert "Not built" not in html
     assert "3 claims of the chapter" in html
-    assert "&lt;refuted&gt; 1, misprint 2." in html  # misprints last, however many they are
+    assert "&lt;refuted&gt; 1, misprint 2." in html  # misprints come last
     assert "<script" not in html
 
 
-def test_the_accuracy_charts_are_large_below_a_table_of_methods_to_choose(results):
+def test_large_accuracy_charts_follow_the_table_of_recommended_methods(results):
     add(results / "accuracy/work_precision.svg", "")
     rows = "p,1e-06,1,<a>,x,2.6e-06,0,24\np,1e-06,2,b,x,8e-06,3,24\n"
     add(results / "accuracy/choices.csv", f"problem,error,choice,method,setting,seconds_per_cycle,wrong,tests\n{rows}")
