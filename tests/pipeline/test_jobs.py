@@ -1,4 +1,4 @@
-"""Test `running`: a job whose code or inputs have changed replaces no result."""
+"""Test `running`: a job whose code or inputs change writes no result."""
 
 import os
 import shutil
@@ -29,7 +29,7 @@ def job(tmp_path, monkeypatch):
     (library / "look.mplstyle").write_text("lines.linewidth: 1\n")
     SCRIPT.parent.mkdir(parents=True)
     SCRIPT.write_text("from vibroimpact import orbits\n")
-    code.modules.cache_clear(), code.module_files.cache_clear()
+    clear_caches()
     INPUT.parent.mkdir()
     INPUT.write_text("1")
     result_records.write_record(INPUT, {"rule": "before", "inputs": {}})
@@ -39,6 +39,10 @@ def job(tmp_path, monkeypatch):
     yield SimpleNamespace(
         input=[str(INPUT), str(PAGE)], output={"csv": str(OUTPUT)}, params=params, wildcards={}, rule="rule"
     )
+    clear_caches()
+
+
+def clear_caches():
     code.modules.cache_clear(), code.module_files.cache_clear()
 
 
@@ -46,10 +50,11 @@ def theory():
     return code.SOURCES / "vibroimpact/theory.py"
 
 
-def edit_and_put_back():
-    aside = shutil.copy2(theory(), "aside.py")
+def edit_and_restore():
+    """Change a module and restore it with its old date."""
+    backup = shutil.copy2(theory(), "backup.py")
     theory().write_text("rho = 0.5\n")
-    os.replace(aside, theory())
+    os.replace(backup, theory())
 
 
 def edit_a_style():
@@ -67,7 +72,7 @@ def edit_the_input():
     result_records.write_record(INPUT, {"rule": "before", "inputs": {}})
 
 
-def test_outputs_and_their_records_are_put_in_place_together(job):
+def test_outputs_and_records_appear_when_the_job_ends(job):
     with jobs.running(job) as out:
         Path(out.csv).write_text("2")
         assert Path(out.csv).name == OUTPUT.name
@@ -79,8 +84,8 @@ def test_outputs_and_their_records_are_put_in_place_together(job):
     assert not list(Path("results").glob(f"{result_records.PARTIAL}*"))
 
 
-@pytest.mark.parametrize("change", [edit_and_put_back, edit_a_style, edit_a_page, edit_the_input])
-def test_what_changes_while_a_job_runs_keeps_its_outputs_out(job, change):
+@pytest.mark.parametrize("change", [edit_and_restore, edit_a_style, edit_a_page, edit_the_input])
+def test_a_job_writes_no_output_if_code_or_inputs_change_while_it_runs(job, change):
     with pytest.raises(SystemExit, match="changed while this job ran"), jobs.running(job) as out:
         (Path(out.csv).write_text("2"), change())
     assert not OUTPUT.exists()
@@ -97,29 +102,29 @@ def test_what_changes_while_a_job_runs_keeps_its_outputs_out(job, change):
         result_records.record_of(INPUT).unlink,
     ],
 )
-def test_a_job_does_not_start_with_other_code_or_inputs(job, change):
+def test_a_job_does_not_start_if_code_or_inputs_have_changed(job, change):
     change()
     with pytest.raises(SystemExit, match="rerun"), jobs.running(job):
         pytest.fail("the job has started")
 
 
-def test_comments_modules_that_nothing_imports_and_copies_of_editors_change_no_fingerprint(job):
+def test_comments_unused_modules_and_backups_of_editors_do_not_change_the_fingerprint(job):
     theory().write_text('"""Theory."""\n\n\n# of the chapter\nrho = 0.65\n')
     others = ".ipynb_checkpoints/theory-checkpoint.py", ".theory.py.swp", "__pycache__/theory.pyc", "another.py"
     for path in (theory().parent / name for name in others):
         path.parent.mkdir(exist_ok=True)
         path.write_text("rho = 0.5\n")
-    code.modules.cache_clear(), code.module_files.cache_clear()
+    clear_caches()
     assert code.code_of(str(SCRIPT), str(PAGE)) == job.params["code"]
 
 
-def test_an_output_that_was_not_written_fails_the_job(job):
+def test_a_job_that_does_not_write_its_output_fails(job):
     with pytest.raises(FileNotFoundError), jobs.running(job):
         pass
 
 
 def test_a_job_ends_with_the_process_that_started_it():
-    """The parent is killed by SIGKILL, so that it cannot stop the job itself, which inherits its output."""
+    """SIGKILL gives the parent no chance to stop the job. The job holds the output of the parent open while it runs."""
     child = "import time, types; from vibroimpact_pipeline.jobs import running\n"
     child += "job = types.SimpleNamespace(params={}, input=[], output={}, rule='any', wildcards={})\n"
     child += "with running(job): print('started', flush=True); time.sleep(600)"
