@@ -1,4 +1,4 @@
-"""Test that results are complete or absent, and trusted only with Snakemake's record and unmodified content."""
+"""Test that results are complete or absent, and rebuilt unless they are unmodified and recorded by Snakemake."""
 
 import json
 import os
@@ -28,8 +28,8 @@ def snakemake():
     return FilePersistence(nolock=True)
 
 
-def as_made(snakemake, path, inputs=()):
-    """Write a result and its records, in the order in which its job and then Snakemake do so."""
+def write_result(snakemake, path, inputs=()):
+    """Write a result and its two records, as its job and then Snakemake do."""
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     Path(path).write_text(f"content of {path}")
     digests = {one: result_records.digest_of(one) for one in inputs}
@@ -39,42 +39,44 @@ def as_made(snakemake, path, inputs=()):
 
 
 @pytest.fixture
-def made(snakemake):
-    as_made(snakemake, FIRST)
-    as_made(snakemake, SECOND, [FIRST])
-    as_made(snakemake, LONG)
+def results(snakemake):
+    """Write three results and return their paths."""
+    write_result(snakemake, FIRST)
+    write_result(snakemake, SECOND, [FIRST])
+    write_result(snakemake, LONG)
     return [FIRST, SECOND, LONG]
 
 
-def marked(snakemake, paths):
+def incomplete(snakemake, paths):
+    """Return the results that Snakemake regards as incomplete."""
     snakemake._clear_cache()
     return snakemake._filter_incomplete_keys(paths)
 
 
-def test_what_jobs_wrote_is_trusted(made, snakemake):
-    assert result_records.distrust([*made, "results/not_there.csv"]) == []
-    assert marked(snakemake, made) == set()
+def test_results_as_written_by_jobs_are_trusted(results, snakemake):
+    assert result_records.distrust([*results, "results/not_there.csv"]) == []
+    assert incomplete(snakemake, results) == set()
 
 
-def of_another_config(path, _=None):
+def replace_by_another_result(path, _=None):
     """Copy another result with its date, which is older or newer."""
     shutil.copy2(FIRST if path != FIRST else SECOND, path)
 
 
-def of_a_job_that_ended_with_it(path, _):
+def replace_under_the_same_date(path, _):
     date = os.stat(path).st_mtime_ns
-    of_another_config(path)
+    replace_by_another_result(path)
     os.utime(path, ns=(date, date))
 
 
 CHANGES = {
     "edited": lambda path, _: Path(path).write_text("0"),
-    "edited under an old date": lambda path, _: [Path(path).write_text("0"), os.utime(path, (1e9, 1e9))],
-    "of another config": of_another_config,
-    "of a job that ended with it": of_a_job_that_ended_with_it,
+    "edited, with an old date": lambda path, _: [Path(path).write_text("0"), os.utime(path, (1e9, 1e9))],
+    "another result": replace_by_another_result,
+    "another result, with the same date": replace_under_the_same_date,
     "unknown to Snakemake": lambda path, snakemake: snakemake.cleanup_metadata(IOFile(path)),
     "without record": lambda path, _: result_records.record_of(path).unlink(),
-    "with a spoilt record": lambda path, _: [
+    "with an invalid record": lambda path, _: [
         result_records.record_of(path).write_text("{"),
         os.utime(path, (1e9, 1e9)),
     ],
@@ -83,27 +85,27 @@ CHANGES = {
 
 @pytest.mark.parametrize("path", [FIRST, SECOND, LONG], ids=["first", "second", "long"])
 @pytest.mark.parametrize("change", CHANGES)
-def test_another_file_and_one_that_is_not_known_are_marked_for_snakemake(made, snakemake, change, path):
+def test_modified_and_unrecorded_results_are_marked_as_incomplete_once(results, snakemake, change, path):
     CHANGES[change](path, snakemake)
-    assert result_records.distrust(made) == [path]
-    assert marked(snakemake, made) == {path}
-    assert result_records.distrust(made) == [], "said once"
+    assert result_records.distrust(results) == [path]
+    assert incomplete(snakemake, results) == {path}
+    assert result_records.distrust(results) == [], "a result is reported once"
 
 
-def test_what_was_only_touched_or_copied_is_trusted(made):
-    for path in made:
+def test_results_with_another_date_only_are_trusted(results):
+    for path in results:
         os.utime(path)
-    assert result_records.distrust(made) == []
+    assert result_records.distrust(results) == []
 
 
-def test_of_a_job_that_runs_snakemake_knows_more(made, snakemake):
-    """The result of a running job may be newer than its records; Snakemake has marked it, so `distrust` skips it."""
+def test_results_of_a_running_job_are_left_to_snakemake(results, snakemake):
+    """Such a result may differ from its record, but Snakemake has already marked it as incomplete."""
     snakemake._mark_incomplete(FIRST, None)
     Path(FIRST).write_text("0")
-    assert result_records.distrust(made) == []
+    assert result_records.distrust(results) == []
 
 
-def test_a_directory_is_one_result(snakemake):
+def test_the_checksum_of_a_directory_depends_on_its_files_but_not_on_the_mark_of_snakemake(snakemake):
     folder = Path("results/report")
     (folder / "pages").mkdir(parents=True)
     (folder / "pages/index.html").write_text("page")
@@ -115,14 +117,14 @@ def test_a_directory_is_one_result(snakemake):
 
 
 @pytest.mark.parametrize("content", [None, "", "{", "[1]", "3", "{}", '{"sha256": 1}'])
-def test_a_job_reads_no_input_with_a_spoilt_record(made, content):
+def test_an_input_without_a_valid_record_is_refused(results, content):
     record = result_records.record_of(FIRST)
     record.unlink() if content is None else record.write_text(content)
     with pytest.raises(result_records.ModifiedResult, match=r"results/a\.csv"):
-        result_records.checked_digests(made)
+        result_records.checked_digests(results)
 
 
-def test_a_file_is_replaced_whole_or_not_at_all(made):
+def test_a_file_is_replaced_as_a_whole_or_not_at_all(results):
     before = Path(FIRST).read_text()
     with pytest.raises(ZeroDivisionError), result_records.replacing(FIRST) as partial:
         partial.write_text("half" * (1 // 0))
@@ -130,13 +132,13 @@ def test_a_file_is_replaced_whole_or_not_at_all(made):
     assert not list(Path("results").glob(f"{result_records.PARTIAL}*"))
 
 
-def test_what_a_killed_job_has_left_goes_when_the_next_begins():
-    (left := result_records.partial_path(FIRST)).write_text("half")
+def test_partial_files_of_a_killed_job_are_deleted_when_the_next_one_starts():
+    (partial := result_records.partial_path(FIRST)).write_text("half")
     assert not result_records.partial_path(FIRST).exists()
-    assert left.parent.is_dir()
+    assert partial.parent.is_dir()
 
 
-def test_the_disk_holds_content_and_name_before_anything_counts_as_made(monkeypatch):
+def test_content_is_flushed_before_the_rename_and_its_folder_after_it(monkeypatch):
     """Without a flush before a rename, a power failure could leave an empty file under the final name."""
     order = []
     flush, rename = os.fsync, os.replace
@@ -149,9 +151,9 @@ def test_the_disk_holds_content_and_name_before_anything_counts_as_made(monkeypa
     assert [Path(step).name for step in order] == ["file.txt", "renamed", Path.cwd().name]
 
 
-def test_a_record_is_json(made):
+def test_a_record_has_checksum_size_rule_and_inputs(results):
     record = json.loads(result_records.record_of(SECOND).read_text())
     inputs = {FIRST: result_records.digest_of(FIRST)}
     size = len(Path(SECOND).read_bytes())
     assert record == {"sha256": result_records.digest_of(SECOND), "size": size, "rule": "rule", "inputs": inputs}
-    assert result_records.records() == {path: result_records.read_record(path) for path in made}
+    assert result_records.records() == {path: result_records.read_record(path) for path in results}
