@@ -2,6 +2,7 @@
 
 from chapter import FORCES, PARAMETERS
 from configs import GOOD, SOFT, edited
+from vibroimpact.system import chapter
 from vibroimpact_pipeline.cases import title_of
 from vibroimpact_pipeline.chapter import departures
 from vibroimpact_pipeline.config import checked
@@ -15,8 +16,14 @@ CONFIG = checked(edited(f"{SOFT} & figures.soft_motion = {{like: fig10_08, model
 def test_a_case_has_its_own_parameters_and_otherwise_those_of_the_system():
     own = {"f10_hat": 1.0, "f20_hat": 0.9, "kappa": 0.5, "epsilon": 0.05}
     assert case_parameters(CONFIG, "soft") == PARAMETERS | own
+    assert set(CONFIG["cases"]) == {*FORCES, "soft"}
     for case, forces in FORCES.items():
         assert case_parameters(CONFIG, case) == PARAMETERS | dict(zip(("f10_hat", "f20_hat"), forces, strict=True))
+
+
+def test_the_library_has_the_values_of_the_chapter():
+    assert chapter.PARAMETERS == PARAMETERS
+    assert {case: tuple(forces.values()) for case, forces in chapter.CASES.items()} == FORCES
 
 
 def test_titles_of_a_case_name_its_own_parameters():

@@ -1,4 +1,4 @@
-"""Numbers printed in section 10.4; `tests/pipeline/test_chapter.py` compares the config with them."""
+"""Numbers printed in section 10.4; `tests/pipeline/test_cases.py` compares the config with them."""
 
 import vibroimpact as vi
 
