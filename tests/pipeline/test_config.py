@@ -149,19 +149,12 @@ def test_importing_the_model_loads_no_large_packages():
 
 
 PLACES = list(places(GOOD))[1:]
-SCALARS = st.one_of(
-    st.none(),
-    st.booleans(),
-    st.integers(-(10**400), 10**400),
-    st.floats(),
-    st.text(max_size=8),
-    st.sampled_from(["equal", "weak", "a", "z", "kappa", "f20_hat", "simulation", "1e-3", "nan", "inf", "all", 1, 2.5]),
-)
+WORDS = ["equal", "weak", "a", "z", "kappa", "f20_hat", "simulation", "1e-3", "nan", "inf", "all", 1, 2.5]
+NUMBERS = st.integers(-(10**400), 10**400) | st.floats()
+SCALARS = st.none() | st.booleans() | NUMBERS | st.text(max_size=8) | st.sampled_from(WORDS)
 KEYS = st.one_of(st.text(max_size=8), st.sampled_from(["case", "epsilon", "range", "fig10_06", "notebook"]))
-VALUES = st.one_of(
-    st.recursive(SCALARS, lambda inner: st.lists(inner, max_size=8) | st.dictionaries(KEYS, inner, max_size=4)),
-    st.sampled_from(PLACES).map(lambda place: copy.deepcopy(at(GOOD, place))),
-)
+NESTED = st.recursive(SCALARS, lambda inner: st.lists(inner, max_size=8) | st.dictionaries(KEYS, inner, max_size=4))
+VALUES = NESTED | st.sampled_from(PLACES).map(lambda place: copy.deepcopy(at(GOOD, place)))
 
 
 @given(st.lists(st.tuples(st.sampled_from(PLACES), KEYS | st.none(), VALUES), min_size=1, max_size=4))
