@@ -29,17 +29,16 @@ NAMES_OF_STUDIES = {name for name, module in vi._PUBLIC.items() if module.starts
 """Public names that need the studies."""
 
 
+SUFFIXES = (".py", ".pyi", ".ipynb", ".smk", ".sh", ".yaml", ".txt", "")
+
+
 def sources():
     """Yield path and text of each file outside the studies."""
     for top in ("src", "workflow", "tests", "notebooks"):
         for path in sorted((ROOT / top).rglob("*")):
             name = path.relative_to(ROOT)
             of_chapter = not any(part.partition(".")[0] in ("studies", "__pycache__", "") for part in name.parts)
-            if (
-                of_chapter
-                and path.suffix in (".py", ".pyi", ".ipynb", ".smk", ".sh", ".yaml", ".txt", "")
-                and path.is_file()
-            ):
+            if of_chapter and path.suffix in SUFFIXES and path.is_file():
                 yield name.as_posix(), path.read_text(encoding="utf-8")
 
 
