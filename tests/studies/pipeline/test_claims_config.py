@@ -1,4 +1,4 @@
-"""With which configs the claims of the chapter are judged."""
+"""Test for which configs the claims of the chapter are judged."""
 
 import pytest
 
@@ -19,7 +19,7 @@ from vibroimpact_pipeline.studies.claims_config import reason_not_judged
         ("sweeps.design.starts = 9", ""),
     ],
 )
-def test_claims_are_judged_with_the_parameters_of_the_chapter_only(edit, reason):
+def test_claims_are_judged_only_with_the_parameters_of_the_chapter(edit, reason):
     assert reason_not_judged(checked(GOOD)) == ""
     found = reason_not_judged(edited(edit))
     assert found.startswith(reason) if reason else found == ""
