@@ -1,4 +1,4 @@
-"""The interval proof of completeness, and that it does not prove too much."""
+"""Test the proof that lists of symmetric orbits are complete: it succeeds for complete lists only."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from vibroimpact.studies.completeness import orbits as module  # noqa: E402
 from vibroimpact.studies.completeness.orbits import certify  # noqa: E402
 
 
-def test_the_lists_of_the_chapter_s_cases_and_of_many_forces_at_once_are_complete(monkeypatch):
+def test_lists_of_orbits_for_several_forces_are_complete(monkeypatch):
     forces = [*FORCES.values(), (0.0, 0.0), (1.0, 0.72), (-2.0, 0.5), (0.0, 0.01)]
     for (f10, f20), listed in zip(forces, symmetric_solutions_under(build(), forces), strict=True):
         monkeypatch.setattr(module, "symmetric_solutions", lambda _, listed=listed: listed)
@@ -26,7 +26,7 @@ def test_the_lists_of_the_chapter_s_cases_and_of_many_forces_at_once_are_complet
 
 
 @pytest.mark.parametrize("left_out", [0, 1])
-def test_a_missing_root_is_noticed(monkeypatch, left_out):
+def test_a_list_with_a_missing_root_is_not_complete(monkeypatch, left_out):
     system = build()
     listed = np.delete(symmetric_solutions(system), left_out, axis=0)
     monkeypatch.setattr(module, "symmetric_solutions", lambda _: listed)
@@ -36,13 +36,13 @@ def test_a_missing_root_is_noticed(monkeypatch, left_out):
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_random_systems_are_complete(seed):
+def test_lists_for_random_systems_are_complete(seed):
     system = random_system(np.random.default_rng([seed, 4]))
     assert certify(system).complete, system
 
 
-def test_a_double_root_is_reported_as_undecided():
-    """Identical modules in step: the lag 0 is a double root at a kink, so nothing is claimed there."""
+def test_a_double_root_is_undecided():
+    """For identical modules, the phase lag 0 is a double root at a kink; boxes around it are undecided."""
     proof = certify(build(dict(sigma20_hat=0)))
     assert not proof.complete
     assert proof.undecided
@@ -51,14 +51,14 @@ def test_a_double_root_is_reported_as_undecided():
 
 
 @pytest.mark.parametrize("changes", [{}, UNCOUPLED])
-def test_what_nothing_drives_has_no_response(changes):
+def test_unforced_systems_have_no_orbit(changes):
     system = build(dict(f10_hat=0, f20_hat=0, **changes))
     assert certify(system) == module.Proof([], [], complete=True)
     assert orbits(system) == []
 
 
-def test_a_box_held_still_by_the_other_one():
-    """Box 2 tuned as an undamped absorber of the force on box 1, which then does not move without balls."""
+def test_the_proof_succeeds_if_a_box_does_not_move_without_balls():
+    """Box 2 is an undamped absorber, tuned so that box 1 does not move without balls."""
     absorber = {"gamma2_hat": 0, "gamma12_hat": 0, "alpha12_hat": 1, "f10_hat": 1.5, "f20_hat": 0}
     # 1 + epsilon (sigma20_hat + alpha12_hat) = Omega^2 with Omega = 1 + epsilon sigma_e_hat, in exact fractions.
     system = build(dict(epsilon=0.25, sigma_e_hat=0.5, sigma20_hat=0.0625, **absorber))
