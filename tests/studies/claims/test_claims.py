@@ -1,4 +1,4 @@
-"""Claims: the list is sound, verdicts follow from what is computed, and other evidence leads to other verdicts."""
+"""Test the claims: the list is valid, verdicts follow from the evidence, and other evidence changes them."""
 
 import json
 from dataclasses import replace
@@ -25,13 +25,13 @@ from vibroimpact_pipeline.studies.claims_evidence import evidence as evidence_of
 DOCUMENT = yaml.safe_load((ROOT / "docs/studies/claims.yaml").read_text(encoding="utf-8"))
 CLAIMS = {claim["id"]: claim for claim in DOCUMENT["claims"]}
 POINTWISE = [claim for claim in CLAIMS.values() if not hasattr(claims_equations, claim["check"])]
-"""Without those on equations, which take a while and know no points, cases or grids."""
+"""Claims except those on equations, whose checks are slow and use no fixed points."""
 EXPECTED = yaml.safe_load((Path(__file__).parent / "expected_verdicts.yaml").read_text(encoding="utf-8"))
 
 
 @pytest.fixture(scope="module")
 def evidence(studied):
-    """What the pipeline has found."""
+    """Return the evidence that a build has computed."""
     results = studied / "results"
     names = ["fixed_points", "orbits", "verdict_grid"]
     names += [f"regimes/{name}" for name in ("modulation", "special_points", "epsilon_orders")]
@@ -44,37 +44,34 @@ def evidence(studied):
 
 @pytest.fixture(scope="module")
 def judged(studied):
-    """The claims as the build has judged them, by their ids."""
+    """Return the claims by id, with the verdicts of a build."""
     claims = json.loads((studied / "results/claims.json").read_text(encoding="utf-8"))
     return {claim["id"]: claim for claim in claims}
 
 
-def failed(claim):
-    return [part for part, holds in claim["parts"].items() if not holds]
-
-
 def verdict(claim, evidence):
+    """Return the verdict on the claim with an id."""
     return judge([CLAIMS[claim]], evidence)[0]["verdict"]
 
 
 # The list
 
 
-def test_the_list_is_sound_and_every_check_is_used():
+def test_the_list_is_valid_and_uses_every_check():
     assert problems(list(CLAIMS.values())) == []
     assert len(DOCUMENT["claims"]) == len(CLAIMS) >= 25
     assert {claim["check"] for claim in CLAIMS.values()} == set(CHECKS)
 
 
-def test_problems_of_a_list_are_named():
-    sound = {"id": "one", "place": "p", "statement": "s", "check": "weak_coupling", "refuted_by": "r"}
-    assert problems([sound]) == []
-    assert problems([sound, sound]) == ["one: id given twice"]
-    assert problems([sound | {"check": "nothing"}]) == ["one: no check is called 'nothing'"]
-    assert problems([sound | {"verdict": "holds"}]) == ["one: unknown field 'verdict'"]
-    assert problems([{key: sound[key] for key in sound if key != "place"}]) == ["one: place is missing"]
+def test_problems_of_an_invalid_list_are_named():
+    valid = {"id": "one", "place": "p", "statement": "s", "check": "weak_coupling", "refuted_by": "r"}
+    assert problems([valid]) == []
+    assert problems([valid, valid]) == ["one: id given twice"]
+    assert problems([valid | {"check": "nothing"}]) == ["one: no check is called 'nothing'"]
+    assert problems([valid | {"verdict": "holds"}]) == ["one: unknown field 'verdict'"]
+    assert problems([{key: valid[key] for key in valid if key != "place"}]) == ["one: place is missing"]
     with pytest.raises(ValueError, match=r"^claims: one: id given twice"):
-        judge([sound, sound], None)
+        judge([valid, valid], None)
 
 
 # Verdicts
@@ -90,21 +87,21 @@ def test_problems_of_a_list_are_named():
     ],
 )  # fmt: skip
 def test_a_verdict_follows_from_the_parts(parts, corrected, expected):
-    """Only what fails as printed and holds as corrected is a misprint."""
+    """A statement that fails as printed and holds as corrected is a misprint."""
     assert Finding({str(k): part for k, part in enumerate(parts)}, corrected=corrected).verdict == expected
 
 
-def test_misprints_are_presented_last():
+def test_misprints_follow_all_other_verdicts():
     order = [EXPECTED[claim] for claim in CLAIMS]
     assert VERDICTS[-1] == MISPRINT
     assert REFUTED not in order[order.index(MISPRINT) :]
 
 
-# Other evidence, other verdicts
+# Verdicts with changed evidence
 
 
 def with_values(name, where, column, value):
-    """A change of the evidence: values in some rows of a table."""
+    """Return a function that sets a column of a table of the evidence in the rows that a query selects."""
 
     def change(evidence):
         table = getattr(evidence, name).copy()
@@ -115,33 +112,36 @@ def with_values(name, where, column, value):
 
 
 def with_systems(**changes):
+    """Return a function that sets parameters of all systems of the evidence."""
     return lambda evidence: replace(evidence, systems={k: one.with_(**changes) for k, one in evidence.systems.items()})
 
 
-def of_another_motion(evidence):
-    """The modulated motion of the weak case neither repeats nor has the amplitudes of point (c)."""
+def with_modulated_motion(evidence):
+    """Use the modulated motion of the weak case as that of the equal case, where it should repeat and be at (c)."""
     return replace(evidence, simulations={"equal": evidence.simulations["weak"]})
 
 
-def off_the_walls(evidence):
-    """One sequence per module is what the correction says, so that each impact finds its own ball at its wall."""
+def with_impacts_off_the_walls(evidence):
+    """Move box 1 at each impact, so that neither the printed nor the corrected statement on impacts holds."""
     moved = {case: one.events.assign(X1=one.events["X1"] + 0.01) for case, one in evidence.simulations.items()}
     runs = {case: replace(one, events=moved[case]) for case, one in evidence.simulations.items()}
     return replace(evidence, simulations=runs)
 
 
 def without_proof(evidence):
+    """Leave the proof that the fixed points of the weak case are complete unfinished."""
     return replace(evidence, proofs=evidence.proofs | {"weak": {"fixed_points": {"proved": 1, "complete": False}}})
 
 
-def without_wrong_verdicts(evidence):
+def with_correct_criteria(evidence):
+    """Set the verdicts of both criteria to those of the exact system."""
     grid = evidence.verdict_grid
     return replace(evidence, verdict_grid=grid.assign(printed_10_26=grid["exact"], theory=grid["exact"]))
 
 
 POINTS, GRID, RUNS = "fixed_points", "verdict_grid", "modulation"
 EQUAL, WEAK = 'case == "equal"', 'case == "weak"'
-OTHER_EVIDENCE = [
+CHANGED_EVIDENCE = [
     ("equal-b", with_values(POINTS, f'{EQUAL} and label == "b"', "exact", "stable"), IN_PART),
     ("weak-a", with_values(POINTS, WEAK, "exact", "undecided"), OPEN),
     ("two-stable-equal", with_values(POINTS, EQUAL, "fast", "undecided"), IN_PART),
@@ -149,7 +149,7 @@ OTHER_EVIDENCE = [
     ("points-move-left", with_values(POINTS, 'case == "unequal"', ["C1", "C2"], 0.1), HOLDS),
     ("stable-point-moves-down", with_values(POINTS, 'case == "unequal" and label == "c"', "C1", 0.9), IN_PART),
     ("assesses-stability", with_values(GRID, "epsilon > 0", "exact", "stable"), IN_PART),
-    ("assesses-stability", without_wrong_verdicts, HOLDS),
+    ("assesses-stability", with_correct_criteria, HOLDS),
     ("no-practical-importance", with_values("orbits", WEAK, "exact", "stable"), REFUTED),
     ("falling-amplitudes", with_values(POINTS, f'{EQUAL} and label == "c"', "exact", "stable"), HOLDS),
     ("periodic-solutions", with_values(GRID, "epsilon > 0", "admissible", True), HOLDS),
@@ -158,24 +158,26 @@ OTHER_EVIDENCE = [
     ("resonant-intervals", with_values(RUNS, 'quantity == "resonant share"', "mean", 0.3), IN_PART),
     ("beating", with_values(RUNS, 'quantity == "amplitude variation"', "mean", 0.35), REFUTED),
     ("order-of-the-expansion", with_values("epsilon_orders", 'panel == "two terms"', "order", 1.0), IN_PART),
-    ("common-impact-instants", off_the_walls, REFUTED),
+    ("common-impact-instants", with_impacts_off_the_walls, REFUTED),
     ("points-weak", without_proof, REFUTED),
     ("phases-can-be-eliminated", without_proof, IN_PART),
     ("points-equal", lambda evidence: replace(evidence, fixed_points=evidence.fixed_points.iloc[1:]), REFUTED),
-    ("steady-response", of_another_motion, REFUTED),
-    ("similar-results", of_another_motion, REFUTED),
+    ("steady-response", with_modulated_motion, REFUTED),
+    ("similar-results", with_modulated_motion, REFUTED),
     ("small-balls", with_systems(epsilon=5.0), HOLDS),
     ("weak-coupling", with_systems(gamma12_hat=0.02), HOLDS),
 ]
 
 
-@pytest.mark.parametrize(("claim", "change", "expected"), OTHER_EVIDENCE, ids=[claim for claim, *_ in OTHER_EVIDENCE])
-def test_other_evidence_leads_to_the_verdict_that_it_means(evidence, claim, change, expected):
+@pytest.mark.parametrize(
+    ("claim", "change", "expected"), CHANGED_EVIDENCE, ids=[claim for claim, *_ in CHANGED_EVIDENCE]
+)
+def test_changed_evidence_gives_the_verdict_that_follows_from_it(evidence, claim, change, expected):
     assert verdict(claim, change(evidence)) == expected
 
 
-def test_a_restitution_without_fixed_points_is_not_counted_in_favour(evidence):
-    """At forces 1 and 0.3 neither theory nor exact system has a motion: nothing has been shown then."""
+def test_a_restitution_without_fixed_points_does_not_support_the_claim(evidence):
+    """At force 1 and kappa 0.3, neither the theory nor the exact system has a motion, so that nothing is compared."""
     claim = CLAIMS["any-restitution"] | {"arguments": {"kappas": [0.3], "forces": [1.0]}}
     assert judge([claim], evidence)[0]["verdict"] == REFUTED
     found = judge([claim | {"arguments": {"kappas": [0.3], "forces": [1.0, 1.2]}}], evidence)[0]
@@ -186,23 +188,25 @@ def test_a_restitution_without_fixed_points_is_not_counted_in_favour(evidence):
 # The fast criterion and the labels of the chapter
 
 
-def test_the_fast_criterion_gives_two_one_and_none_and_every_label_of_the_chapter(evidence, judged):
-    """Multipliers of the fast impact map at the fixed points, recomputed; labels are those of the claims."""
-    labels = [claim["arguments"] for claim in CLAIMS.values() if claim["check"] == "label_of_a_point"]
-    said = {(label["case"], label["label"]): label["says"] for label in labels}
-    assert said == {(case, label): says for case, row in claims_points.CAPTIONS.items() for label, says in row.items()}
+def test_the_fast_criterion_gives_all_stability_labels_of_the_chapter(evidence, judged):
+    """The test computes the multipliers of the fast impact map at the fixed points; the claims contain the labels."""
+    arguments = [claim["arguments"] for claim in CLAIMS.values() if claim["check"] == "label_of_a_point"]
+    labels = {(one["case"], one["label"]): one["says"] for one in arguments}
+    assert labels == {
+        (case, label): says for case, row in claims_points.CAPTIONS.items() for label, says in row.items()
+    }
     C = evidence.fixed_points.set_index(["case", "label"])[["C1", "C2"]]
     largest = C.apply(lambda row: np.abs([impact_multipliers(one, 0.65) for one in row]).max(), axis=1)
-    assert {place: "stable" if largest[place] < 1 else "unstable" for place in said} == said
-    assert len(said) == 7
+    assert {place: "stable" if largest[place] < 1 else "unstable" for place in labels} == labels
+    assert len(labels) == 7
     for claim, number in {"two-stable-equal": 2, "one-stable-unequal": 1}.items():
         assert judged[claim]["parts"][f"{number} by the derived fast criterion"]
         assert judged[claim]["parts"]["the captions by the fast criterion"]
         assert judged[claim]["numbers"]["captions right in all cases by the fast criterion"] == 7
 
 
-def test_by_continuation_point_c_leaves_the_right_arm(evidence, judged):
-    """Followed by Newton's method on (10.23) itself, by a solver that knows no list of fixed points."""
+def test_the_continuation_of_point_c_in_the_force_leaves_the_right_arm(evidence, judged):
+    """SciPy follows the zero of the slow flow (10.23), without a list of fixed points."""
     system = evidence.systems["equal"]
     point = next(p for p in vi.fixed_points(system) if abs(p.C[1] - 1.677) < 1e-3)
     unknown = np.concatenate([point.C, point.psi])
@@ -217,33 +221,33 @@ def test_by_continuation_point_c_leaves_the_right_arm(evidence, judged):
     claim = judged["stable-point-moves-down"]
     np.testing.assert_allclose(claim["numbers"]["C after, by continuation"], unknown[:2], rtol=1e-9)
     assert unknown[0] < 1 / (1 + rho(0.65) ** 2)
-    assert failed(claim) == ["P1, by continuation"]
+    assert [part for part, holds in claim["parts"].items() if not holds] == ["P1, by continuation"]
 
 
-def test_no_exponents_make_a_misprint_of_10_26(evidence, judged, monkeypatch):
-    """None of those tried is right; with 4 / (4 + 4 rho^2) and motions up to the upper limit it would be a misprint."""
+def test_the_printed_condition_would_be_a_misprint_if_exponents_gave_all_labels(evidence, judged, monkeypatch):
+    """No tried exponents give all labels. With 4 / (4 + 4 rho^2) and an upper limit, (10.26) would be a misprint."""
     claim = judged["printed-condition"]
     assert (claim["verdict"], claim["numbers"]["right with these"]) == (REFUTED, 0)
     kappa = evidence.system.kappa
     assert claim["numbers"]["with squares"] == pytest.approx((1 + kappa) ** 2 / (2 * (1 + kappa**2)), rel=1e-13)
-    with monkeypatch.context() as right:
-        right.setattr(claims_manifold, "printed_limit", lambda rho: 1 / (1 + rho**2))
+    with monkeypatch.context() as patch:
+        patch.setattr(claims_manifold, "printed_limit", lambda rho: 1 / (1 + rho**2))
         assert verdict("printed-condition", evidence) == IN_PART
     monkeypatch.setattr(claims_manifold, "EXPONENTS", (np.log(4) / np.log(np.pi), 2.0))  # 4 / (4 + 4 rho^2) = C_min
     monkeypatch.setattr(claims_manifold, "largest_C", lambda kappa: 1.68)
     assert verdict("printed-condition", evidence) == MISPRINT
 
 
-def test_without_an_upper_limit_there_would_be_two_branches(evidence, judged, monkeypatch):
-    """Of the three pieces one is stable; what ends it is the limit that the chapter does not have."""
+def test_the_claim_of_two_branches_fails_because_of_the_upper_limit(evidence, judged, monkeypatch):
+    """One of three pieces is stable. It ends at the upper limit, which the chapter lacks."""
     assert judged["two-branches"]["parts"] == {"one stable branch": True, "one unstable branch": False}
-    for largest, expected in ((1.68, HOLDS), (0.98, IN_PART)):  # the latter: no stable branch at all
+    for largest, expected in ((1.68, HOLDS), (0.98, IN_PART)):  # with 0.98, no branch is stable
         monkeypatch.setattr(claims_manifold, "largest_C", lambda kappa, largest=largest: largest)
         assert verdict("two-branches", evidence) == expected
 
 
-def test_parts_that_leave_the_verdict_depend_on_the_evidence_too(evidence, judged, monkeypatch):
-    """A point beyond the largest C, singular points everywhere, and the harmonics of a sine."""
+def test_parts_that_do_not_decide_a_verdict_depend_on_the_evidence(evidence, judged, monkeypatch):
+    """Evidence is a point beyond the largest C, a singular point at each fixed point, and a cosine as sawtooth."""
     (far,) = judge([CLAIMS["no-penetration"]], with_values("fixed_points", 'case == "weak"', "C1", 6.0)(evidence))
     assert [one["parts"]["all fixed points"] for one in (judged["no-penetration"], far)] == [True, False]
     monkeypatch.setattr(claims_points, "singular_points", lambda system, point, i: np.array([[point.C[i - 1], 0.0]]))
@@ -255,10 +259,10 @@ def test_parts_that_leave_the_verdict_depend_on_the_evidence_too(evidence, judge
 
 # Facts
 
-PAGE_OF_ERRATA = (ROOT / "docs/errata.md").read_text(encoding="utf-8")
+ERRATA = (ROOT / "docs/errata.md").read_text(encoding="utf-8")
 
 
-def test_what_is_refuted_is_two_facts(judged):
+def test_refuted_claims_belong_to_two_facts(judged):
     assert {claim.get("fact") for claim in judged.values() if claim["verdict"] == REFUTED} == set(DOCUMENT["facts"])
     assert "come down to two facts" in (ROOT / "docs/studies/findings.md").read_text(encoding="utf-8")
     assert not any("fact" in claim for claim in judged.values() if claim["verdict"] == HOLDS)
@@ -267,26 +271,26 @@ def test_what_is_refuted_is_two_facts(judged):
 @pytest.mark.parametrize(
     ("swapped", "expected"),
     [
-        (["equal"], {"equal-b": IN_PART, "equal-c": REFUTED, "similar-results": REFUTED}),  # ascending C_1
-        (["unequal"], {}),  # the order of continuation
+        (["equal"], {"equal-b": IN_PART, "equal-c": REFUTED, "similar-results": REFUTED}),  # the labels ascend in C_1
+        (["unequal"], {}),  # the labels follow from continuation
     ],
 )
-def test_the_verdicts_that_hang_on_which_point_is_b_and_which_is_c(evidence, swapped, expected):
+def test_exchanged_labels_b_and_c_change_only_the_verdicts_that_the_errata_name(evidence, swapped, expected):
     table = evidence.fixed_points.copy()
     rows = table["case"].isin(swapped)
     table.loc[rows, "label"] = table.loc[rows, "label"].map({"a": "a", "b": "c", "c": "b"})
-    other = judge(POINTWISE, replace(evidence, fixed_points=table))
-    found = {claim["id"]: claim["verdict"] for claim in other if claim["verdict"] != EXPECTED[claim["id"]]}
+    exchanged = judge(POINTWISE, replace(evidence, fixed_points=table))
+    found = {claim["id"]: claim["verdict"] for claim in exchanged if claim["verdict"] != EXPECTED[claim["id"]]}
     assert found == expected
-    assert all(f"`{claim}`" in PAGE_OF_ERRATA for claim in expected)
+    assert all(f"`{claim}`" in ERRATA for claim in expected)
 
 
-def test_confusion_matrices_count_every_point(evidence, judged):
+def test_confusion_matrices_count_all_points_of_the_grid(evidence, judged):
     numbers = judged["assesses-stability"]["numbers"]
     grid = evidence.verdict_grid.query("epsilon == 0.1")
-    # docs/studies/findings.md: one more exists only if its ball may leave the box.
-    of_all = judged["periodic-solutions"]["numbers"]["without an orbit between the walls"]
-    assert numbers["without an orbit"] + 1 == of_all
+    # docs/studies/findings.md: one more orbit exists only if its ball may leave the box.
+    between_walls = judged["periodic-solutions"]["numbers"]["without an orbit between the walls"]
+    assert numbers["without an orbit"] + 1 == between_walls
     for name, column in (("(10.26)", "printed_10_26"), ("fast and slow", "theory")):
         called = np.where(grid[column] == "stable", "stable", "other")
         counts = pd.crosstab(called, grid["exact"]).loc[["stable", "other"]]
