@@ -1,4 +1,6 @@
-"""Measures of regimes and Lyapunov spectra as the pipeline tables them: uncertainties, and sums that agree."""
+"""Test the tables of regime measures and Lyapunov spectra."""
+
+from itertools import product
 
 import numpy as np
 import pytest
@@ -18,26 +20,28 @@ def tables():
     )
 
 
-def test_spectra_say_the_same_as_the_measures_and_add_up(tables):
-    """The largest exponent, the eight of the periodic case against what damping and impacts say, its dimension 0."""
+def test_spectra_contain_the_largest_exponent_and_add_up_to_the_contraction(tables):
+    """The contraction follows from damping and impacts. The attractor of the periodic case has dimension 0."""
     spectra, measures = tables["spectra"], tables["measures"]
     key = ["case", "start", "regime"]
     values = spectra.pivot(index=key, columns="quantity", values="mean")
     largest = measures[measures["quantity"] == "largest Lyapunov exponent"].set_index(key)["mean"]
     assert values["exponent 1"].sort_index().equals(largest.sort_index().rename("exponent 1"))
     np.testing.assert_allclose(values["sum of exponents"], values["contraction"], atol=1e-6)
-    eight = values.loc["equal"].filter(like="exponent ").sum(axis=1)
-    np.testing.assert_allclose(eight, values.loc["equal"]["contraction"], atol=1e-9)
+    exponents = values.loc["equal"].filter(like="exponent ")
+    np.testing.assert_allclose(exponents.sum(axis=1), values.loc["equal"]["contraction"], atol=1e-9)
     assert (values.loc["equal"]["Kaplan-Yorke dimension"] == 0).all()
     assert 5 < values.loc["weak", "spread"]["Kaplan-Yorke dimension"].item() < 6.5
 
 
-def test_measures_have_uncertainties_over_starts(tables):
+def test_windows_of_each_length_are_measured(tables):
+    windows = tables["windows"][["cycles", "quantity"]].drop_duplicates().itertuples(index=False, name=None)
+    assert set(windows) == set(product((100, 200), ("amplitude variation", "depth from extremes")))
+
+
+def test_measures_of_all_cases_have_means_and_uncertainties(tables):
     measures = tables["measures"]
     assert set(measures["case"]) == set(FORCES)
-    windows = tables["windows"]
-    assert set(windows["cycles"]) == {100, 200}
-    assert set(windows["quantity"]) == {"amplitude variation", "depth from extremes"}
     spread = measures[(measures["start"] == "spread") & (measures["quantity"] != "burst length")]
     assert spread["uncertainty"].notna().all()
     rest = measures[measures["start"] == "rest"]
