@@ -7,13 +7,8 @@ from pipeline_trees import ROOT, Tree, copied, run_module
 
 SNAKEMAKE_MESSAGES = ("Using workflow specific profile", "Config file ")
 """Beginnings of lines that Snakemake prints before it reads a config."""
-INVALID_FILES = [
-    LAUGHS,
-    "- 1\n",
-    b"system: \xff\n",
-    "__use_yte__: true\nsystem:\n  kappa: ?open('ran', 'w').write('')\n",
-]
-"""Contents of config files; the last would run Python code if Snakemake rendered it as a YTE template."""
+YTE = "__use_yte__: true\nsystem:\n  kappa: ?open('ran', 'w').write('')\n"
+"""Content of a config file; if Snakemake rendered it as a YTE template, it would run Python code."""
 INVALID_OVERRIDES = {
     "system={kappa:0.7}": "system.kappa:0.7: unknown key, did you mean 'kappa'?",
     "system={kappa: yes}": "system.kappa: 'yes' should be a valid number",
@@ -35,7 +30,7 @@ def errors(tree, *arguments):
     return [line for line in output.splitlines() if not line.startswith(SNAKEMAKE_MESSAGES)]
 
 
-@pytest.mark.parametrize("content", INVALID_FILES)
+@pytest.mark.parametrize("content", [LAUGHS, "- 1\n", b"system: \xff\n", YTE])
 def test_errors_of_a_config_file_in_the_working_directory_name_the_file(tree, content, tmp_path):
     (tmp_path / "config").mkdir()
     (tmp_path / "config/config.yaml").write_bytes(content.encode() if isinstance(content, str) else content)
