@@ -37,7 +37,7 @@ case "$*" in
 esac
 """
 CITATION = "version: 0.1\ntitle: t\nlicense: MIT\nauthors: [{name: A}]\n"
-NAME_WITH_UMLAUT = "zwei Kästen.txt"
+UMLAUT = "zwei Kästen.txt"
 
 
 @pytest.fixture
@@ -51,7 +51,7 @@ def repository(tmp_path):
         shutil.copy(ROOT / name, root / name)
     (root / "CITATION.cff").write_text(CITATION)
     (root / "Snakefile").touch()
-    (root / NAME_WITH_UMLAUT).write_text("a\nb\n")
+    (root / UMLAUT).write_text("a\nb\n")
     commit(root)
     run_git(root, "-c", f"gpg.program={gpg}", "commit", "--amend", "--no-edit", "--gpg-sign")
     return root
@@ -100,8 +100,8 @@ def test_uncommitted_changes_are_listed(repository, settings_of_a_user):
     settings_of_a_user()
     (repository / "Makefile").write_text("all:\n")
     (repository / "new.py").touch()
-    (repository / NAME_WITH_UMLAUT).unlink()
-    assert sorted(name.strip('"') for name in changes(repository)) == ["Makefile", "new.py", NAME_WITH_UMLAUT]
+    (repository / UMLAUT).unlink()
+    assert sorted(name.strip('"') for name in changes(repository)) == ["Makefile", "new.py", UMLAUT]
     assert origin(repository)[1] == "modified"
     with pytest.raises(ValueError, match=r"^uncommitted changes in .*Makefile.*; commit, ignore or remove them first$"):
         committed(repository)
