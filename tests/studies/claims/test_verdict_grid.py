@@ -20,7 +20,7 @@ def grid():
 
 
 def continued_C(system, point, epsilons):
-    """Return C of the orbit that continues a fixed point to the last epsilon, or None if there is none."""
+    """Return C of the orbit that continues a fixed point to the last epsilon, or None if the orbit is lost."""
     path = [point.C]
     for epsilon in epsilons:
         guess = 2 * path[-1] - path[-2] if len(path) > 1 else path[-1]
