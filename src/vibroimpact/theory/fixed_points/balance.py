@@ -81,10 +81,13 @@ class Balance:
         C_1^j C_2^k. The sums are computed like the coefficients, but with the modulus of every term. They are the scale
         of rounding errors.
         """
-        parts = self.z, self.q, self.K, self.forcing
+        # The first polynomial is proportional to the square of the forces. It is computed for forces of order one, since
+        # squares of tiny forces underflow. Scaling by a power of 2 causes no rounding error.
+        unit = np.ldexp(1.0, np.frexp(np.abs(self.forcing).max())[1])
+        parts = self.z, self.q, self.K, self.forcing / unit
         delta, one, two = map(_modulus_squared, _solution(*parts))
         most, first, second = map(_modulus_squared, _solution(*map(np.abs, parts)))
-        return np.array([two - one, delta - one]), np.array([second + first, most + first])
+        return np.array([two - one, delta - unit**2 * one]), np.array([second + first, most + unit**2 * first])
 
 
 def _solution(z, q, K, forcing):

@@ -18,6 +18,7 @@ _NEARLY_REAL = 1e-2
 _CLOSE = 0.03
 """Largest value of a polynomial at a start of Newton's method, relative to the sum of the moduli of its terms."""
 _STEPS = 30
+_SMALLEST_RADIUS = 1e-30  # powers of a smaller radius would underflow
 _SAME = 1e-5
 """Distance within which multiple zeros count as one, relative to max(1, |zero|)."""
 
@@ -42,6 +43,7 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
     ArithmeticError
         If the zeros are not isolated.
     """
+    radius = max(radius, _SMALLEST_RADIUS)
     scale = np.multiply.outer(radius ** np.arange(3.0), radius ** np.arange(3.0))  # maps the square to [-1, 1]^2
     scaled, size = coefficients * scale, magnitudes * scale
     heights = size.max(axis=(1, 2), keepdims=True)
