@@ -27,7 +27,8 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     Returns
     -------
     pandas.DataFrame
-        One row per event, run, start, point or orbit. An empty list of results keeps the columns of its type.
+        One row per event, run, start, point or orbit. An empty list from a function of this package gives a table
+        without rows that has the usual columns.
 
     Raises
     ------

@@ -17,7 +17,7 @@ COLUMNS = {
     if file.removesuffix(".csv") in FOLDERS
 }
 """Columns of each published table, by the name of the table."""
-DECIDED_BY_ROUNDING = {"rounding", "certificate", "amplitudes", "extremes", "peaks", "shares", "spreads"}
+DECIDED_BY_ROUNDING = {"rounding", "certificate", "amplitudes", "extremes", "peaks", "spreads"}
 DECIDED_BY_ROUNDING |= {"measured error", "order", "of the machine"}
 
 

@@ -23,7 +23,7 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED
 SAME = 1e-6
 """Largest difference between states that count as equal; near a bifurcation, errors are about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-# A ball is neutral if all derivatives of the change of its velocity are at most this, relative to the largest of all.
+# A ball is neutral if no entry of the row of its velocity in `run.jacobian` - 1 exceeds this times the largest entry.
 _NEUTRAL = 1e-10
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13

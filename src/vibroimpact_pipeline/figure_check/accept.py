@@ -53,7 +53,7 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
     built = [verdict["figure"] for verdict in verdicts if verdict["module"]]
     new = [figure for figure in built if not (reference / f"{figure}.png").exists()]
     if new and pictures_only:
-        raise ValueError(f"{', '.join(new)}: no reference tables to draw from; accept without PICTURES=1")
+        raise ValueError(f"{', '.join(new)}: no reference tables yet; accept without PICTURES=1")
     sums = reference_sums(reference)
     for verdict in verdicts:
         figure, files = verdict["figure"], verdict["files"]

@@ -210,11 +210,6 @@ def _shifts(old, new):
     return np.log10(np.maximum(new, LOG_FLOOR)) - np.log10(np.maximum(old, LOG_FLOOR))
 
 
-def _mean(old, new, limit):
-    """Compare a column by the relative change of its mean."""
-    return np.abs(np.nanmean(new) / np.nanmean(old) - 1) / limit
-
-
 def _rows(old, new, limit):
     """Compare classes or numbers by the share of rows that differ."""
     differ = old != new if old.dtype == object else np.abs(new - old) > EQUAL_WITHIN
@@ -244,7 +239,6 @@ MEASURES = {
     "difference": _difference,
     "decades": _decades,
     "middle": _middle,
-    "mean": _mean,
     "rows": _rows,
     "balance": _balance,
 }

@@ -84,7 +84,7 @@ def test_a_new_figure_is_accepted_with_its_tables_and_recorded_as_new(tree, run)
     before = contents(tree.reference)
     status, output = run("fig10_04", "--pictures", "--reason", "why not")
     assert (status, changed(before, tree.reference)) == (1, set())
-    assert "fig10_04: no reference tables to draw from; accept without PICTURES=1" in output
+    assert "fig10_04: no reference tables yet; accept without PICTURES=1" in output
     assert run("fig10_04", "--reason", "a new one")[0] == 0
     assert (tree.reference / "fig10_04.csv").exists()
     assert ": a new one (new fig10_04)." in (tree.reference / "CHANGES.md").read_text(encoding="utf-8")

@@ -20,9 +20,7 @@ SOURCED = [
     for number, key in re.findall(r"\[(−?[\d.]+)\]\((?:studies/)?numbers\.yaml#([\w.-]+)\)", DOCUMENTS)
 ]
 """Numbers of documents with the place in a build that each is from."""
-CHAOTIC = tuple(
-    f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares", "coupling")
-)
+CHAOTIC = tuple(f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares"))
 LARGEST_OF_FEW = (
     *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "balls, best kappa")),
     *(f'absorber.csv | quantity == "{quantity}"' for quantity in ("lowest peak", "greatest", "impact share")),

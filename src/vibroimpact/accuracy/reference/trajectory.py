@@ -177,7 +177,7 @@ class Trajectory:
     # -- the next event ----------------------------------------------------------------------------------
 
     def _next_events(self, series, search_series, longest):
-        """Return the earliest event within the time `longest`, and all events at the same time within the digits."""
+        """Return the earliest event within the time `longest`, and all events at the same time up to the tolerance."""
         try:
             with ctx.workprec(SEARCH_BITS):
                 found = self._bracket(search_series, longest)

@@ -223,7 +223,7 @@ def _of_event(q, walls, boxes, balls, events, n, force, left):
     that does not complete a chatter.
     """
     i, wall, kind = int(events[n, 1]) - 1, events[n, 2], events[n, 3]
-    if kind == IMPACT:  # how far beyond the wall the ball would be at the end of the run
+    if kind == IMPACT:  # how far beyond the wall the ball would be at the end of the run without this impact
         return left * (wall * (boxes[2 + i] - balls[2 + i]) + 0.5 * left * max(force, 0.0))
     if kind == RELEASE:
         change, bend = _changes(q, walls, boxes, events[n, PHASE], i)

@@ -149,10 +149,11 @@ class Clock(NamedTuple):
 
 @in_place
 def step_to_event(runs, c, work, integrals):
-    """Advance the waiting runs by one step, which ends at an impact, at the end of the flight or earlier.
+    """Advance each waiting run to its next impact or, if it meets no wall so soon, by its trial step.
 
-    Returns the number of runs that need the event loop or have reached the end of a window. work (2 ORDER + 2, 8):
-    workspace for polynomials. integrals: number of observed integrals.
+    A run stays where it is, and its next trial step is half as long, unless it is proved that no ball meets a wall
+    before the end of the step. Returns the number of runs that need the event loop or have reached the end of a window.
+    work (2 ORDER + 2, 8): workspace for polynomials. integrals: number of observed integrals.
     """
     pending, leaves = load(runs, rows.OUTCOME) == WAITING, load(runs, rows.TRIAL) < 0.0
     x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)

@@ -92,7 +92,7 @@ def _theory(system, points, samples):
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: theory above simulation, mirror image in grey, with the lengths of flights."""
+    """Draw the table of `compute`: theory above simulation, mirror image in grey, each flight with its length."""
     figure = new_figure(SINGLE_COLUMN, 88.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True, sharey=True)
     for axes, (panel, title) in zip(grid, PANELS.items(), strict=True):

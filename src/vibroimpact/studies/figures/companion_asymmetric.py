@@ -174,9 +174,9 @@ def _manifold(kappa, C_max):
 
 
 def _pairs(system, orbits):
-    """For each mirror pair of orbits with positive C, yield the row and the root (6,) of one of both orbits.
+    """For each mirror pair of orbits with positive C, yield the row of one of the two orbits and its root (6,).
 
-    The root is one of the equations for asymmetric orbits (`AsymmetricConditions`).
+    The root solves the equations for asymmetric orbits (`AsymmetricConditions`).
     """
     rows = orbits[~orbits["symmetric"].astype(bool) & ~(orbits["C1"] <= 0) & ~(orbits["C2"] <= 0)]
     one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]

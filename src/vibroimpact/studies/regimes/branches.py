@@ -213,7 +213,7 @@ def _half(family, path, interval, curve, longest, start):
             return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
         tests = family.tests(system, member)
-        if before is not None and not kind:  # sign changes of a test across a branch point occur at this point
+        if before is not None and not kind:  # a test that changes sign across a branch point does so at that point
             nodes += _special(family, path, curve, before, tests_before, place, tests)
         nodes.append(_node(family, path, z, member=member))
         kind = ""

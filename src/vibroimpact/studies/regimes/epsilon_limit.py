@@ -73,7 +73,8 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
     """
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
-    # Errors are of order epsilon^2 for slow multipliers and epsilon for fast ones; the weights make them comparable.
+    # Errors of predictions are of order epsilon^2 for slow multipliers and epsilon for fast ones; the weights make them
+    # comparable.
     weights = np.repeat([1 / slow_time, 1.0], len(slow))
     pairs = linear_sum_assignment(weights[:, None] * np.abs(np.log(predicted[:, None] / exact)))[1]
     return Comparison(

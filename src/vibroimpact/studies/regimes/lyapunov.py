@@ -255,8 +255,8 @@ def contraction(system, impacts, stuck) -> np.ndarray:
 def kaplan_yorke(exponents) -> float:
     """Return the Kaplan-Yorke dimension (1979) of exponents (n,), largest first.
 
-    The dimension is the number of largest exponents whose sum is 0, interpolated linearly between whole numbers. In
-    this dimension volumes neither grow nor shrink. If all exponents are negative, the dimension is 0.
+    The dimension is the number k for which the k largest exponents have the sum 0, by linear interpolation between
+    whole k. In this dimension volumes neither grow nor shrink. If all exponents are negative, the dimension is 0.
     """
     exponents = np.asarray(exponents)
     sums = np.cumsum(exponents)

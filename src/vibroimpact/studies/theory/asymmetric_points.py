@@ -149,7 +149,7 @@ class Balance:
 def _product(one, other):
     """Return the product of two functions of (x_1, x_2), each given as an array (3, n).
 
-    The rows of all three arrays are the value at n places, the derivative by x_1 and the derivative by x_2.
+    The rows of all three arrays are the values at n places and the derivatives with respect to x_1 and to x_2.
     """
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
 
@@ -157,7 +157,7 @@ def _product(one, other):
 def _size(function):
     """Return the squared modulus of a function of (x_1, x_2), as an array (3, n) like `function`.
 
-    The rows are the value at n places, the derivative by x_1 and the derivative by x_2.
+    The rows are the values at n places and the derivatives with respect to x_1 and to x_2.
     """
     return (function[0].conj() * function).real * np.array([[1], [2], [2]])
 

@@ -81,8 +81,8 @@ class Balance:
         C_1^j C_2^k. The sums are computed like the coefficients, but with the modulus of every term. They are the scale
         of rounding errors.
         """
-        # The first polynomial is proportional to the square of the forces. It is computed for forces of order one, since
-        # squares of tiny forces underflow. Scaling by a power of 2 causes no rounding error.
+        # The first polynomial is proportional to the square of the forces. It is computed for forces of order one,
+        # since squares of tiny forces underflow. Scaling by a power of 2 causes no rounding error.
         unit = np.ldexp(1.0, np.frexp(np.abs(self.forcing).max())[1])
         parts = self.z, self.q, self.K, self.forcing / unit
         delta, one, two = map(_modulus_squared, _solution(*parts))
