@@ -9,7 +9,16 @@ from matplotlib.lines import Line2D
 from scipy.optimize import brentq
 
 from vibroimpact.figures.plotting.names import name_curves
-from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, STABLE, UNSTABLE, heading, new_figure, styled
+from vibroimpact.figures.plotting.style import (
+    BLACK,
+    DOUBLE_COLUMN,
+    GREY,
+    STABLE,
+    UNSTABLE,
+    heading,
+    new_figure,
+    styled,
+)
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
 from vibroimpact.studies.regimes import asymmetric_limit
 from vibroimpact.studies.regimes.classification import ASYMMETRIC
@@ -25,11 +34,11 @@ SPEC = {
     "caption": "Motions whose balls take unequal times for their two flights. a: where symmetry breaks, at :math:`C_i "
         r"= \pi^2/(\pi^2-4)`, the stable part of the manifold continues as an asymmetric branch. Circles: fixed points "
         r"of the slow flow. b: exact orbits from the :math:`\varepsilon` of the cases (filled marks) down to the fixed "
-        r"points, or to :math:`v = 0`, where they become symmetric; two unstable orbits meet and vanish. :math:`v` is "
+        r"points, to :math:`v = 0`, where they become symmetric, or to where two orbits meet and vanish. :math:`v` is "
         "the difference of the flight times over the period.",
     "alt": "First panel: a V-shaped curve of B against C, bold where stable. A green curve rises steeply from its "
         "right arm, with two circles on it. Second panel: lines of flight asymmetry against epsilon. Two end in "
-        "circles at epsilon 0, two stable ones fall to zero just before, two others meet.",
+        "circles at epsilon 0, two stable ones fall to zero just before, two others meet, as written at the lines.",
     "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
         r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
     "method": "closed form, fixed points, and exact asymmetric responses continued to small epsilon",
@@ -95,10 +104,15 @@ PIECES = {
     "asymmetric, right": UNSTABLE | _COLOUR,
 }
 POINT = "fixed point"
-_MARK = {"color": BLACK, "linestyle": "none", "zorder": 3}
-POINT_MARK = _MARK | {"marker": "o", "markerfacecolor": "white", "markersize": 4.6}
-ORBIT_MARKS = [_MARK | {"marker": marker, "markersize": size} for marker, size in (("D", 3.6), ("^", 5.0), ("s", 4.0))]
+_MARK = {"linestyle": "none", "zorder": 3}
+POINT_MARK = _MARK | {"color": BLACK, "marker": "o", "markerfacecolor": "white", "markersize": 4.6}
+ORBIT_MARKS = [
+    _MARK | {"color": colour, "marker": marker, "markersize": size}
+    for colour, marker, size in ((BLACK, "D", 3.6), (GREY, "^", 5.0), (BLACK, "s", 4.0))
+]
 """Marks of the exact orbits of the first, second and third case; then they repeat."""
+ENDS = "to a fixed point", "become symmetric", "two orbits meet"
+"""Ways in which exact orbits end as epsilon falls."""
 C_MARGIN = 0.1
 """Margin, in C, around the asymmetric branch and the fixed points in the panel of the manifold."""
 _PHASES, _SPEEDS = (
@@ -202,11 +216,13 @@ def draw(tables: dict) -> Figure:
     heading(left, "a", "both branches of the manifold")
     heading(right, "b", r"exact asymmetric orbits as $\varepsilon$ falls")
     names = _draw_manifold(left, tables["csv"])
-    _draw_pairs(right, tables["pairs"])
+    ends = _draw_pairs(right, tables["pairs"])
     lines = [Line2D([], [], label=label, **style) for label, style in (("stable", STABLE), ("unstable", UNSTABLE))]
     marks = [handle for axes in (left, right) for handle in axes.get_legend_handles_labels()[0]]
     figure.legend(handles=[*marks, *lines], loc="outside lower center", ncols=len(marks) + 2, columnspacing=1.2)
+    figure.get_layout_engine().set(wspace=0.06)
     name_curves(figure, {left: names})
+    name_curves(figure, {right: ends}, fontsize=8, color=BLACK)
     return figure
 
 
@@ -227,12 +243,21 @@ def _draw_manifold(axes, table):
 
 
 def _draw_pairs(axes, pairs):
-    for (_, _, verdict), way in pairs.groupby(["case", "label", "exact"], sort=False):
-        axes.plot(way["epsilon"], way["asymmetry"], **STABLE if verdict == "stable" else UNSTABLE)
-    starts, ends = pairs.drop_duplicates(["case", "label"]), pairs[pairs["epsilon"] == 0]
-    for (case, here), mark in zip(starts.groupby("case", sort=False), cycle(ORBIT_MARKS), strict=False):
+    """Draw the asymmetry of each pair against epsilon; return the lines by the way in which they end."""
+    last, named = pairs.drop_duplicates(["case", "label"], keep="last"), {}
+    meets = last.round({"asymmetry": 1}).duplicated(["case", "epsilon", "asymmetry"], keep=False)
+    ends = pd.Series(np.select([last["epsilon"] == 0, last["asymmetry"] == 0, meets], ENDS, ""), last.index)
+    for (case, mine), mark in zip(pairs.groupby("case", sort=False), cycle(ORBIT_MARKS), strict=False):
+        for (_, verdict), way in mine.groupby(["label", "exact"], sort=False):
+            look = (STABLE if verdict == "stable" else UNSTABLE) | {"color": mark["color"]}
+            line = axes.plot(way["epsilon"], way["asymmetry"], **look)
+            named.setdefault(ends[way.index[-1]], []).extend(line)
         label = f"exact orbits, {case} forces" if case in CASES else f"exact orbits, case {case}"
+        here = mine.drop_duplicates("label")
         axes.plot(here["epsilon"], here["asymmetry"], clip_on=False, label=label, **mark)
-    if len(ends):  # an empty line that is not clipped would spoil the layout
-        axes.plot(ends["epsilon"], ends["asymmetry"], clip_on=False, **POINT_MARK)
-    axes.set(xlabel=r"$\varepsilon$", ylabel=r"flight asymmetry $\vert v\vert$", xlim=(0, None), ylim=(0, None))
+    points = last[last["epsilon"] == 0]
+    if len(points):  # an empty line that is not clipped would spoil the layout
+        axes.plot(points["epsilon"], points["asymmetry"], clip_on=False, **POINT_MARK)
+    label = r"difference of flight times / period, $\vert v\vert$"
+    axes.set(xlabel=r"$\varepsilon$", ylabel=label, xlim=(0, None), ylim=(0, None))
+    return [(end, named[end]) for end in ENDS if end in named]
