@@ -34,7 +34,7 @@ SPEC = {
         "several starts. Vertical lines: the cases. `special_points.csv` has all special points of the curves.",
     "alt": "Curves of the saw-tooth amplitude C2 against the forcing amplitude: theory and exact branches, stable bold "
         "solid and unstable dashed, symmetric ones blue and asymmetric ones green, both labelled, with thin vertical "
-        "lines at the cases, and large or small grey dots for periodic or other attractors of simulations.",
+        "lines at the cases, and large grey or small black dots for periodic or other attractors of simulations.",
     "method": "continuation of fixed points and exact 1:1 responses; attractors by direct integration of (10.1) from "
         "many starts, until the motion repeats",
     "columns": {
@@ -110,12 +110,12 @@ SPEC = {
 
 DOTS = {
     "simulated, periodic or idle": {"marker": "o", "markersize": 4.4, "color": "0.8"},
-    "simulated, any other motion": {"marker": ".", "markersize": 3.0, "color": GREY},
+    "simulated, any other motion": {"marker": "o", "markersize": 1.2, "color": BLACK},
 }
 """Style of the dots by the kind of motion in which a simulation ends."""
 CASE = {"color": GREY, "linewidth": 0.6, "zorder": 0.7}
 HUES = {
-    FixedPoints.name: BLACK,
+    FixedPoints.name: COLOURS[SYMMETRIC],
     SymmetricOrbits.name: COLOURS[SYMMETRIC],
     AsymmetricOrbits.name: COLOURS[ASYMMETRIC],
 }
@@ -204,15 +204,15 @@ def draw(tables: dict) -> Figure:
     for column, (panel, along) in enumerate(zip(panels, dict.fromkeys(tables["special_points"]["path"]), strict=True)):
         mine, simulated, marked = (table[table["panel"] == panel] for table in (nodes, attractors, cases))
         top, bottom = grid[:, column]
-        top.set(xlim=simulated["p"].agg(["min", "max"]), ylim=(0.0, 2.6))
+        top.set(xlim=simulated["p"].agg(["min", "max"]), ylim=(-0.1, 2.6))
         _attractor_dots(bottom, simulated)
         _cases(top, bottom, marked)
         theory = mine["series"] == FixedPoints.name
         names[top] = _branches(top, mine[theory])
         names[bottom] = _branches(bottom, mine[~theory & mine["admissible"].eq(True)])
         bottom.set_xlabel(f"${' = '.join(SYMBOLS[name].strip('$') for name in along.split())}$")
-        heading(top, ascii_lowercase[column], "theory")
-        heading(bottom, ascii_lowercase[len(panels) + column], "exact orbits, simulations")
+        heading(top, ascii_lowercase[column], "theory: symmetric motions")
+        heading(bottom, ascii_lowercase[len(panels) + column], "exact motions and simulations")
     for axes in grid[:, 0]:
         axes.set_ylabel("amplitude $C_2$")
     figure.legend(handles=bottom.lines[: len(DOTS)], fontsize=9, loc="outside lower center", ncols=2)
@@ -230,16 +230,18 @@ def _cases(theory, exact, cases):
 
 
 def _branches(axes, nodes):
-    """Draw all pieces of branches; return each branch name with its stable lines, or with all if none is stable."""
-    named = {}
+    """Draw all pieces of branches; return names of long branches, each with its stable lines or, if none, with all."""
+    named, spans = {}, nodes.groupby(["series", "branch"])["p"].agg(np.ptp)
     # Successive pieces of the same stability are one line: dashes that start again at each piece would look solid.
     begins = nodes[["series", "stable", "branch"]].ne(nodes[["series", "stable", "branch"]].shift()).any(axis=1)
     begins |= nodes.index.to_series().diff().ne(1)  # rows that are not admissible were left out in between
-    for (family, stable, _), piece in nodes.groupby(["series", "stable", begins.cumsum()], sort=False):
+    pieces = nodes.groupby(["series", "branch", "stable", begins.cumsum()], sort=False)
+    for (family, branch, stable, _), piece in pieces:
         line = axes.plot(piece["p"], piece["C2"], **(STABLE if stable else UNSTABLE) | {"color": HUES[family]})
         name = NAMES.get(family, "stable" if stable else "unstable")
-        named.setdefault(name, {True: [], False: []})[stable].extend(line)
-    return [(name, lines[True] or lines[False]) for name, lines in named.items()]
+        if spans[family, branch] > 0.2 * spans.max():
+            named.setdefault((name, branch), {True: [], False: []})[stable].extend(line)
+    return [(name, lines[True] or lines[False]) for (name, _), lines in named.items()]
 
 
 def _attractor_dots(axes, attractors):
