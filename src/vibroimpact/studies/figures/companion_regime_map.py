@@ -5,28 +5,28 @@ from textwrap import fill
 
 import numpy as np
 import pandas as pd
-from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from scipy import ndimage
 
-from vibroimpact.figures.plotting.style import BLACK, HALO, SINGLE_COLUMN, heading, new_figure, styled
-from vibroimpact.studies.figures.plotting.regime_colours import COLOURS, key, paint
+from vibroimpact.figures.plotting.names import name_curves
+from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, new_figure, styled
+from vibroimpact.studies.figures.plotting.regime_colours import COLOURS, MARKS, key, paint
 from vibroimpact.studies.regimes.classification import REGIMES, UNSETTLED
 from vibroimpact.studies.sweeps.observations import FROM_REST, fixed_point_counts
 
 SPEC = {
     "title": "Map of regimes over both forcing amplitudes",
     "caption": "Regime that most starts reach in the plane of both forcing amplitudes, with a stroke where some "
-        "starts reach another regime. The start from rest is not counted, since a ball may stay idle. Line: the "
-        "number of fixed points that are stable by the theory, in impacts and slow flow, changes. Crosses: the "
-        "cases.",
-    "alt": "Map over the plane of f10 and f20 in patches of one colour for each class of regimes. Strongly modulated "
-        "responses fill the middle and the lower left, other periodic ones the upper left and the right edge, "
-        "asymmetric ones the upper middle, where a closed solid line encloses the forces for which the theory has a "
-        "stable fixed point; chaos has an island below.",
+        "starts reach another regime. The start from rest is not counted, since a ball may stay idle. Line: "
+        "border of stability by the theory, where the number of fixed points that are stable in impacts and slow flow "
+        "changes. Crosses: the cases.",
+    "alt": "Map over the plane of f10 and f20 in patches of one colour for each class of regimes, some with a mark. "
+        "Strongly modulated responses fill the middle and the lower left, other periodic ones the upper left and the "
+        "right edge, asymmetric ones the upper middle, where a closed solid line encloses the forces for which the "
+        "theory has a stable fixed point; chaos has an island below.",
     "method": "points of a sweep, and the cases; borders of the theory by bisection",
     "sweeps": {"regime_map": {"along": [["f10_hat"], ["f20_hat"]], "evenly": True,
         "observe": ["regimes", "fixed_points"]}},
@@ -186,22 +186,21 @@ def draw(tables: dict) -> Figure:
     together = cells[cells[COEXISTING] > 1]
     axes.plot(together["f10_hat"], together["f20_hat"], **_STROKES)
     pieces = borders[borders["series"] == STABLE_POINTS][["f10_hat", "f20_hat"]].to_numpy().reshape(-1, 2, 2)
-    axes.add_collection(LineCollection(pieces, **_BORDER))
-    axes.plot(cases["f10_hat"], cases["f20_hat"], **_CASES)
-    for case, *place in cases.itertuples(index=False):
-        axes.annotate(case, place, (-5, -8), textcoords="offset points", ha="right", fontsize=9, **HALO)
+    axes.plot(*pieces.T, **_BORDER)
+    marked = [(case, axes.plot(*place, **_CASES)) for case, *place in cases.itertuples(index=False)]
     f10, f20 = regimes.columns.to_numpy(), regimes.index.to_numpy()
     lined = cells.pivot(index="f20_hat", columns="f10_hat", values=COEXISTING).to_numpy() > 1
     for x, y in pieces.reshape(-1, 2):
         lined[np.abs(f20 - y).argmin(), np.abs(f10 - x).argmin()] = True
-    unnamed = [name for name in occurring if not _name(axes, regimes, name, lined)]
+    unnamed = [name for name in occurring if name in MARKS or not _name(axes, regimes, name, lined)]
     axes.set(aspect="equal", xlim=_ends(f10), ylim=_ends(f20), xlabel=r"$\hat f_{10}$", ylabel=r"$\hat f_{20}$")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MaxNLocator(TICKS))
     heading(axes, words="attractor that most starts reach")
-    handles = {"others coexist": Line2D([], [], **_STROKES), "inside: stable by theory": Line2D([], [], **_BORDER)}
+    handles = {"others coexist": Line2D([], [], **_STROKES), "border of stability": Line2D([], [], **_BORDER)}
     handles |= {fill(name, 26): handle for name, handle in key(unnamed).items()}
     figure.legend(handles.values(), handles, loc="outside lower center", ncols=2, fontsize=9)
+    name_curves(figure, {axes: marked}, fontsize=9)
     return figure
 
 

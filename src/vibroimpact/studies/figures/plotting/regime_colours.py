@@ -31,8 +31,9 @@ COLOURS = {
     HOPPING: "#cc7788",
     **dict.fromkeys((QUASI_PERIODIC, IDLE, NO_IMPACTS, UNSETTLED), "#848484"),
 }
-MARKS = {SYMMETRIC: "s", HOPPING: "^", QUASI_PERIODIC: "x", IDLE: "x", NO_IMPACTS: "x", UNSETTLED: "x"}
-"""Mark in each cell of a regime that is rare in a map, in addition to the colour of the regime."""
+MARKS = {SYMMETRIC: "s", CHAOTIC: ".", HOPPING: "^"}
+MARKS |= dict.fromkeys((QUASI_PERIODIC, IDLE, NO_IMPACTS, UNSETTLED), "o")
+"""Mark in each cell of a regime with a colour that is similar to others in grey."""
 _MARK = {"linestyle": "none", "color": "white", "markersize": 2.4, "markeredgewidth": 0.6}
 _BOX = {"edgecolor": BLACK, "linewidth": 0.4}
 
