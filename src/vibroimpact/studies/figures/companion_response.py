@@ -12,6 +12,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from vibroimpact.figures.plotting.names import name_curves
 from vibroimpact.figures.plotting.style import (
     BLACK,
     DOUBLE_COLUMN,
@@ -32,7 +33,7 @@ SPEC = {
     "caption": "Displacement over static deflection, :math:`|X_i|/f`, of the box that moves more, where :math:`f` is "
         r"the larger of the forces :math:`\varepsilon\hat f_{i0}`. a to c: against the detuning, with forces on both "
         "boxes and on one; d: against the force. Circles: largest value with balls from three starts, which may "
-        "reach different motions, filled if most of these repeat. Other lines: linear systems in closed form.",
+        "reach different motions, filled if most of these are periodic. Other lines: linear systems in closed form.",
     "alt": "Four panels. a to c: response against the detuning, with a high resonance peak without balls. With balls, "
         "circles lie below it near resonance and above it elsewhere. A flat line of the best absorbers lies below "
         "nearly all circles. d: with increasing force, the circles fall from the line without balls to a minimum "
@@ -157,11 +158,11 @@ def draw(tables: dict) -> Figure:
     for axes, letter, (pair, mine) in zip(panels, ascii_lowercase, pairs, strict=False):
         lines = linear["frequency"]
         _draw_panel(axes, mine, lines[(lines[FORCES].to_numpy() == pair).all(axis=1)], "sigma_e_hat")
-        heading(axes, letter, f"forces {pair[0]:g} and {pair[1]:g}")
+        heading(axes, letter, _forced(pair))
         axes.set_xlabel(f"detuning {SYMBOLS['sigma_e_hat']}")
-    last = panels[len(pairs)]
+    last, detuning = panels[len(pairs)], balls["force"]["sigma_e_hat"].iloc[0]
     _draw_panel(last, balls["force"], linear["force"], "f10_hat")
-    heading(last, ascii_lowercase[len(pairs)], f"detuning {balls['force']['sigma_e_hat'].iloc[0]:g}")
+    heading(last, ascii_lowercase[len(pairs)], f"both boxes forced, detuning {detuning:g}")
     logarithmic(last, "x")
     last.set_xlabel(r"force $\hat f_{10} = \hat f_{20}$")
     for axes in panels[len(pairs) + 1 :]:
@@ -170,18 +171,27 @@ def draw(tables: dict) -> Figure:
     logarithmic(last, "y", LEAST, MOST * without)
     for axes in panels[: len(pairs) + 1 : columns]:
         axes.set_ylabel("displacement, $|X_i|\\,/\\,f$")
-    figure.legend(*last.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=9)
+    handles = last.get_legend_handles_labels()[0][len(LINES) :]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize=9)
+    name_curves(figure, {panels[0]: [(line.get_label(), [line]) for line in panels[0].lines[: len(LINES)]]})
     return figure
+
+
+def _forced(pair):
+    """Return words for the forces, without subscripts, which would be too small in a heading."""
+    forces = {f"box {box}": f"{force:g}" for box, force in enumerate(pair, 1) if force}
+    who = "both boxes" if len(forces) == len(pair) else " ".join(forces)
+    return f"{who} forced, amplitude {' and '.join(dict.fromkeys(forces.values()))}"
 
 
 def _draw_panel(axes, balls, linear, x):
     for name, look in LINES.items():
         line = linear[linear["series"] == name]
         axes.plot(line[x], line["ratio"], label=name, **look)
-    axes.plot(balls[x], balls["ratio"], label="balls, repeating", **CIRCLES)
+    axes.plot(balls[x], balls["ratio"], label="balls, periodic", **CIRCLES)
     modulated = balls[~balls["label"].isin([*PERIODIC, IDLE, NO_IMPACTS])]
     hollow = CIRCLES | {"linestyle": "none", "markerfacecolor": "white"}
-    axes.plot(modulated[x], modulated["ratio"], label="balls, not repeating", **hollow)
+    axes.plot(modulated[x], modulated["ratio"], label="balls, not periodic", **hollow)
 
 
 def logarithmic(axes, side: str, *ends: float) -> None:

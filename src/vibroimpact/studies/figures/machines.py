@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from vibroimpact.exact.engine.simulation import simulate
 from vibroimpact.exact.lanes.ensemble import ensemble
+from vibroimpact.figures.plotting.names import name_curves
 from vibroimpact.figures.plotting.style import BLACK, DOUBLE_COLUMN, GREY, STABLE, heading, new_figure, styled
 from vibroimpact.studies.absorbers.references import compared
 from vibroimpact.studies.figures.companion_response import LINES
@@ -16,10 +17,10 @@ from vibroimpact.system import PhysicalSystem
 SPEC = {
     "title": "Machines in SI units",
     "notebook": "physical_units",
-    "caption": "Two machines on springs, in SI units. a: largest displacement of both boxes against the frequency, "
-        "with balls at several clearances :math:`L` (after a transient from rest), without balls, and with the best "
-        "linear absorbers of the same mass. At a jump of a line, runs reach another motion. b: box 1 and its ball "
-        "against time, from rest, including the transient.",
+    "caption": "Two coupled machines in SI units, each a box with a ball. a: largest displacement of both boxes "
+        "against the frequency, with balls at several clearances :math:`L` (after a transient from rest), without "
+        "balls, and with the best linear absorbers of the same mass. At a jump of a line, runs reach another motion. "
+        "b: box 1 and its ball against time, from rest, including the transient.",
     "alt": "Two panels. a: largest displacement in millimetres against frequency in hertz: a tall resonance without "
         "balls, a low flat line of the best absorbers, and a line for each clearance of the balls. b: the "
         "motion of box 1 grows from rest until its wall strikes the ball, which then flies from wall to wall; dots "
@@ -74,8 +75,8 @@ MM = 1000.0
 """Millimetres in a metre."""
 DASHES = (1, 1.2), (5, 1.5, 1, 1.5), (5, 1.5, 1, 1.5, 1, 1.5), (8, 2)
 """Line styles of the clearances; the clearance with the lowest peak has a bold solid line."""
-BOX, BALL = {"color": GREY, "linewidth": 1.6}, {"color": BLACK, "linewidth": 0.7}
-WALLS = {"color": BLACK, "linestyle": "none", "marker": "o", "markersize": 2.4}
+BOX, BALL = {"color": GREY, "linewidth": 1.6, "zorder": 2.2}, {"color": BLACK, "linewidth": 0.5}
+WALLS = {"color": BLACK, "linestyle": "none", "marker": "o", "markersize": 2.4, "zorder": 2.4}
 FINE, PER_CYCLE = 301, 30
 
 
@@ -158,17 +159,14 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     swings, shown = dict(iter(tables["csv"].groupby("series", sort=False))), tables["motion"]
     figure = new_figure(DOUBLE_COLUMN, 66.0)
     response, motion = figure.subplots(1, 2)
-    for name, look in LINES.items():
-        response.plot(swings[name]["frequency"], swings[name]["swing"], **look)
+    looks = dict(LINES)
     with_balls = {name: line for name, line in swings.items() if name not in LINES}
     best = min(with_balls, key=lambda name: with_balls[name]["swing"].max())
-    for (name, line), dashes in zip(with_balls.items(), cycle(DASHES)):
-        look = STABLE if name == best else {"linestyle": (0, dashes), "linewidth": 0.9, "color": BLACK}
-        response.plot(line["frequency"], line["swing"], **look)
+    for name, dashes in zip(with_balls, cycle(DASHES)):
+        looks[name] = STABLE if name == best else {"linestyle": (0, dashes), "linewidth": 0.9, "color": BLACK}
+    drawn = {name: response.plot(swings[name]["frequency"], swings[name]["swing"], **looks[name]) for name in looks}
     response.set(xlabel="frequency, Hz", ylabel="largest displacement, mm")
     response.set_ylim(0.0, 1.08 * tables["csv"]["swing"].max())
-    _name_linear(response, *(swings[name] for name in LINES))
-    _name_peaks(response, with_balls)
     motion.plot(shown["time"], shown["box"], label="box 1", **BOX)
     motion.plot(shown["time"], shown["ball"], label="its ball", **BALL)
     walls = shown[shown["at_wall"]]
@@ -178,30 +176,9 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     heading(response, "a", f"lowest peak with balls: {_clearance(best)}")
     heading(motion, "b", f"motion at $L = {MM * L:g}$ mm, {hertz:g} Hz")
     motion.legend(loc="lower left", fontsize=9)
+    names = [(name if name in LINES else _clearance(name), lines) for name, lines in drawn.items()]
+    name_curves(figure, {response: names})
     return figure
-
-
-def _name_linear(axes, without, best):
-    """Write the names of the linear systems: beside the falling flank of `without`, and below the middle of `best`."""
-    high = without[without["swing"] >= 0.75 * without["swing"].max()]
-    beside = {"textcoords": "offset points"}
-    axes.annotate("without balls", high[["frequency", "swing"]].iloc[-1], (5, 0), color=GREY, **beside)
-    middle = best[["frequency", "swing"]].iloc[len(best) // 2]
-    axes.annotate("best absorbers", middle, (0, -3), va="top", ha="center", **beside)
-
-
-def _name_peaks(axes, with_balls):
-    """Write each clearance next to the peak of its curve, where there is space; coinciding peaks share a label."""
-    peaks = {}
-    for name, line in with_balls.items():
-        at = line.loc[line["swing"].idxmax()]
-        peaks.setdefault((at["frequency"], round(at["swing"], 1)), []).append(_clearance(name))
-    low, high = axes.get_xlim()
-    for place, names in peaks.items():
-        along = (place[0] - low) / (high - low)
-        leftwards = 0.2 < along < 0.45 or along > 0.8
-        side = {"xytext": (-8, 1), "ha": "right"} if leftwards else {"xytext": (4, 1)}
-        axes.annotate(", ".join(names), place, textcoords="offset points", **side)
 
 
 def _clearance(name):
