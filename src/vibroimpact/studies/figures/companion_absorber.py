@@ -23,6 +23,7 @@ from vibroimpact.studies.figures.companion_response import (
 )
 from vibroimpact.studies.regimes.classification import starts as spread_starts
 from vibroimpact.studies.sweeps.grid import axis
+from vibroimpact.system.chapter import PARAMETERS
 
 SPEC = {
     "title": "Peak reduction by impacting balls",
@@ -88,7 +89,7 @@ BALLS, BEST_KAPPA = "balls", "balls, best kappa"
 PEAK = "peak"
 """Names of rows and of a quantity in the summary."""
 LIGHT = "#D55E00"
-STAR = {"marker": "*", "markersize": 9, "markeredgecolor": "white", "markeredgewidth": 0.4, "linestyle": "none"}
+STAR = {"marker": "*", "markersize": 11, "markerfacecolor": "white", "markeredgewidth": 0.8, "linestyle": "none"}
 """LIGHT is the colour of the best restitution coefficient, STAR the marker of the lowest peaks."""
 PLATEAU_FACTOR = 1.2
 """The plateau is the range of small kappa with lowest peaks of at most PLATEAU_FACTOR times the lowest of all."""
@@ -206,9 +207,10 @@ def draw(tables: dict) -> Figure:
         best = peaks.loc[who]
         rows = swept[(swept["sweep"] == sweep) & (swept["kappa"] == best["kappa"])]
         axes.plot(rows["clearance"], rows["ratio"], f"{marker}-", color=colour, markersize=3, linewidth=0.7)
-        axes.plot(best["clearance"], best["value"], **STAR | {"color": colour}, zorder=4)
+        axes.plot(best["clearance"], best["value"], **STAR | {"color": colour}, zorder=1)
+        chapter = "\n(chapter)" if best["kappa"] == PARAMETERS["kappa"] else ""
         below = {"textcoords": "offset points", "va": "top", "color": colour}
-        axes.annotate(rf"balls, $\kappa = {best['kappa']:g}$", best[["clearance", "value"]], (0, -7), **below)
+        axes.annotate(rf"balls, $\kappa = {best['kappa']:g}${chapter}", best[["clearance", "value"]], (0, -7), **below)
     named = {"without balls": "without balls", "best absorbers": "best linear absorbers"}
     for name, words in named.items():
         place = {"xycoords": axes.get_yaxis_transform(), "textcoords": "offset points"}

@@ -9,6 +9,7 @@ from vibroimpact.figures.plotting.style import BLACK, SINGLE_COLUMN, heading, ne
 from vibroimpact.studies.figures.plotting.regime_colours import key, paint
 from vibroimpact.studies.regimes.basins import ends, plane, stable_response
 from vibroimpact.studies.regimes.settling import Observation
+from vibroimpact.system.chapter import CASES
 from vibroimpact.system.state import NAMES
 
 SPEC = {
@@ -49,7 +50,7 @@ SPEC = {
     },
 }  # fmt: skip
 
-MARKS = {"shared": ("o", "the orbit itself"), "mirror image": ("D", "its mirror image")}
+MARKS = {"shared": ("o", "asymmetric orbit"), "mirror image": ("D", "its mirror image")}
 _MARK = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "markeredgewidth": 0.8, "markersize": 5}
 
 
@@ -100,8 +101,10 @@ def draw(tables: dict) -> Figure:
         place = own["X1"] - own["Y1"], own["X2"] - own["Y2"]
         (handles[name],) = axes.plot(*place, marker=marker, **_MARK)
     responses = starts["label"].nunique()
+    case = starts["panel"].iloc[0]
+    forces = f"{case} forces" if case in CASES else f"case {case}"
     seen = f"{responses} responses share the starts" if responses > 1 else "all starts end alike"
-    heading(axes, words=f"{seen}, case {starts['panel'].iloc[0]}")
+    heading(axes, words=f"{forces}: {seen}")
     axes.set(xlabel="start of ball 1, $W_1(0)$", ylabel="start of ball 2, $W_2(0)$")
     axes.set(aspect="equal", xlim=(-1, 1), ylim=(-1, 1))
     figure.legend(handles.values(), handles, loc="outside lower center", ncols=2, fontsize=9)

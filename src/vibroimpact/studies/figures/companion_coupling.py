@@ -147,14 +147,14 @@ def draw(tables: dict) -> Figure:
     table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 78.0)
     left, right = figure.subplots(1, 2)
-    heading(left, "a", "error of the predicted $C$")
+    heading(left, "a", "error of $C$, where the motion exists")
     heading(right, "b", "predicted motions that do not exist")
     for name, (cases, look) in SHOWN.items():
         rows = table[table["case"].isin(cases)].groupby("coupling")["error"]
         for axes, values in ((left, rows.max()), (right, rows.agg(lambda error: error.isna().mean()))):
             if len(values):  # an empty line that is not clipped would spoil the layout
                 axes.plot(100 * values, linewidth=0.9, clip_on=False, label=name, **look)
-    for axes, words, highest in ((left, "largest error in %", None), (right, "share in %", 100)):
+    for axes, words, highest in ((left, "largest error in %", None), (right, "share of fixed points in %", 100)):
         axes.axvline(PARAMETERS["alpha12_hat"], zorder=0, **LEVEL)
         axes.set_xscale("symlog", linthresh=1.0, linscale=0.4)
         axes.set(xlabel=r"coupling $\hat\alpha_{12}$", ylabel=words, xlim=(-0.15, 150), ylim=(0, highest))

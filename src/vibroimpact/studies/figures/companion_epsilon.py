@@ -17,8 +17,8 @@ SPEC = {
     "title": "Error of the theory against epsilon",
     "caption": "Largest error of the leading-order theory over the fixed points of the three cases against "
         r":math:`\varepsilon`, compared with exact orbits: error of amplitudes and phases, of the rates of the slow "
-        "flow, and of the fast multipliers. Grey: amplitudes and phases with the first-order term added. Triangles: "
-        "slopes 1 and 2.",
+        "flow, and of the fast multipliers. Grey: amplitudes and phases with the first-order term added, the second "
+        "one of (10.7). Triangles: slopes 1 and 2.",
     "alt": "Errors of the theory against epsilon on logarithmic axes: three straight lines of slope 1, for fast "
         "multipliers, slow rates, and amplitudes and phases; a fourth, grey, has slope 2.",
     "method": "fixed points and exact symmetric responses at every epsilon",
@@ -56,7 +56,7 @@ LOOKS = {
     "fast": ("fast multipliers", {"color": BLACK, "marker": "^", "markerfacecolor": "white"}),
     "slow": ("rates of the slow multipliers", {"color": BLACK, "marker": "s", "markerfacecolor": "white"}),
     "distance": ("amplitudes and phases", {"color": BLACK, "marker": "o"}),
-    TWO_TERMS: ("the same, first-order term added", {"color": GREY, "marker": "D"}),
+    TWO_TERMS: ("amplitudes and phases\nwith the first-order term", {"color": GREY, "marker": "D"}),
 }
 """Names and styles of the errors in the figure."""
 SLOPES = {"slow": (1, 20.0), TWO_TERMS: (2, 0.1)}
@@ -141,11 +141,11 @@ def draw(tables: dict) -> Figure:
         if len(largest):
             axes.plot(largest.index, largest, label=name, markersize=3.6, linewidth=0.8, **look)
             middle = largest.index[len(largest) // 2]
-            beside = {"xytext": (-3, 5), "ha": "right"} if panel != "distance" else {"xytext": (4, -12)}
+            beside = {"xytext": (-3, 5), "ha": "right", "va": "bottom"} if panel != "distance" else {"xytext": (4, -12)}
             axes.annotate(name, (middle, largest[middle]), textcoords="offset points", **beside)
             if panel in SLOPES:
                 _slope(axes, largest.index[-1], largest.iloc[-1], *SLOPES[panel])
-    axes.margins(y=0.12)
+    axes.margins(x=0.02, y=0.12)
     return figure
 
 

@@ -13,7 +13,7 @@ from vibroimpact.tables import curve, join, select
 SPEC = {
     "title": "Departure of double precision from the true trajectory",
     "caption": "Error of a simulation of Fig. 10.11 in double precision. Measured: distance from the true trajectory, "
-        "computed with many digits and confirmed by doubling them. Expected: estimate in the certificate of the run. "
+        "computed with many digits and confirmed by doubling them. Estimated: by the certificate of the run. "
         "Dot: horizon, at which the estimate exceeds :math:`10^{-3}`.",
     "alt": "Distance between the trajectory in double precision and the confirmed one over forcing cycles, on a "
         "logarithmic axis. It grows from rounding to the size of the motion and stays there.",
@@ -55,10 +55,11 @@ def draw(table: pd.DataFrame) -> Figure:
     axes = figure.add_subplot()
     measured, expected = select(table, "error", "measured"), select(table, "error", "expected")
     axes.semilogy(measured["cycle"], measured["error"].clip(lower=1e-17), color=BLACK, linewidth=0.8, label="measured")
-    axes.semilogy(expected["cycle"], expected["error"], color=GREY, linestyle="--", linewidth=1.6, label="expected")
+    axes.semilogy(expected["cycle"], expected["error"], color=GREY, linestyle="--", linewidth=1.6, label="estimated")
     ((cycle, error),) = select(table, "error", "horizon")[["cycle", "error"]].to_numpy()
-    axes.plot(cycle, error, marker="o", color=BLACK, linestyle="none", markersize=4)
-    axes.annotate("horizon", (cycle, error), xytext=(-7, -3), textcoords="offset points", ha="right")
-    axes.set(xlim=(0, measured["cycle"].max()), ylim=(1e-17, 30), xlabel="forcing cycle", ylabel="error of float64")
-    axes.legend(loc="lower right")
+    name = f"horizon: estimate exceeds {error:g}"
+    axes.plot(cycle, error, marker="o", color=BLACK, linestyle="none", markersize=4, label=name)
+    axes.set(xlim=(0, measured["cycle"].max()), ylim=(1e-17, 30))
+    axes.set(xlabel="forcing cycle", ylabel="error in double precision")
+    axes.legend(loc="lower right", fontsize=9)
     return figure
