@@ -85,7 +85,9 @@ def draw(table: pd.DataFrame) -> Figure:
         one.plot([0.0, C_max], [B_level, B_level], **LEVEL)
         one.plot([fold, fold], [0.0, B_level], **LEVEL)
         one.plot(border, stable["B"].iloc[0], "|", color=BLACK, markersize=9, markeredgewidth=1.2)
-    inset.annotate(f"(10.26)\n{border:.3f}", (border, stable["B"].iloc[0]), (8, 4), textcoords="offset points")
+    above = {"xytext": (0.5, 1.06), "textcoords": "axes fraction", "ha": "center"}
+    leader = {"arrowstyle": "-", "linewidth": 0.5}
+    inset.annotate(f"limit of (10.26): {border:.3f}", (border, stable["B"].iloc[0]), arrowprops=leader, **above)
     axes.indicate_inset_zoom(inset, edgecolor=GREY)
     axes.annotate(r"$B_{\min}$", (0.0, B_level), (6, 4), textcoords="offset points", fontsize=10)
     axes.annotate(r"$C_{\min}$", (fold, 0.0), (3, 3), textcoords="offset points", fontsize=10)
