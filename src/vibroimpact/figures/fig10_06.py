@@ -62,7 +62,7 @@ MODULES = (1, 2)
 NAME = {"fontsize": 10, "color": BLACK}
 ZOOM = {"xlim": (0.85, 1.25), "ylim": (0.0, 0.34)}
 """Part of a plane around the fold; if this part contains several points, it is drawn enlarged in INSET."""
-INSET = (0.13, 0.5, 0.44, 0.46)
+INSET = (0.13, 0.45, 0.44, 0.52)
 KEY = "fixed point $P_i$", "singular point $S_i$", "stable by (10.26)", "unstable by (10.26)"
 ROW_HEIGHT, MARGINS = 38.0, 23.0
 """Height in mm of one row of planes, and of all headings and labels together."""
@@ -139,11 +139,12 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
         by_limit, printed = verdict(table, label), (chapter or {}).get(label)
         agree = printed in (None, by_limit)
         words = f"{by_limit} by (10.26)" if agree else f"chapter {printed}, (10.26) {by_limit}"
-        heading(row[0], label, words if by_limit else "")
+        heading(row[0], words=f"fixed point ({label}): {words}" if by_limit else "")
         for axes, module in zip(row, MODULES, strict=True):
             names |= draw_plane(axes, table, f"{label}{module}")
             if by_limit and (outside := singular_points_outside(table, f"{label}{module}")):
-                axes.annotate(outside, (1, 0), (-4, 5), "axes fraction", textcoords="offset points", ha="right", **NAME)
+                corner = {"textcoords": "offset points", "ha": "right", "va": "bottom", "linespacing": 0.9}
+                axes.annotate(outside, (1, 0), (-4, 3), "axes fraction", **corner, **NAME)
     for axes, module in zip(grid[0], MODULES, strict=True):
         axes.set_title(f"module {module}\n", pad=4)  # one line above the heading of the row
     for axes, module in zip(grid[-1], MODULES, strict=True):
@@ -173,7 +174,7 @@ def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
     name = f"S_{panel[-1]}"
     beyond = select(table, panel, f"{name} beyond")["C"]
     if len(beyond):
-        return rf"${name}$: {', '.join(f'{C:.1f}' for C in beyond)} $\rightarrow$"
+        return rf"${name}\,\rightarrow$" f"\nat $C_{panel[-1]} = {', '.join(f'{C:.1f}' for C in beyond)}$"
     return "" if len(select(table, panel, name)) else f"no ${name}$"
 
 
