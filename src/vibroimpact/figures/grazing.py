@@ -66,5 +66,6 @@ def draw(table: pd.DataFrame) -> Figure:
     axes.invert_xaxis()
     hollow = Line2D([], [], linestyle="none", color=BLACK, marker="o", markerfacecolor="white", label=HOLLOW)
     figure.legend(handles=[hollow], loc="outside lower center", fontsize=9)
+    axes.text(3e-9, 6e-3, "impact missed", rotation=-24, ha="center", va="center")
     name_curves(figure, {axes: lines}, fontsize=8)
     return figure
