@@ -34,9 +34,9 @@ SPEC = {
         "orbits or, for simulations, from a run in arbitrary precision; for chaotic motions, statistics of bursts "
         "are compared. Grey lane: the reference itself, and errors below 0.001 %.",
     "alt": "Two panels with one row per model, grouped by figure from 10.6 to 10.11: errors and run times on "
-        "logarithmic axes. The error of the slow flow is 4 to 6 %, that of the second term some tenths of a per cent. "
-        "In double precision, the steady motion of figure 10.8 is in the grey lane, the chaotic one of 10.11 above the "
-        "tolerance.",
+        "logarithmic axes. The error of the slow flow is 4 to 6 %, with the first-order term some tenths of a per "
+        "cent. In double precision, the steady motion of figure 10.8 is in the grey lane, the chaotic one of 10.11 "
+        "above the tolerance.",
     "method": "each figure is computed with each of its models; the plotted quantities are compared",
     "file": "results/accuracy/models.csv",
     "columns": {
@@ -193,11 +193,11 @@ def draw(table: pd.DataFrame) -> Figure:
         times.annotate(
             f"{float(f'{row.seconds:.2g}'):g}", (row.seconds, place), (6, 0), textcoords="offset points", va="center"
         )
-    models = table["model"].str.replace("_", " ")
+    models = table["model"].replace("second_term", "with first-order term").str.replace("_", " ")
     names = table["figure"].str.replace("^fig10_0?", "Fig. 10.", regex=True)
     errors.set_yticks(places, models.where(~starts, names + ":   " + models))
     errors.set(
-        xscale="log", xlim=(AXIS_MIN, 2 * ERROR_MAX), ylim=(places[-1] + 0.7, -0.7), xlabel="error [% of the axis]"
+        xscale="log", xlim=(AXIS_MIN, 2 * ERROR_MAX), ylim=(places[-1] + 0.7, -0.7), xlabel="error, % of the axis range"
     )
     errors.set_xticks(10.0 ** np.arange(-3, 3), ["0.001", "0.01", "0.1", "1", "10", "100"])
     times.set(xscale="log", xlim=(table["seconds"].min() / 3, table["seconds"].max() * 6), xlabel="run time [s]")
