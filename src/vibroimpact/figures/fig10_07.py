@@ -3,9 +3,9 @@
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from vibroimpact.accuracy.model_choice import motion
+from vibroimpact.figures.plotting.names import name_curves, name_walls
 from vibroimpact.figures.plotting.style import BLACK, GREY, SINGLE_COLUMN, heading, new_figure, styled, time_plot
 from vibroimpact.tables import curve, join, select
 
@@ -13,15 +13,16 @@ SPEC = {
     "title": "Theoretical response of fixed point (c)",
     "notebook": "theoretical_response",
     "caption": r"Fig. 10.7. Theoretical steady-state response of fixed point (c) for :math:`\hat f_{10} = {f10_hat}`, "
-        r":math:`\hat f_{20} = {f20_hat}`: boxes :math:`X_i` and :math:`U_i = X_i + "
-        r"\varepsilon Y_i` grey, balls :math:`Y_i` and :math:`W_i = X_i - Y_i` black.",
-    "alt": "Two panels over two forcing periods, one for each module: the sine-like U and X in grey, the relative "
-        "displacement W and the zigzag of the ball Y in black.",
+        r":math:`\hat f_{20} = {f20_hat}`: boxes :math:`X_i` (dotted) and :math:`U_i = X_i + "
+        r"\varepsilon Y_i` grey, balls :math:`Y_i` and :math:`W_i = X_i - Y_i` black. The walls limit :math:`W_i` "
+        "only.",
+    "alt": "Two panels over two forcing periods, one for each module, with a named line for each coordinate: the "
+        "sine-like U and X in grey, the relative displacement W and the zigzag of the ball Y in black.",
     "own": {
         "title": "Theoretical response of fixed point ({fixed_point}) of case {case}",
         "caption": r"Theoretical steady-state response of fixed point ({fixed_point}) of case *{case}*, :math:`\hat "
-            r"f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`: :math:`U_i`, :math:`X_i` grey, :math:`W_i`, "
-            ":math:`Y_i` black.",
+            r"f_{10} = {f10_hat}`, :math:`\hat f_{20} = {f20_hat}`: :math:`U_i`, :math:`X_i` (dotted) grey, "
+            ":math:`W_i`, :math:`Y_i` (dash-dotted) black.",
         "alt": "A panel for each module over {periods} forcing periods: the sine-like U and X in grey, the relative "
             "displacement W and the zigzag of the ball Y in black.",
     },
@@ -40,20 +41,12 @@ SPEC = {
 
 MODULES = (1, 2)
 COORDINATES = {
-    "U": {"color": GREY, "linestyle": "-", "linewidth": 1.8},
-    "X": {"color": GREY, "linestyle": (0, (3, 1.4)), "linewidth": 1.2},
+    "U": {"color": GREY, "linestyle": "-", "linewidth": 1.6},
+    "X": {"color": GREY, "linestyle": (0, (1, 1)), "linewidth": 1.4},
     "W": {"color": BLACK, "linestyle": "-", "linewidth": 1.2},
-    "Y": {"color": BLACK, "linestyle": (0, (5, 2)), "linewidth": 1.0},
+    "Y": {"color": BLACK, "linestyle": (0, (6, 1.5, 1.5, 1.5)), "linewidth": 1.0},
 }
-WORDS = {
-    "U": r"$U_i = X_i + \varepsilon Y_i$",
-    "X": "box $X_i$",
-    "W": "$W_i = X_i - Y_i$",
-    "Y": "ball $Y_i$",
-    "walls": r"walls, $W_i = \pm 1$",
-}
-"""COORDINATES: U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style separates curves of one colour.
-WORDS: names in the legend."""
+"""U_i and X_i grey, W_i and Y_i black, as in the chapter; the line style separates curves of one colour."""
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, model: str = "slow_flow") -> pd.DataFrame:
@@ -95,26 +88,22 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
 @styled
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`, with the first module above the second."""
-    figure = new_figure(SINGLE_COLUMN, 97.0)
+    figure = new_figure(SINGLE_COLUMN, 86.0)
     grid = figure.subplots(len(MODULES), 1, sharex=True, sharey=True)
+    names = {}
     for axes, module, letter in zip(grid, MODULES, "ab", strict=True):
-        draw_response(axes, table, module)
-        heading(axes, letter, f"module {module}")
+        names |= draw_response(axes, table, module)
+        heading(axes, letter, f"theoretical response, module {module}")
     grid[-1].set_xlabel(r"$\tau$")
-    key(figure)
+    name_curves(figure, names, fontsize=10, color=BLACK)
     return figure
 
 
-def draw_response(axes, table: pd.DataFrame, module: int) -> None:
-    """Draw the four coordinates of one module over tau, and the walls W_i = 1 and W_i = -1."""
+def draw_response(axes, table: pd.DataFrame, module: int) -> dict:
+    """Draw the coordinates of one module over tau, and its walls; return names and lines for `name_curves`."""
     lines = {name: select(table, f"module {module}", f"{name}_{module}") for name in COORDINATES}
     time_plot(axes, [(line["tau"], line["value"], COORDINATES[name]) for name, line in lines.items()])
-    axes.set_ylabel("displacement")
+    axes.set_ylabel(f"box $X_{module}$, ball $Y_{module}$")
     axes.margins(y=0.1)
-
-
-def key(figure) -> None:
-    """Draw a legend of the coordinates below the panels, since the curves are too close for direct labels."""
-    looks = COORDINATES | {"walls": {"color": BLACK, "linewidth": 0.4}}
-    handles = [Line2D([], [], **look, label=WORDS[name]) for name, look in looks.items()]
-    figure.legend(handles=handles, loc="outside lower center", ncols=2, handlelength=2.4)
+    name_walls(axes, f"wall\nfor $W_{module}$")
+    return {axes: [(f"${name}_{module}$", [line]) for name, line in zip(lines, axes.lines[-4:], strict=True)]}

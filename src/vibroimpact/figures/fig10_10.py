@@ -13,7 +13,7 @@ SPEC = {
     "title": "The only fixed point for weak forces, and its response",
     "notebook": "theoretical_response",
     "caption": r"Fig. 10.10. The only fixed point for :math:`\hat f_{10} = {f10_hat}`, :math:`\hat f_{20} = "
-        "{f20_hat}` on both planes, and its theoretical response: boxes :math:`X_i` and :math:`U_i = X_i + "
+        "{f20_hat}` on both planes, and its theoretical response: boxes :math:`X_i` (dotted) and :math:`U_i = X_i + "
         r"\varepsilon Y_i` grey, balls :math:`Y_i` and :math:`W_i = X_i - Y_i` black. The point lies on the dashed "
         "branches, which (10.26) calls unstable; the exact motion is unstable, too.",
     "alt": "Above, two planes with the manifold and circles P1, P2 on its dashed left arms; below, the theoretical "
@@ -54,19 +54,20 @@ def compute(
 @styled
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: both planes side by side, and below them the responses of both modules."""
-    figure = new_figure(SINGLE_COLUMN, 137.0)
-    panels = figure.subplot_mosaic([[1, 2], ["module 1"] * 2, ["module 2"] * 2], height_ratios=(1, 1, 1))
+    figure = new_figure(SINGLE_COLUMN, 138.0)
+    panels = figure.subplot_mosaic([[1, 2], ["module 1"] * 2, ["module 2"] * 2], height_ratios=(3, 4, 4))
     label, names = table["panel"].iloc[0][:-1], {}
     for module in fig10_06.MODULES:
         names |= fig10_06.draw_plane(panels[module], table, f"{label}{module}")
         panels[module].set_xlabel(f"$C_{module}$")
         heading(panels[module], words=f"fixed point ({label}), module {module}")
-        fig10_07.draw_response(panels[f"module {module}"], table, module)
-        heading(panels[f"module {module}"], words=f"response, module {module}")
+        names[panels[module]] += [(line.get_label(), [line]) for line in panels[module].lines[:2]]
+        names |= fig10_07.draw_response(panels[f"module {module}"], table, module)
+        words = f"theory, module {module}: {fig10_06.verdict(table, label)} by (10.26)"
+        heading(panels[f"module {module}"], words=words)
     panels["module 1"].sharex(panels["module 2"])
     panels["module 1"].sharey(panels["module 2"])
     panels["module 1"].tick_params(labelbottom=False)
     panels["module 2"].set_xlabel(r"$\tau$")
-    fig10_07.key(figure)
     name_curves(figure, names, **fig10_06.NAME)
     return figure

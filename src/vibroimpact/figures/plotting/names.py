@@ -39,6 +39,13 @@ def name_curves(figure, panels: dict, **style) -> None:
         _Names(axes, figure.dpi / 72.0).write(curves, style)
 
 
+def name_walls(axes, name: str = "wall") -> None:
+    """Write a name at the right ends of the thin lines at the walls W = +-1."""
+    for wall in (-1.0, 1.0):
+        place = {"xycoords": axes.get_yaxis_transform(), "textcoords": "offset points"}
+        axes.annotate(name, (1.0, wall), (3, 0), va="center", linespacing=0.9, fontsize=10, **place)
+
+
 class _Names:
     """Names of the curves in one set of axes; lengths are in pixels."""
 

@@ -3,14 +3,16 @@
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from vibroimpact.exact.measures import modulation
 from vibroimpact.exact.measures.periodicity import samples_per_cycle
+from vibroimpact.figures.plotting.names import name_walls
 from vibroimpact.figures.plotting.style import BLACK, LIGHT_GREY, SINGLE_COLUMN, heading, new_figure, styled, time_plot
 from vibroimpact.tables import curve, join, select
 
 PANELS = {"a": "X_2", "b": "W_2"}
-WORDS = {"X_2": "second box", "W_2": "its ball, relative to the box"}
+WORDS = {"X_2": "second box, simulated", "W_2": "its ball, relative to the box, simulated"}
 LONG_WINDOW = 300.0
 """Length [tau] (about 50 cycles) above which a window has thin lines, because neighbouring cycles nearly touch."""
 
@@ -75,17 +77,21 @@ def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
     """
     figure = new_figure(SINGLE_COLUMN, 80.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True)
-    style = {"color": BLACK, "linewidth": 0.35 if np.ptp(table["tau"]) > LONG_WINDOW else 1.1}
+    style = {"color": BLACK, "linewidth": 0.25 if np.ptp(table["tau"]) > LONG_WINDOW else 1.1}
     for axes, (panel, series) in zip(grid, PANELS.items(), strict=True):
         line = select(table, panel, series)
         time_plot(axes, [(line["cycle"], line["value"], style)], walls=series == "W_2")
         for start, end in shaded:
             axes.axvspan(start, end, color=LIGHT_GREY, linewidth=0, zorder=-1)
-        reach = 1.1 * line["value"].abs().max()
+        reach = 1.2 * line["value"].abs().max()
         axes.set(ylim=(-reach, reach), ylabel=f"${series}$")
         heading(axes, panel, WORDS[series])
+    name_walls(grid[-1])
     grid[-1].set_xlabel(r"forcing cycle, $\tau\,\Omega/2\pi$")
     figure.align_ylabels()
+    if len(shaded):
+        key = Patch(color=LIGHT_GREY, label="no resonance (over a cycle from wall to wall)")
+        figure.legend(handles=[key], loc="outside lower center", fontsize=9)
     return figure
 
 
