@@ -139,7 +139,7 @@ def test_the_heading_of_a_row_contains_the_verdict_of_10_26(name, draw):
     verdicts = [f"{'stable' if C > LIMIT else 'unstable'} by (10.26)" for C in smaller]
     if name == "fig10_09":
         verdicts[1] = "chapter unstable, (10.26) stable"
-    assert [one.get_title("left").split("   ")[1] for one in draw(table(name)).axes[::2]] == verdicts
+    assert [one.get_title("left").split(": ")[1] for one in draw(table(name)).axes[::2]] == verdicts
 
 
 @pytest.mark.parametrize(("name", "label", "case"), [("fig10_07", "c", "equal"), ("fig10_10", "a", "weak")])

@@ -83,5 +83,5 @@ def test_all_models_are_drawn_and_labelled_and_those_in_use_are_filled():
     assert [line.get_xdata()[0] for line in times] == [0.01, 0.02, 0.03, 5.0]
     assert [line.get_markerfacecolor() for line in errors] == ["black", "white", "white", "black"]
     labels = [label.get_text().replace("   ", " ") for label in figure.axes[0].get_yticklabels()]
-    assert labels == ["Fig. 10.7: slow flow", "exact orbit", "second term", "mine: float64"]
+    assert labels == ["Fig. 10.7: slow flow", "exact orbit", "with first-order term", "mine: float64"]
     assert [line.get_ydata()[0] for line in errors] == list(figure.axes[0].get_yticks())
