@@ -34,7 +34,7 @@ studies: set-up  ## build the studies (sweeps, maps, companion figures, claims, 
 check-figures: set-up  ## compare the chapter's figures with the reference set figures/ (STRICT=1: fail if other library versions drew the reference)
 	@$(BUILD) -- figure_check
 
-check-studies: set-up  ## compare the figures of the studies with the reference set figures/studies/
+check-studies: set-up  ## compare the figures of the studies with the reference set figures/studies/ (STRICT=1: as above)
 	@$(BUILD) -- study_check
 
 report: development  ## build figures, studies and the report: results/report/index.html, and an article as PDF

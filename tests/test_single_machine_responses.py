@@ -5,12 +5,12 @@ import pytest
 from scipy.optimize import brentq
 
 import vibroimpact as vi
+from mean_power import mean_power
 from single_machines import FIRST, MACHINE, MACHINES, SECOND, company, holds, partner, same_numbers
 from vibroimpact.exact.orbits.search import half_period_multipliers
 from vibroimpact.theory.criteria import of_fixed_point
 from vibroimpact.theory.fixed_points.balance import singular_points
 from vibroimpact.theory.fixed_points.symmetric_points import search
-from vibroimpact.theory.response import mean_power
 
 
 @MACHINES

@@ -102,7 +102,7 @@ def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, s
     ]
     described.add(*authors)
     described.name = cited["title"]
-    described.description = f"Sources of commit {commit} and the results of the default build."
+    described.description = f"Sources of commit {commit} and its results."
     described.license = f"https://spdx.org/licenses/{cited['license']}"
     described.root_dataset["author"] = workflow["author"] = authors
     described.datePublished = date

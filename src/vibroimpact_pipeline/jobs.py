@@ -72,7 +72,7 @@ def running(job) -> Iterator[SimpleNamespace]:
 
 
 def log_of(job) -> Path:
-    """Return the path of the log of a job: results/logs/RULE.log, or results/logs/RULE/WILDCARD.log."""
+    """Return the path of the log of a job: results/logs/RULE.log, or for example results/logs/RULE/CASE.log."""
     folder = LOGS.joinpath(job.rule, *job.wildcards)
     return folder.with_name(f"{folder.name}.log")
 

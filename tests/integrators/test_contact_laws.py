@@ -60,7 +60,7 @@ def test_an_undamped_contact_has_the_tuned_duration_and_the_power_law_turns_the_
     assert contact(law, stiffness, laws.damping_of(law, MASS, 0.65, stiffness), 1.0)[2] == pytest.approx(1.0, abs=1e-9)
 
 
-@pytest.mark.parametrize("kappa", [1e-9, 0.1, 0.999])
+@pytest.mark.parametrize("kappa", [1e-9, 0.1, 0.999, 1.0 - 1e-9])
 def test_the_hunt_crossley_number_solves_its_equation(kappa):
     d = laws.hunt_crossley_number(kappa)
     if kappa > 0.05:  # below, 1 - kappa d is smaller than rounding errors

@@ -14,13 +14,3 @@ def unshared(*options: str) -> list[str]:
     if subprocess.run([*command, "true"], stderr=subprocess.DEVNULL, check=False).returncode:
         pytest.skip(f"{' '.join(command)} is not allowed here")
     return command
-
-
-def mounted(script: str) -> list[str]:
-    """Return such words for a command after mounts by a shell script, which runs in the folder of the command."""
-    return [*unshared("--mount"), "sh", "-c", f'{script} && cd "$PWD" && exec "$@"', "sh"]
-
-
-def read_only(folder: str) -> list[str]:
-    """Return such words for a command while nobody can write to a folder."""
-    return mounted(f"mount --bind {folder} {folder} && mount -o remount,bind,ro {folder}")

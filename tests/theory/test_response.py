@@ -5,9 +5,10 @@ import pytest
 
 import vibroimpact as vi
 from chapter import FORCES, system_of
+from mean_power import mean_power
 from vibroimpact.exact.orbits.search import symmetric_orbit
 from vibroimpact.exact.orbits.symmetric import symmetric_solutions
-from vibroimpact.theory.response import impact_times, leading_order, mean_power
+from vibroimpact.theory.response import impact_times, leading_order
 
 SYSTEM = system_of("equal")
 POINTS = vi.fixed_points(SYSTEM)

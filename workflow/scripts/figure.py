@@ -1,6 +1,6 @@
 """Compute and write the tables of one figure, and draw the figure from the written tables.
 
-For a figure that also moves, a GIF and the data of its interactive part are written.
+If the rule has the outputs `json` and `gif`, the data of the interactive part and an animation are written, too.
 """
 
 import json

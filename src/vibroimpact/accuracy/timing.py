@@ -29,5 +29,6 @@ def interleaved(functions, seconds: float) -> list[tuple]:
 
 def versions() -> dict[str, str]:
     """Return the versions of Python and packages, and the processor architecture, on which a measurement depends."""
-    installed = {one.name: one.version for one in distributions() if one.name in PACKAGES}
-    return {"python": platform.python_version(), "machine": platform.machine()} | installed
+    installed = {one.name: one.version for one in distributions()}
+    found = {name: installed[name] for name in PACKAGES if name in installed}
+    return {"python": platform.python_version(), "machine": platform.machine()} | found

@@ -46,7 +46,7 @@ def parser() -> argparse.ArgumentParser:
         if command.of_system:
             add_system_options(own)
         own.set_defaults(run=_run, command=name, parser=own)
-    words = "compile the simulation code in advance, once per machine"
+    words = "compile the simulation code in advance, once per user"
     compiling = commands.add_parser("compile", help=words, description=words)
     compiling.set_defaults(run=lambda options: import_module("vibroimpact.compile").main())
     return top

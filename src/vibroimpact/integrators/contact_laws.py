@@ -18,6 +18,9 @@ from dataclasses import dataclass
 
 from scipy.optimize import brentq
 
+NEARLY_ELASTIC = 1e-5
+"""Value of 1 - kappa below which the sides of the equation for d in `hunt_crossley_number` differ by rounding only."""
+
 
 @dataclass(frozen=True)
 class Law:
@@ -81,6 +84,8 @@ def hunt_crossley_number(kappa: float) -> float:
 
     d solves (1 + kappa) d = log((1 + d) / (1 - kappa d)).
     """
+    if 1.0 - kappa < NEARLY_ELASTIC:
+        return 1.5 * (1.0 - kappa)
 
     def number(x):  # x = -log(1 - kappa d) is the unknown, since d is 1 / kappa up to rounding if kappa is small
         return -math.expm1(-x) / kappa

@@ -110,10 +110,12 @@ class Design:
         settling = max(row["settling_m"] for row in self.response)
         hardest = max(self.response, key=lambda row: row["impact_speed_m_s"])
         verdict = f"{1 - self.peak / self.without:.0%} less" if self.peak < self.without else "no less"
+        settled = " (not settled where it is largest, see below)" if self._unsettled() else ""
         return "\n".join([
             f"natural frequency {machine.omega10 / (2 * math.pi):.4g} Hz, static deflection {_mm(static)}",
             f"clearance {1000 * machine.L:.10g} mm to each side, restitution {machine.kappa:g}",
-            f"largest displacement {_mm(self.peak)} once settled: {verdict} than {_mm(self.without)} without ball",
+            f"largest displacement {_mm(self.peak)} once settled{settled}: {verdict} than {_mm(self.without)} without "
+            "ball",
             f"  {_mm(self.near[0])} to {_mm(self.near[1])} with clearances within {NEAR:.0%} of it",
             f"  {_mm(settling)} while it settles from rest",
             f"  best linear absorber of its mass {_mm(self.absorber)}, which needs {_mm(self.absorber_stroke)} to each "
@@ -151,6 +153,11 @@ class Design:
         axes.legend(frameon=False)
         return figure
 
+    def _unsettled(self):
+        """Return the row of `response` with the largest displacement if its motion has not settled, else None."""
+        worst = max(self.response, key=lambda row: row["with_m"])
+        return worst if self.peak > TRANSIENT_FACTOR * worst["later_m"] else None
+
     def _warnings(self):
         """Yield a line for each warning about the design."""
         for name, value in (("restitution", self.machine.kappa), ("clearance_m", self.machine.L)):
@@ -158,13 +165,17 @@ class Design:
             if len(tried) > 1 and value in (tried[0], tried[-1]):
                 end, better = ("smallest", "smaller") if value == tried[0] else ("largest", "larger")
                 yield f"The {name.removesuffix('_m')} is the {end} of those tried; a {better} one may be better."
-        worst = max(self.response, key=lambda row: row["with_m"])
-        if self.peak > TRANSIENT_FACTOR * worst["later_m"]:
+        if worst := self._unsettled():
             later = f"{_mm(worst['later_m'])} in the {LATER} periods that follow"
             yield f"At {worst['frequency_Hz']:.4g} Hz the largest motion had not settled: it is at most {later}."
         if self.near[1] > FRAGILE_FACTOR * self.peak:
             more = self.near[1] / self.peak - 1
             yield f"Fragile: with clearances within {NEAR:.0%} of it the peak is up to {more:.0%} higher."
+        first, last = (self.response[end]["frequency_Hz"] for end in (0, -1))
+        if not first <= self.machine.omega10 / (2 * math.pi) <= last:
+            yield f"No resonance without ball lies in the band from {first:.4g} to {last:.4g} Hz."
+        if self.machine.m > self.machine.M:
+            yield f"The ball of {self.machine.m:.4g} kg is heavier than its machine of {self.machine.M:.4g} kg."
 
 
 def design(

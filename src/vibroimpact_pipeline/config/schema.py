@@ -1,4 +1,4 @@
-"""Write the JSON Schema of each config file, for editors and for validation by Snakemake without Pydantic.
+"""Write the JSON Schema of each config file, for editors.
 
 Run as `python -m vibroimpact_pipeline.config.schema`.
 """

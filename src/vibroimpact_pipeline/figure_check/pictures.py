@@ -17,8 +17,8 @@ DECIMALS = 3
 """Number of decimals to which lengths in PDF and SVG [points] are rounded before the checksum is computed. Further
 digits depend on how the processor rounds the layout. 0.001 points are about a hundredth of a pixel."""
 OFFSET = 0.000_314_159
-"""Number that is added before rounding. Without it, lengths such as 0.8125 lie half-way between two rounded values, and
-their last digits, which depend on the processor, decide."""
+"""Number that is added before rounding. Without it, lengths such as 0.8125 lie half-way between two rounded values, so
+that their last digits, which depend on the processor, decide which one results."""
 
 
 def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:

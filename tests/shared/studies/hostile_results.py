@@ -37,7 +37,7 @@ def results(folder: Path) -> Path:
     """Write results in which every text is hostile, and return their folder."""
     numbers = {"C1": 1.0, "C2": 1.1, "B1": 0.1, "B2": 0.2, "psi1": 0.3, "psi2": 0.4}
     motion = {name: [0.0, 0.5] for name in ("t", "X1", "Y1", "X2", "Y2")} | {HOSTILE: [HOSTILE]}
-    moving = {"cycles": 1, "places": [-3.0, 3.0], "motion": motion, "impacts": [[0.25, 1, 1]], "note": HOSTILE}
+    moving = {"cycles": 1, "motion": motion, "impacts": [[0.25, 1, 1]], "note": HOSTILE}
     run = {"error_state": 1e-9, "missed": 0, "spurious": 0, "seconds_per_cycle": 1e-6}
     run |= {"problem": HOSTILE, "method": HOSTILE, "setting": HOSTILE}
     claim = {"id": HOSTILE, "verdict": HOSTILE, "place": "(10.1)", "statement": STATEMENT, "parts": {HOSTILE: True}}

@@ -1,4 +1,4 @@
-"""The nudge: the frames of its motion, growth by the multiplier, and flights at the end."""
+"""A nudged motion departs at the rate of its multiplier, and its flights become unequal."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from vibroimpact.studies.figures import nudge
 EQUAL = system_of("equal")
 
 
-def test_a_nudged_motion_leaves_with_the_multiplier_and_ends_lopsided():
+def test_the_distance_grows_with_the_multiplier_until_flights_are_unequal():
     tables = nudge.compute(EQUAL)
     orbit = min(
         (one for one in vi.orbits(EQUAL) if one.symmetric), key=lambda one: np.abs(one.C - [1.0957, 1.8108]).max()
@@ -26,7 +26,7 @@ def test_a_nudged_motion_leaves_with_the_multiplier_and_ends_lopsided():
     assert texts == ["times 2.44\nper period"]
 
 
-def test_where_no_motion_that_is_called_stable_is_unstable_there_is_nothing_to_nudge():
+def test_tables_are_empty_if_no_unstable_motion_is_called_stable():
     tables = nudge.compute(EQUAL.with_(f10_hat=0.5, f20_hat=0.5))
     assert all(len(table) == 0 for table in tables.values())
     assert len(nudge.draw(tables).axes) == 2

@@ -41,7 +41,7 @@ def version(root) -> str:
     return f"commit {described} of {git('show', '--no-patch', '--format=%cs', root=root)}"
 
 
-def groups(figures: list[str], charts: list[str], config: dict) -> dict[str, list[str]]:
+def groups(figures: list[str], charts: list[str]) -> dict[str, list[str]]:
     """Return the figures of the report by group; groups and figures are in the order of display."""
     chapter = [figure for figure in figures if figure.startswith("fig10_")]
     companions = [figure for figure in figures if figure.startswith("companion_")]
@@ -58,7 +58,7 @@ with running(snakemake) as out:
     params, folder, root = snakemake.params, Path(out.site), Path(snakemake.output.site).parent
     claims = json.loads((root / "claims.json").read_text(encoding="utf-8"))
     results = Results(root, judged=all(claim["verdict"] != NOT_JUDGED for claim in claims))
-    shown = groups(params.figures, params.charts, params.config)
+    shown = groups(params.figures, params.charts)
     tables = [*("results/fixed_points.csv", "results/orbits.csv", "results/claims.json"), *params.tables]
     pages = Pages(ROOT, results, params.config, shown, [Path(table).name for table in tables])
     collect(results, pages.pictures, tables, folder)

@@ -98,9 +98,9 @@ def _writable() -> Path:
     for folder in (LIBRARY_CACHE, own / "vibroimpact"):
         if folder.is_absolute() and _takes_files(folder):  # "~" stays in the path if the home directory is unknown
             return folder
-    folder = Path(tempfile.mkdtemp(prefix="vibroimpact-"))
-    say(f"neither the installation nor {own} is writable; caching compiled code in {folder}")
-    return folder
+    NOTICE.hint = ""
+    say(f"neither the installation nor {own} is writable, so every process compiles; set XDG_CACHE_HOME to a folder")
+    return Path(tempfile.mkdtemp(prefix="vibroimpact-"))
 
 
 def _takes_files(folder):

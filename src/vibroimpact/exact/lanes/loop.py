@@ -289,7 +289,7 @@ def _run_by_events(piece, flow, squares, lane, m):
         progress, ended = run_until(flow, progress, span, unsampled, log, earlier, np.int64(0))
         runs[rows.EVENTS] += int(counters[EVENTS])
         if runs[rows.WATCHED] > 0.0:
-            _add_events(piece, flow, squares, leaving, progress, lane, m)
+            _add_events(flow, squares, leaving, progress, lane, m)
         boxes, balls, walls, _, _, _ = progress.motion
         motion = Motion(boxes, balls, walls, (0, 0), math.sin(progress.phase), math.cos(progress.phase))
         if ended == FINISHED and not _end_window(piece, flow, squares, motion, lane, m):
@@ -307,7 +307,7 @@ def _run_by_events(piece, flow, squares, lane, m):
 
 
 @inlined_source
-def _add_events(piece, flow, squares, leaving, progress, lane, m):
+def _add_events(flow, squares, leaving, progress, lane, m):
     """Add the statistics of the last events of a run in the event loop to the statistics in its lane.
 
     leaving, progress: `Progress` before and after these events.

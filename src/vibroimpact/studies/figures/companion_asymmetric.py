@@ -8,17 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from scipy.optimize import brentq
 
+from vibroimpact.figures.plotting import style
 from vibroimpact.figures.plotting.names import name_curves
-from vibroimpact.figures.plotting.style import (
-    BLACK,
-    DOUBLE_COLUMN,
-    GREY,
-    STABLE,
-    UNSTABLE,
-    heading,
-    new_figure,
-    styled,
-)
 from vibroimpact.studies.figures.plotting.regime_colours import COLOURS
 from vibroimpact.studies.regimes import asymmetric_limit
 from vibroimpact.studies.regimes.classification import ASYMMETRIC
@@ -35,9 +26,10 @@ SPEC = {
         r"= \pi^2/(\pi^2-4)`, the stable part of the manifold continues as an asymmetric branch. Circles: fixed points "
         r"of the slow flow. b: exact orbits from the :math:`\varepsilon` of the cases (filled marks) down to the fixed "
         r"points, to :math:`v = 0`, where they become symmetric, or to where two orbits meet and vanish. :math:`v` is "
-        "the difference of the flight times over the period.",
-    "alt": "First panel: a V-shaped curve of B against C, bold where stable. A green curve rises steeply from its "
-        "right arm, with two circles on it. Second panel: lines of flight asymmetry against epsilon. Two end in "
+        r"the difference of the flight times over the period. Lines in b show the stability at the :math:`\varepsilon` "
+        "of the cases.",
+    "alt": "First panel: a rising line of B against C, bold up to the point where a steeper green curve branches "
+        "off, with two circles on it. Second panel: lines of flight asymmetry against epsilon. Two end in "
         "circles at epsilon 0, two stable ones fall to zero just before, two others meet, as written at the lines.",
     "equations": [r"C = \frac{1 - v^2}{1 - v^2 - G}, \qquad B = \frac{\sqrt{G^2 + \rho^2}}{(1 - v^2 - G)\cos\frac{\pi "
         r"v}{2}}, \qquad G = \frac{2v}{\pi}\cot\frac{\pi v}{2}"],
@@ -97,18 +89,18 @@ SPEC = {
 
 _COLOUR = {"color": COLOURS[ASYMMETRIC]}
 PIECES = {
-    "symmetric, left": UNSTABLE,
-    "symmetric, stable": STABLE,
-    "symmetric, right": UNSTABLE,
-    "asymmetric, stable": STABLE | _COLOUR,
-    "asymmetric, right": UNSTABLE | _COLOUR,
+    "symmetric, left": style.UNSTABLE,
+    "symmetric, stable": style.STABLE,
+    "symmetric, right": style.UNSTABLE,
+    "asymmetric, stable": style.STABLE | _COLOUR,
+    "asymmetric, right": style.UNSTABLE | _COLOUR,
 }
 POINT = "fixed point"
 _MARK = {"linestyle": "none", "zorder": 3}
-POINT_MARK = _MARK | {"color": BLACK, "marker": "o", "markerfacecolor": "white", "markersize": 4.6}
+POINT_MARK = _MARK | {"color": style.BLACK, "marker": "o", "markerfacecolor": "white", "markersize": 4.6}
 ORBIT_MARKS = [
     _MARK | {"color": colour, "marker": marker, "markersize": size}
-    for colour, marker, size in ((BLACK, "D", 3.6), (GREY, "^", 5.0), (BLACK, "s", 4.0))
+    for colour, marker, size in ((style.BLACK, "D", 3.6), (style.GREY, "^", 5.0), (style.BLACK, "s", 4.0))
 ]
 """Marks of the exact orbits of the first, second and third case; then they repeat."""
 ENDS = "to a fixed point", "become symmetric", "two orbits meet"
@@ -208,30 +200,31 @@ def _row(system, case, name, point, label, onset):
     return [*row, lost_at(system, point) if point.slow_verdict() == "stable" else np.nan, label, onset]
 
 
-@styled
+@style.styled
 def draw(tables: dict) -> Figure:
     """Draw the tables of `compute`: the manifold with both branches, and asymmetry of the pairs against epsilon."""
-    figure = new_figure(DOUBLE_COLUMN, 84.0)
+    figure = style.new_figure(style.DOUBLE_COLUMN, 84.0)
     left, right = figure.subplots(1, 2)
-    heading(left, "a", "both branches of the manifold")
-    heading(right, "b", r"exact asymmetric orbits as $\varepsilon$ falls")
+    style.heading(left, "a", "both branches of the manifold")
+    style.heading(right, "b", r"exact asymmetric orbits as $\varepsilon$ falls")
     names = _draw_manifold(left, tables["csv"])
     ends = _draw_pairs(right, tables["pairs"])
-    lines = [Line2D([], [], label=label, **style) for label, style in (("stable", STABLE), ("unstable", UNSTABLE))]
+    looks = {"stable": style.STABLE, "unstable": style.UNSTABLE}
+    lines = [Line2D([], [], label=label, **look) for label, look in looks.items()]
     marks = [handle for axes in (left, right) for handle in axes.get_legend_handles_labels()[0]]
     figure.legend(handles=[*marks, *lines], loc="outside lower center", ncols=len(marks) + 2, columnspacing=1.2)
     figure.get_layout_engine().set(wspace=0.06)
     name_curves(figure, {left: names})
-    name_curves(figure, {right: ends}, fontsize=8, color=BLACK)
+    name_curves(figure, {right: ends}, fontsize=8, color=style.BLACK)
     return figure
 
 
 def _draw_manifold(axes, table):
     """Draw the part of the manifold around its asymmetric branch; return the name and the line of each branch."""
     lines = {}
-    for series, style in PIECES.items():
+    for series, look in PIECES.items():
         piece = table[table["series"] == series]
-        lines[series] = axes.plot(piece["C"], piece["B"], **style)
+        lines[series] = axes.plot(piece["C"], piece["B"], **look)
     points = table[table["series"] == POINT]
     axes.plot(points["C"], points["B"], label="fixed points", **POINT_MARK)
     # Figure 10.4 shows the rest of the manifold.
@@ -249,7 +242,7 @@ def _draw_pairs(axes, pairs):
     ends = pd.Series(np.select([last["epsilon"] == 0, last["asymmetry"] == 0, meets], ENDS, ""), last.index)
     for (case, mine), mark in zip(pairs.groupby("case", sort=False), cycle(ORBIT_MARKS), strict=False):
         for (_, verdict), way in mine.groupby(["label", "exact"], sort=False):
-            look = (STABLE if verdict == "stable" else UNSTABLE) | {"color": mark["color"]}
+            look = (style.STABLE if verdict == "stable" else style.UNSTABLE) | {"color": mark["color"]}
             line = axes.plot(way["epsilon"], way["asymmetry"], **look)
             named.setdefault(ends[way.index[-1]], []).extend(line)
         label = f"exact orbits, {case} forces" if case in CASES else f"exact orbits, case {case}"

@@ -36,7 +36,7 @@ SPEC = {
         "solid and unstable dashed, symmetric ones blue and asymmetric ones green, both labelled, with thin vertical "
         "lines at the cases, and large grey or small black dots for periodic or other attractors of simulations.",
     "method": "continuation of fixed points and exact 1:1 responses; attractors by direct integration of (10.1) from "
-        "many starts, until the motion repeats",
+        "several starts, until the motion repeats",
     "columns": {
         "panel": {"meaning": "a letter for each path, in the order of the config"},
         "series": {"meaning": "family of the branch", "values": ["symmetric orbit", "asymmetric orbit",

@@ -31,8 +31,6 @@ SPEC = {
 PERTURBATION, CYCLES, PER_CYCLE = 1e-6, 40, 40
 """Initial shift of ball 2 from the orbit in units of L, length of the run in forcing periods, samples per period."""
 BALL = "Y2"
-REST_POSITIONS = [-3.0, 3.0]
-"""Rest positions of the boxes in the moving picture, in units of L."""
 COLUMNS = {
     "motion": ["t", "X1", "Y1", "X2", "Y2"],
     "impacts": ["t", "module", "wall"],
@@ -78,7 +76,6 @@ def page_data(tables: dict[str, pd.DataFrame]) -> dict:
     rounded = {name: tables[name].astype(float).round(4) for name in ("motion", "impacts", "flights")}
     return {
         "cycles": int(tables["distance"]["t"].max()) if len(tables["distance"]) else 0,
-        "places": REST_POSITIONS,
         "motion": rounded["motion"].to_dict("list"),
         **{name: rounded[name].to_numpy().tolist() for name in ("impacts", "flights")},
         "distance": [float(f"{value:.3g}") for value in tables["distance"]["distance"]],

@@ -1,4 +1,4 @@
-"""Predict the cost of a sweep and its number of tiles; only the standard library is used."""
+"""Predict the cost of a sweep and its number of tiles."""
 
 import math
 from collections.abc import Mapping

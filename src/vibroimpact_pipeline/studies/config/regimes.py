@@ -97,7 +97,7 @@ class EpsilonRange(Section):
 
 
 class Asymmetric(EpsilonRange):
-    """Pairs of asymmetric orbits for decreasing epsilon, drawn over the manifold."""
+    """Asymmetric orbits, followed to small epsilon, and the manifold."""
 
     C_max: fields.real("Right end of the manifold, above the derived limits", fields.BEYOND_LIMITS, 100)
 
