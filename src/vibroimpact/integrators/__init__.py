@@ -1,4 +1,4 @@
-"""Integrators of the same system with a common protocol, for comparison with the engine."""
+"""Integrators of (10.2), the engine and others for comparison with it, with a common protocol."""
 
 from vibroimpact.integrators import ivanov, penalty, solve_ivp
 from vibroimpact.integrators.event_driven import CertifiedEngine, Engine
@@ -21,4 +21,4 @@ METHODS = [
 ]
 """All methods, in the order of tables and legends."""
 TIMED = [METHODS[0], CertifiedEngine(), *METHODS[1:]]
-"""METHODS with the certified engine as the second one, in the order of tables."""
+"""METHODS with the certified engine inserted in second place, in the order of tables."""

@@ -1,16 +1,19 @@
-"""Laws of compliant contact: the force on a ball at depth p beyond a wall; a spring over the whole box has p = |W|.
+"""Laws of compliant contact, which give the force on a ball at depth p beyond a wall.
+
+In a law without walls the force acts at every position of the ball in its box, and p = |W|.
 
 All laws have the form K p^n + D p^m p'. In the phase plane of p and V = p', with the mass mu = epsilon / (1 + epsilon)
 of the relative motion, V dV/dp = -(K p^n + D p^m V) / mu.
 
 If m = (n - 1) / 2, the substitution u = p^((n + 1) / 2) gives V dV/du = -2 (K u + D V) / ((n + 1) mu). This is a linear
-oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact is half a period, which multiplies every
-speed by exp(-pi zeta / sqrt(1 - zeta^2)) (Antypov and Elliott 2011, for n = 3/2). So the restitution coefficient is the
-same at every speed.
+oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact lasts half a period of this oscillator,
+which multiplies every speed by exp(-pi zeta / sqrt(1 - zeta^2)) (Antypov and Elliott 2011, for n = 3/2). So the
+restitution coefficient is the same at every speed.
 
-If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. The integral from speed V to speed -kappa V at
-the same p vanishes if (1 + kappa) d = log((1 + d) / (1 - kappa d)), d = D V / K. So D must be proportional to 1 / V.
-One D gives kappa at one speed only; therefore D is set at each impact (as by Lankarani and Nikravesh, 1990).
+If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. A contact begins with speed V at p = 0 and
+ends with speed -kappa V at p = 0, so that the integral of the right-hand side is zero. The left-hand side then gives
+(1 + kappa) d = log((1 + d) / (1 - kappa d)), d = D V / K. So D must be proportional to 1 / V. One D gives kappa at one
+speed only; therefore D is set at each impact (as by Lankarani and Nikravesh, 1990).
 """
 
 import math
@@ -26,8 +29,8 @@ NEARLY_ELASTIC = 1e-5
 class Law:
     """Contact force K p^n + D p^m p'.
 
-    stiffness: exponent n. damping: exponent m. walls: True if p is the depth beyond a wall, False for a spring over the
-    box, p = |W|.
+    stiffness: exponent n. damping: exponent m. walls: True if p is the depth beyond a wall; False if the force acts at
+    every position of the ball in its box, with p = |W|.
     """
 
     stiffness: float
@@ -57,12 +60,13 @@ def stiffness_of(law: Law, mass: float, duration: float) -> float:
 
 
 def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float) -> float:
-    """Return the stiffness K of a spring over the whole box for which a ball with speed 1 in the middle turns at W = 1.
+    """Return the stiffness K of a law without walls for which a ball with speed 1 at W = 0 turns at W = 1.
 
-    K is proportional to the square of this speed.
+    For another speed at W = 0, K is multiplied by the square of that speed.
     """
     zeta = damping_ratio(kappa)
-    deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))  # omega times the largest u at speed 1
+    # `deepest` is the largest u at speed 1, times the frequency sqrt(2 K / ((n + 1) mu)) of the undamped oscillator.
+    deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))
     return 0.5 * (law.stiffness + 1.0) * mass * deepest**2
 
 

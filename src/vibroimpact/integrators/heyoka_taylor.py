@@ -1,10 +1,11 @@
 """Integrate with heyoka's adaptive Taylor method; the callbacks of events at the walls apply the impact law.
 
-This is the fastest way found to use heyoka here. Two states for the forcing phase avoid transcendental functions in the
-recursion. There is one directed event per wall, and no compact mode. Each contact state of the balls has its own
-integrator, which is compiled once, since all parameters are set at run time. After an event heyoka ignores the same
-event during a cooldown, in which a short flight could end undetected. So a ball whose rebound is slower than SLOWEST
-sticks if the box presses it against the wall.
+This is the fastest way found to use heyoka here. Sine and cosine of the forcing phase are two further states, so that
+the recursion contains no transcendental functions. There is one directed event per wall, and heyoka's compact mode is
+off. Each contact state of the balls has its own integrator for each tolerance, which is compiled once, since all
+parameters are set at run time. After an event heyoka ignores the same event during a cooldown, in which a short flight
+could end undetected. So a ball whose rebound is slower than sqrt(tolerance) or SLOWEST, whichever is larger, sticks if
+the box presses it against the wall.
 """
 
 from functools import lru_cache
@@ -54,8 +55,8 @@ class HeyokaTaylor(Method):
 def _right_hand_side(stuck):
     """Return the state variables, the accelerations of the boxes, and the equations as pairs (variable, derivative).
 
-    The equations include those of the sine and cosine of the forcing phase. Their parameters are the entries of
-    `coefficients`.
+    The equations include those of the sine and cosine of the forcing phase. The parameters of all equations are the
+    entries of `coefficients`.
     """
     s, (sine, cosine) = heyoka.make_vars(*STATE), heyoka.make_vars("sine", "cosine")
     q = {name: heyoka.par[k] for k, name in enumerate(NAMES)}
@@ -83,9 +84,10 @@ class _Integrator:
         self._state = self._taylor.state  # a view of the integrator's memory
 
     def propagate(self, contacts, tau, state, end, limit):
-        """Integrate to a change of the contact state or to `end`; return (tau, state, steps, module, failure).
+        """Integrate to `end` or to an event that stops the flight; return (tau, state, steps, module, failure).
 
-        module: module of the event, or None. failure: outcome of heyoka if it failed, or None.
+        module: index (0 or 1) of the module whose event stopped the flight, or None. failure: heyoka's outcome if
+        heyoka failed, or None. limit: largest number of steps.
         """
         taylor, system = self._taylor, contacts.system
         taylor.pars[:] = coefficients(system)[: len(taylor.pars)]  # only the parameters that the equations use
@@ -117,8 +119,8 @@ class _Integrator:
     def _impact(self, i, wall):
         """Return the callback that applies the impact law to the state in place.
 
-        If a ball is stuck, or so slow that it may stick, the callback only stops the flight, and `Contacts` then
-        updates the state.
+        If any ball is stuck, or if ball i is so slow that it may stick, the callback only stops the flight, and
+        `Contacts` then updates the state.
         """
         s_box, s_ball = 4 + BOXES[i], 4 + BALLS[i]
 

@@ -1,12 +1,13 @@
 """Ivanov's transformation, extended to two walls: coordinates in which impacts are continuous.
 
-The box is unfolded (Zhuravlev 1976): W = T(s), where T is a triangular wave of slope +1 or -1 with walls at odd s. In
-s the ball passes through the walls, and the unit of its speed changes there (Ivanov 1994): W' = T'(s) R v with
+The box is unfolded (Zhuravlev 1976) into a row of boxes n = 0, +-1, +-2, ... on a line s: W = T(s), where T is a
+triangular wave of slope +1 or -1 with walls at odd s. On this line the ball passes through the walls, and the unit of
+its speed changes there (Ivanov 1994): W' = T'(s) R v with
 
     R = 1 + k sgn(v) p,   k = (1 - kappa) / (1 + kappa),   p = s - 2n in [-1, 1] in box n,   T = (-1)^n p,
 
-so that R falls from 1 + k to 1 - k at a wall. The ratio of both values is kappa, so that v is continuous. With the
-acceleration a of W in flight,
+so that R falls from 1 + k to 1 - k when the ball passes through a wall. The ratio (1 - k) / (1 + k) is kappa, so that
+v is continuous. With the acceleration a of W in flight,
 
     s' = R v,   v' = (-1)^n a / R - k v |v|.
 
@@ -137,7 +138,7 @@ def _impact(tau, i, box, direction, speed, k):
 def _march_across_jumps(q, k, z, tau0, h, count):
     """Take `count` steps across jumps, without locating them.
 
-    Return coordinates and boxes at the end, impacts, number of steps, and nan (see `_march_to_jumps`).
+    Return coordinates and boxes at the end, impacts, number of steps, and nan, since endless chatter is not detected.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, signs = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
@@ -187,7 +188,7 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, signs):
-    """Bisect the fraction `part` of a step to the shortest fraction of the step that ends beyond a jump.
+    """Find by bisection the shortest fraction of a step, at most `part`, after which the coordinates are beyond a jump.
 
     Return this fraction and the coordinates at its end.
     """

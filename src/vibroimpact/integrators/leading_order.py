@@ -12,7 +12,7 @@ from vibroimpact.theory.response import impact_times, leading_order
 
 
 class LeadingOrder(Method):
-    """Leading-order response of the stable fixed point nearest to the initial state; its error is of order epsilon."""
+    """Leading-order response (error of order epsilon) of the stable fixed point nearest to the initial state."""
 
     name, family, knob, settings, careful = "leading order", "multiple scales", "order", (0,), 0
 

@@ -24,10 +24,11 @@ from vibroimpact.integrators.rigid_contact import (
 from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 
 WORST = 1e8
-"""Condition number of the eigenvectors at which the modes have lost half of their digits."""
+"""Limit on the condition number of the eigenvectors, at which rounding errors take half of the digits of the mode
+amplitudes."""
 TRIES, LAST_STEP = 60, 3e-8
-"""Limits of Newton's method for an event: largest number of steps, and step length [tau] below which it ends. The
-square of this length is negligible."""
+"""Limits of Newton's method for an event: largest number of steps, and step length [tau] below which it ends. The error
+after such a step is of the order of the squared step length, which is negligible."""
 
 
 class Modal(Method):
@@ -171,10 +172,10 @@ def _march(q, tables, s, tau, end, step, limit):
 
 @inlined_source()
 def _fly(q, flight, tau, length, stride, most, memory):
-    """Sample a flight up to an event, to its end `length` or to `most` samples; return (module or -1, time, samples).
+    """Sample a flight until an event, the time `length` or `most` samples; return (module, time, number of samples).
 
-    The returned module is that of the event, or -1. The state at the returned time is written to memory[2]. stride:
-    time between samples, and the factors by which amplitudes change over this time.
+    The module is that of the event, or -1 without an event. The state at the returned time is written to memory[2].
+    stride: time between samples, and the factors by which amplitudes change over this time.
     """
     (s, walls, count, shape, rates, amplitudes), (step, ahead), (modes, states, reached) = flight, stride, memory
     (now, trial, turns), (before, there, event) = modes, states

@@ -67,7 +67,7 @@ def _march(q, s, tau0, h, steps):
 
 @disk_cached()
 def _closed(gap, speed, g):
-    """Return the wall (+1 or -1) that a ball reaches in the time g, half a step, at constant speed, or 0 if none."""
+    """Return the wall (+1 or -1) that a ball reaches at constant speed in the time g (half a step), or 0 if none."""
     ahead = gap + g * speed
     return 1 if ahead >= 1.0 else (-1 if ahead <= -1.0 else 0)
 

@@ -29,7 +29,7 @@ SLOWEST = 1e-3
 """Contacts slower than this speed V have the damping of a contact at V, since damping proportional to 1 / V has no
 limit at V = 0."""
 SLOWEST_COUNTED = 0.01
-"""For a spring over the whole box: lowest speed of a ball, in the middle of the box, for its impact to be counted."""
+"""For a law without walls: lowest speed of a ball at W = 0 for which an impact is counted."""
 HALVINGS = 40  # largest number of bisections to locate the beginning of a contact within a step
 _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
@@ -66,9 +66,9 @@ class Penalty(Method):
 
 
 class PowerLaw(Penalty):
-    """Integration with a spring W^(2n - 1) over the whole box instead of walls; the setting is n.
+    """Integration with a spring force K W^(2n - 1) instead of walls; the setting is n.
 
-    A ball with speed 1 in the middle of its box turns at W = 1.
+    A ball with speed 1 at W = 0 turns at W = 1.
     """
 
     knob = "exponent"
@@ -103,7 +103,7 @@ METHODS = [
 
 @disk_cached()
 def force(gap, speed, law, damping):
-    """Return the force of the walls on a ball, for its W and W' and the damping D of the present contact.
+    """Return the contact force on a ball, given its W (`gap`) and W' (`speed`) and the damping D of the contact.
 
     The force on the box has the opposite sign.
     """

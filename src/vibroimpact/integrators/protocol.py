@@ -11,7 +11,8 @@ IMPACT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("speed", "f
 """Data type of an impact: time, module 1 or 2, wall +1 or -1, speed |W'| just before."""
 
 FINISHED, REFUSED, UNFINISHED = "finished", "refused", "unfinished"
-"""Outcomes of a run: it has a result, the method raised or returned an error, or the method ran out of steps."""
+"""Outcomes of a run: it has a result; the method refused the system or failed; the method ran out of steps or stalled
+in an endless chatter."""
 
 
 @dataclass(eq=False)
@@ -43,7 +44,9 @@ class MethodRun:
 
 
 class Method(ABC):
-    """An integrator of (10.2). To add one, write a file with a subclass and list it in `integrators.METHODS`.
+    """An integrator of (10.2).
+
+    To add an integrator, write a file with a subclass and list an instance of the subclass in `integrators.METHODS`.
 
     name, family: texts for tables and legends. knob: what a setting is, such as "steps per cycle". settings: values
     from coarse to fine. careful: the setting that a careful user would choose for difficult motions. order: expected

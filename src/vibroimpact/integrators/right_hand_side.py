@@ -1,4 +1,7 @@
-"""Compiled right-hand side of (10.2) between impacts, for general-purpose integrators; states in the public order."""
+"""Compiled right-hand side of (10.2) between impacts, for general-purpose integrators.
+
+States are [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
+"""
 
 import math
 from functools import partial
@@ -14,8 +17,8 @@ NAMES = "k11", "k12", "k22", "c11", "c12", "c22", "f1", "f2", "omega", "epsilon"
 inlined = partial(disk_cached, error_model="numpy", forceinline=True, _nrt=False, fastmath={"contract"})
 """Decorator for functions that run at every step; Numba inlines cached code only if this is requested."""
 inlined_source = partial(disk_cached, inline="always")
-"""Decorator for functions that round like their caller. When these functions are called from SciPy's integrators, they
-use no fused multiply-add."""
+"""Decorator for functions whose source is inlined, so that they round like their caller: with fused multiply-add if the
+caller is compiled with the option "contract", and without in `rates`, which SciPy's integrators call."""
 
 
 def coefficients(system) -> np.ndarray:

@@ -14,7 +14,8 @@ from vibroimpact.exact.engine.compiled import disk_cached
 from vibroimpact.integrators.right_hand_side import accelerations, coefficients, inlined
 
 SLOWEST = 1e-6
-"""A ball with a slower rebound may stick at once. This changes the state by epsilon SLOWEST^3, less than rounding."""
+"""A ball whose rebound is slower sticks at once if its box presses it against the wall. This changes the state by
+epsilon SLOWEST^3, less than rounding."""
 INITIAL_ROWS = 64
 """Initial number of rows for the impacts of a run."""
 
@@ -69,7 +70,7 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 
 @inlined()
 def first_sample_time(tau, s, q, walls, step):
-    """Return the time of the first sample, counted from `tau`, so that no short flight is missed.
+    """Return the time from `tau` to the first sample of a flight, so short that no short flight is missed.
 
     This time is `step` or, if shorter, half the expected duration of a flight that begins at a wall at `tau`.
     """

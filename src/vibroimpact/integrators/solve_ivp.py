@@ -16,7 +16,8 @@ PATIENCE = 100  # largest number of successive events without progress in time
 class SolveIvp(Method):
     """One method of solve_ivp, with compiled right-hand side and Jacobian; the setting is rtol.
 
-    The first step after an impact is at most half the expected time of the flight, so that no chatter is stepped over.
+    The first step after an impact is at most half the expected duration of the flight, so that no impact of a chatter
+    is stepped over.
     """
 
     family, knob = "solve_ivp", "rtol"
