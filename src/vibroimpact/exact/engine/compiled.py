@@ -1,8 +1,8 @@
 """Decorators that compile the inner loops with Numba, cache them on disk and release the interpreter lock.
 
-Rounding: functions that compute a step of a run round every operation as written, so that a single run and the same
-run in a lane of an ensemble (`vectors`) agree bit by bit. In functions decorated by `compiled`, and in `inlined_source`
-functions within them, the compiler may round a product and a sum together, once.
+Rounding: functions that compute a step of a run round every operation as written, so that a formula gives the same bits
+for floats and for the lanes of an ensemble (`vectors`). In functions decorated by `compiled`, and in `inlined_source`
+functions within them, the compiler may fuse a product and a sum, which are then rounded only once.
 
 Inlining: functions that run at every event become part of the loop, because passing a motion and its Taylor polynomials
 (about 30 numbers) would cost more than the computation. Most functions with a single caller are inlined as source
@@ -11,11 +11,12 @@ Inlining: functions that run at every event become part of the loop, because pas
 References: only `compiled` functions, and `inlined_source` functions in them, create or return arrays. All others work
 in arrays of their caller without reference counting, which would cost an atomic operation and a call per reference.
 
-Each decorator sets fastmath, inlining and reference counting explicitly. Otherwise Numba would take an option that is
-not set from the caller that is compiled first.
+Each decorator sets fastmath, inlining and reference counting explicitly, because Numba takes missing options from
+whichever caller is compiled first.
 
 The cache key covers the content of all sources that may be compiled into a function. Numba itself checks only the file
-of the function, not the files of the functions it calls. With NUMBA_CACHE_DIR set, the user must clear an old cache.
+of the function, not the files of the functions it calls. If NUMBA_CACHE_DIR is set, there is no such key, and the user
+must clear the cache after a change of the sources.
 """
 
 import hashlib

@@ -26,7 +26,7 @@ from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses,
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 NEGLIGIBLE = 1e-18  # largest change of the state that completing a chatter may neglect
-HIGHEST_HOP = 1e-12  # largest height of a hop, relative to the ball's play, at which a chatter may be completed
+HIGHEST_HOP = 1e-12  # largest height of a hop, measured in W, at which a chatter may be completed
 
 
 class Motion(NamedTuple):
@@ -93,7 +93,8 @@ def free_flight(flow, motion, t):
 
 EVENTS, FLIGHTS, EXCLUSIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
 """Indices of a run's counters, and the number of counters. RESIDUAL: largest ||W| - 1| at an impact. NEGLECTED: sum of
-the bounds on the neglected changes of the state due to completing chatters. The others are counts."""
+the bounds on the neglected changes of the state due to completing chatters. The others are counts; EXCLUSIONS counts
+the proofs that an interval has no event."""
 
 
 class Log(NamedTuple):
@@ -255,10 +256,10 @@ def resolve(flow, motion, elapsed, remaining, due, log):
 
 @inlined_source
 def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
-    """Apply the impact of ball i, which flies, if the ball has reached a wall; due: True if the impact is due now.
+    """Apply the impact of ball i, which flies, if the ball has reached a wall; return (motion, soon).
 
-    Returns (motion, True if a chatter that begins with this impact would end soon: within half the remaining time, and
-    within half the time that one proof covers).
+    due: True if the impact is due now. soon: True if a chatter that begins with this impact would end within half the
+    remaining time and within half the time that one proof covers.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]

@@ -63,7 +63,7 @@ POSITIONS = (X1, X1), (X2, X2)
 FORMS = *POSITIONS, (SINE, V1), (SINE, V2), (V1, V1), (V2, V2), (V1 - V2, V1 - V2)
 """Quadratic forms to integrate, as products of two linear forms: X_1^2, X_2^2 and the terms of the energy balance."""
 OBSERVED = np.stack([(np.outer(one, other) + np.outer(other, one)) / 2 for one, other in FORMS])
-"""Matrices G with z G z = each of these forms, (7, 6, 6)."""
+"""Symmetric matrices G, (7, 6, 6): z G z is the value of each of the FORMS."""
 LOSSES, STORED, ENTRIES = 7, 9, 10
 """First index of the losses, index of the stored energy, and length of a row of energies. The row contains 7 integrals,
 the losses in the impacts of both modules, and the change of the stored energy."""

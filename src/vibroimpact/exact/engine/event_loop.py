@@ -1,10 +1,10 @@
 """Integrate (10.2) from event to event: flights, impacts, chatter, sticking and release.
 
 Between events the flow is linear and evaluated in closed form (flow.advance). For each module, exclusion.module_time
-proves that the module has no event over some time, or returns the time at which its next event certainly happens. If
-the first event is certain, Newton's method finds its time, starting at the nearest time of the flow table. If no event
-is certain, the flight continues to the end of the proved interval, so that no event is missed. Events
-(contact.resolve):
+proves that the module has no event over some time (an exclusion), or returns the time at which its next event certainly
+happens. If the first event is certain, Newton's method finds its time, if necessary from the Taylor polynomials about
+the nearest time of the flow table. If no event is certain, the flight continues to the end of the proved interval, so
+that no event is missed. Events (contact.resolve):
 
 impact    a ball meets a wall with outward relative velocity: Newton's restitution rule, momentum conserved;
 stick     the end of a chatter, infinitely many impacts in a finite time. A chatter is completed at once when this
@@ -42,10 +42,10 @@ STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 
 @inlined_source
 def fly(flow, motion, remaining, most_proofs, counters):
-    """Fly to the next event, or at most to the end of run or flow table; return (time, module due or -1, boxes, balls).
+    """Fly to the next event or to the end of the run or of the flow table; return (time, module, boxes, balls).
 
-    In place of the module, STUCK_IN_TIME is returned if time does not advance, and OUT_OF_PROOFS if the run needs more
-    than `most_proofs` exclusions.
+    module: index of the module in which an event is due, or -1. In its place, STUCK_IN_TIME is returned if time does
+    not advance, and OUT_OF_PROOFS if the run needs more than `most_proofs` proofs that no event happens.
     """
     q = flow.coefficients
     mode = mode_of(motion.walls)
@@ -135,7 +135,8 @@ FAILURES = {
     CROWDED: "there are too many events",
     EXHAUSTED: "there are too many proofs that no event happens",
 }
-ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096  # initial number of rows for events; few runs need more
+ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096
+"""Initial number of rows for events: constant, per cycle, and largest number. Few runs need more rows."""
 MOST_AT_ONCE = 8  # most events at one instant: for each module an impact, a stick, a release and the end of a chatter
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 need more."""
@@ -145,9 +146,10 @@ MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """Terms of the limit on the number of exclusions in a run: constant, per event and per time `Flow.unit`."""
 ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages
 EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
-"""Indices in the array of a run, (RUN_LENGTH,). The array contains the state in public order, the other fields of
-`Progress`, the number of events in earlier rows (EARLIER_EVENTS), the phase at the start with its rounding remainder
-and the number of forcing cycles (from SPAN on), and the time on the sample clock at the start (CLOCK)."""
+"""Indices in the array of a run, (RUN_LENGTH,). The array contains the state in public order (`contact.pack`), the
+other fields of `Progress`, the number of events in earlier rows (EARLIER_EVENTS), the phase at the start with its
+rounding remainder and the number of forcing cycles (from SPAN on), and the time on the sample clock at the start
+(CLOCK)."""
 
 
 class Progress(NamedTuple):
@@ -174,12 +176,12 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
 
     numbers, series, rotations: from `flow.tables_of`. times (n,): ascending sample times on the clock of the run.
     samples (n, 8): filled with the states at these times, at the time of an event with the state after the event. run,
-    rows, counters: as from `memory`; updated. run[:8] is then the state reached.
+    rows, counters: as from `memory`; updated, so that run[:8] is the state reached.
 
     The status is PAUSED if the rows may be too few for the events of the next instant, or after INTERRUPT_INTERVAL
-    exclusions, so that the interpreter can handle an interrupt. To continue, call the function again with new rows,
-    after counting the events in the rows as earlier events. Only a number is returned, because an interrupt during the
-    conversion of a tuple would leave the tuple incomplete.
+    exclusions, so that the interpreter can handle an interrupt. To continue, call the function again. If the rows were
+    too few, first replace them by new rows and add the number of their events to run[EARLIER_EVENTS]. Only a number is
+    returned, because an interrupt during the conversion of a tuple would leave the tuple incomplete.
     """
     boxes, balls = (run[0], run[2], run[4], run[6]), (run[1], run[3], run[5], run[7])
     motion = Motion(boxes, balls, (int(run[8]), int(run[9])), (int(run[10]), int(run[11])), 0.0, 1.0)
@@ -210,7 +212,7 @@ def memory(state, phase, tail, cycles, clock):
 def run_until(flow, progress, span, sampling, log, earlier, interval):
     """Continue a run to its end or to a pause; return (progress, status).
 
-    The run pauses if `log.rows` are full or after more than `interval` exclusions.
+    The run pauses if `log.rows` may be too few for the next instant, or after more than `interval` exclusions.
 
     span: forcing phase at the start of the run with its rounding remainder, and number of forcing cycles. sampling:
     time on the clock of the samples at the start of the run, ascending sample times (n,) on this clock, and array

@@ -160,7 +160,8 @@ def jet_at(flow, mode, boxes, sine, cosine, j):
 def acceleration(q, inverses, positions, velocities, forces):
     """Return the accelerations of both boxes; inverses: 1 / moving mass of each module.
 
-    If positions, velocities and forces are time derivatives of order k, so is the result.
+    Given the k-th time derivatives of positions, velocities and forces, the result is the k-th time derivative of the
+    accelerations.
     """
     (i1, i2), (x1, x2), (v1, v2), (s1, s2) = inverses, positions, velocities, forces
     a1 = i1 * (s1 - q.k11 * x1 - q.k12 * x2 - q.c11 * v1 - q.c12 * v2)

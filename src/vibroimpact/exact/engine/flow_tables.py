@@ -24,8 +24,8 @@ def exact_rates(parameters):
     (n, 2, 4, 6, 6). Velocity changes: (1 + kappa) / (1 + epsilon) as pairs, (n, 2), the velocity change of a ball at an
     impact per unit of relative velocity. Fastest rates: due to stiffness and due to damping, (n, 2).
 
-    With rounded entries, the forces of a stiff coupling would not cancel exactly when both boxes move equally. The
-    lower natural frequency would then be shifted.
+    If the entries were rounded to one float each, the forces of a stiff coupling would not cancel exactly when both
+    boxes move equally. The lower natural frequency would then be shifted.
     """
     n = len(parameters)
     rates, impulses, fastest = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2)), np.empty((n, 2))

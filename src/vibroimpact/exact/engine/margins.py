@@ -93,7 +93,7 @@ def _rate(q, jets, boxes, balls, walls, i, bound):
     """Return (polynomial (8,), bounds (8,) on its error) for the rate of the constraint of module i, up to the sign.
 
     The constraint is the gap if the ball flies, and the acceleration of the box if the ball sticks. Just after a
-    release the rate is zero; the derivative of the rate is set to 0 if it is zero within rounding.
+    release the rate of the gap is zero. The derivative of this rate is then set to 0 if it is zero within rounding.
     """
     p = jets[0] if i == 0 else jets[1]
     if walls[i] != 0:
@@ -108,7 +108,7 @@ def _rate(q, jets, boxes, balls, walls, i, bound):
 
 @inlined
 def _turns_once(rate, doubt, t):
-    """Return True if the rate certainly changes sign at most once on [0, t]; doubt: bounds on its error."""
+    """Return True if the rate certainly changes sign at most once on [0, t]; doubt: bounds on the error of the rate."""
     if value(doubt, t) * t < NEGLIGIBLE_DOUBT:
         doubt = (0.0,) * 8
     if _one_sign(rate, doubt, t):
@@ -174,7 +174,8 @@ def margins_of(q, flights, turns, events, start_phase, duration):
 
     Each margin is the error of the state that would lead to a change: another contact state at the start of the run; an
     additional event at a turn (turning_points); a miss instead of an event (the depth), or an event only after the end
-    of the run; another effect of an impact on the sticking ball in the other module; an additional event at the end.
+    of the run; a different decision whether an impact releases the sticking ball in the other module; an additional
+    event at the end.
 
     Without the impact, a ball at relative speed u and deceleration b would reach the depth u^2 / (2 b) beyond the wall.
     Without deceleration the depth is inf. The doubt is 1 if rounding decides whether the ball hits the wall, else 0.

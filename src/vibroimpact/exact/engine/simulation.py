@@ -224,7 +224,7 @@ class Run(Representation):
     def errors(self, times: ArrayLike) -> np.ndarray:
         """Return estimated errors (n,) of the states at given times.
 
-        The estimates also include the rounding of the times, which `certificate.error` at the end of the run does not.
+        Unlike `certificate.error`, the estimates also include the effect of rounding the given times.
 
         Parameters
         ----------
@@ -317,8 +317,9 @@ def simulate(
     ValueError
         If an argument is malformed, or if the initial state has a ball beyond a wall (|X_i - Y_i| > 1).
     ArithmeticError
-        If an invariant of the motion is violated (a ball passes through a wall, or time does not advance), or if there
-        are too many events (more than a million plus ten thousand per cycle) or exclusions (docs/engine.md).
+        If an invariant of the motion is violated (a ball passes through a wall, or time does not advance), or if the
+        run has too many events (more than a million plus ten thousand per cycle) or needs too many proofs that no event
+        happens (docs/engine.md).
 
     Notes
     -----
@@ -369,7 +370,7 @@ def simulate_many(
     ValueError
         If an argument is malformed, or if an initial state is invalid (the message gives the row of the state).
     ArithmeticError
-        If an invariant is violated in one of the runs.
+        As for `simulate`, if one of the runs fails.
 
     Examples
     --------

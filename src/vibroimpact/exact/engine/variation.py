@@ -79,7 +79,10 @@ def first_departure(start, phase):
 
 @inlined
 def next_departure(q, events, n, leaving, end):
-    """Return the `Departure` after event n, or `leaving` with the time and phase in `end` if there is no event n."""
+    """Return the `Departure` after event n, given the `Departure` before it, `leaving`.
+
+    If there is no event n, the result is a copy of `leaving` with the time and phase of `end`, (time, phase).
+    """
     if n == len(events):
         return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
     event, walls = events[n], leaving.walls

@@ -4,7 +4,7 @@ This is the only file that generates code through Numba's internals. It is teste
 pyproject.toml excludes later versions.
 
 The sums of rows are written with vectors since the compiler would not vectorise them. `Lanes` is the type of eight
-floats. Each operation on it rounds like the operation on a float, so that a formula gives the same bits for both.
+floats. Each operation on it rounds like the operation on a float, so that a formula gives the same bits for both types.
 Comparisons return a `Mask`, with which `where` selects values.
 """
 
@@ -89,7 +89,10 @@ def _wide(context, builder, value, kind):
 
 
 def _operation(function, operand, result, generate):
-    """Register code for an operation on one or two operands of the type `operand`; one of two Lanes may be a scalar."""
+    """Register code for an operation on one or two operands of the type `operand`.
+
+    If this type is Lanes, one of two operands may be a scalar.
+    """
     kind, scalar = type(operand), (types.Float | types.Integer if operand is LANES else Mask)
 
     class Typing(AbstractTemplate):
