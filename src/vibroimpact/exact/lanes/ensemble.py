@@ -166,7 +166,7 @@ def _combined(systems, states):
 def _run(known, begins, numbers, starts, stages, outcomes, places):
     """Run the initial states with the indices `places` and write their results to `outcomes`.
 
-    known, begins: systems and initial times. numbers: system of each run. stages: as for `loop.Piece`.
+    known, begins: systems and initial times. numbers: index of the system of each run. stages: as for `loop.Piece`.
     """
     (settle, cycles, length), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
     owners, energy, shape = numbers[places] - first, "energy" in outcomes.dtype.names, (len(places), outcomes.shape[1])

@@ -26,10 +26,10 @@ INTERRUPT_INTERVAL = 500_000  # number of steps between two checks for an interr
 class Piece(NamedTuple):
     """A piece of work: n runs to be computed, and their results.
 
-    numbers, rates, phases, potentials, drifts: data of each system. owners (n,): index of the system of each run.
-    starts (n, 8): initial states. stages: number of cycles before the observation, total number of cycles, and number
-    of cycles in each of the k windows of the observation. Results: status (n,), final (n, k, 8) and statistics (n, k,
-    STATISTICS).
+    numbers, rates, phases, potentials, drifts: data of each system, from `flow.numbers_of`, `flow.phase_at` and
+    `energy.potentials_of`. owners (n,): index of the system of each run. starts (n, 8): initial states. stages: number
+    of cycles before the observation, total number of cycles, and number of cycles in each of the k windows of the
+    observation. Results: status (n,), final (n, k, 8) and statistics (n, k, STATISTICS).
     """
 
     numbers: np.ndarray
@@ -95,7 +95,9 @@ def memory() -> Memory:
 
 @compiled
 def run_lanes(piece, memory):
-    """Run all initial states in a piece with the status FINISHED; write status, final states and statistics.
+    """Run the initial states of a piece; write status, final states and statistics.
+
+    Initial states whose status is not FINISHED before the first call are skipped.
 
     Returns True when all runs have ended, and False for a pause in which the caller can handle an interrupt. After a
     pause, call the function again.
@@ -232,7 +234,7 @@ def _handle_outcome(piece, lane, m):
 
 @in_place
 def _end_window(piece, flow, squares, motion, lane, m):
-    """Write the results of the window of observation that ends now; return True at the end of the run.
+    """Write the results of the observation window that ends now, if there is one; return True at the end of the run.
 
     If the run has not ended, begin the next window and return False.
     """
@@ -271,9 +273,10 @@ def _write_statistics(m, lane):
 
 @inlined_source
 def _run_by_events(piece, flow, squares, lane, m):
-    """Continue the run in a lane by the event loop until both balls fly; return PAUSED then, or its final status.
+    """Continue the run in a lane by the event loop until both balls fly or the run ends; return the status.
 
-    A new flight then begins in the lane.
+    The status is PAUSED if both balls fly; the lane then begins a new flight. Otherwise it is the final status of the
+    run.
     """
     runs, counters, unsampled = m.runs[:, lane], m.counters[lane], (0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[rows.FIRST, lane], m.constants[rows.FIRST_TAIL, lane]

@@ -33,7 +33,7 @@ EVENTS, STALLED: numbers of events, and of flights without progress in time
 OUTCOME: state of the lane after a pass (`steps.step_to_event`); STATISTICS_AT: first row of the statistics
 
 From TURNS_AT on, TURN rows for each box describe a turn that may be its largest displacement (`find_turns`): boxes and
-forcing at a time near the turn (6 rows); SINCE: approximate time from then to the turn; HIGHEST: bound on the
+forcing at a time near the turn (6 rows); SINCE: approximate time from these boxes to the turn; HIGHEST: bound on the
 displacement; KEPT: 1 if a turn is stored.
 """
 
@@ -47,14 +47,19 @@ DROPS = DRIFTS + len(energy.OBSERVED)
 CONSTANTS = DROPS + 12 * len(energy.OBSERVED)
 """Rows of the constants, (CONSTANTS, 8), one column per lane, for the system of the run in the lane:
 
-from 0: exp(A h) - 1 for a step h, four rows of six LOW_PARTS: rounding remainders of exp(A h) - 1 in the columns for
-the boxes, four rows of four; without the remainders, rounding errors would add up SCALARS_AT: scalars of
-`flow.numbers_of`, in their order CA, SA: cos - 1 and sin of Omega h; STEP: h BEND, BEND_FORCE: BEND times the root of
-twice the energy, plus BEND_FORCE, is a bound on (fourth derivative of a box displacement) / 72 ROUNDING,
-LEAST_ROUNDING: ROUNDING times the root of twice the energy, plus LEAST_ROUNDING, is a bound on rounding errors, without
-the part due to ball velocities LOSS: energy loss of an impact divided by its squared relative velocity FIRST,
-FIRST_TAIL: phase at the start of the run, and its remainder DRIFTS: drift c of each integral (`energy.Squares`) DROPS:
-for each integral, the two rows of its matrix S (`energy.Squares`) for the velocities of the boxes
+from 0: exp(A h) - 1 for a step h, four rows of six
+LOW_PARTS: rounding remainders of exp(A h) - 1 in the columns for the boxes, four rows of four; without the remainders,
+    rounding errors would add up
+SCALARS_AT: scalars of `flow.numbers_of`, in their order
+CA, SA: cos - 1 and sin of Omega h; STEP: h
+BEND, BEND_FORCE: BEND times the root of twice the energy, plus BEND_FORCE, is a bound on (fourth derivative of a box
+    displacement) / 72
+ROUNDING, LEAST_ROUNDING: ROUNDING times the root of twice the energy, plus LEAST_ROUNDING, is a bound on rounding
+    errors, without the part due to ball velocities
+LOSS: energy loss of an impact divided by its squared relative velocity
+FIRST, FIRST_TAIL: phase at the start of the run, and its remainder
+DRIFTS: drift c of each integral (`energy.Squares`)
+DROPS: for each integral, the two rows of its matrix S (`energy.Squares`) for the velocities of the boxes
 """
 
 LONGEST_STEP = 0.52  # longest step, multiplied by the largest rate of boxes and forcing

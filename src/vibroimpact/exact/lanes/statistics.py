@@ -166,10 +166,10 @@ def _add_piece(p, low, high, i, wall, statistics):
 def observe(runs, c, work, integrals, flight, hits, early, arrival):
     """Add the statistics of a flight in each lane and of the impact at its end, if there is one.
 
-    flight: mask of the lanes with a flight, the length of its last step, its duration, and five times the error of
-    Hermite's polynomial in this step. hits: for each module, the lanes with an impact. early: boxes and forcing before
-    the last step. arrival: positions of the boxes after this step, box velocities before and after the impact, ball
-    velocities before the impact, and forcing.
+    flight: mask of the lanes with a flight, the length of its last step, its duration, and five times a bound on the
+    error of Hermite's polynomial in this step. hits: for each module, the lanes with an impact. early: boxes and
+    forcing before the last step. arrival: positions of the boxes after this step, box velocities before and after the
+    impact, ball velocities before the impact, and forcing.
     """
     (there, t, time, wrong), (boxes, late, after, balls, forcing) = flight, arrival
     watched, third = (load(runs, rows.WATCHED) > 0.0) & there, t * (1 / 3)
@@ -215,8 +215,9 @@ def keep_turns(runs, c, work, turns, wrong, early, late, step):
 
     If a lane already has a stored turn that may be larger than the new turn, all stored turns are computed first.
 
-    early, late: boxes and forcing before and after the step. wrong: five times the error of Hermite's polynomial. The
-    polynomial is split near its turn, since the Bernstein coefficients of both parts are close to the polynomial there.
+    early, late: boxes and forcing before and after the step. wrong: five times a bound on the error of Hermite's
+    polynomial. The polynomial is split near its turn, since the Bernstein coefficients of both parts are close to the
+    polynomial there.
     """
     wrong = 0.2 * wrong
     for i in range(2):

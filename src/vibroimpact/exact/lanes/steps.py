@@ -1,12 +1,12 @@
 """Advance eight runs in parallel lanes through free flights and simple impacts; each lane has its own system.
 
-Between impacts each lane advances by its fixed step h, z' = exp(A h) z (`advance_lanes`). Only the change of z is
-computed and added, so that its rounding error is small. A step needs a proof that no impact happens in it. The position
-w of a ball in its box and the rate r of w, at both ends of the step, define Hermite's cubic polynomial. Its hull is
-given by the Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step. With a
-bound B on the fourth derivative, the error of the polynomial is at most B h^4 s^2 (1 - s)^2 / 24 at the fraction s of
-the step. Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows from
-the energy of the boxes, which cannot grow by more than the work of the force.
+Between impacts each lane advances by its fixed step h, in which z becomes exp(A h) z (`advance_lanes`). Only the change
+of z is computed and added, so that its rounding error is small. A step needs a proof that no impact happens in it. The
+position w of a ball in its box and the rate r of w, at both ends of the step, define Hermite's cubic polynomial. Its
+hull is given by the Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step.
+With a bound B on the fourth derivative, the error of the polynomial is at most B h^4 s^2 (1 - s)^2 / 24 at the fraction
+s of the step. Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows
+from the energy of the boxes, which cannot grow by more than the work of the force.
 
 Lanes whose step is not proved wait until they are numerous enough for a pass (`step_to_event`). In a pass, the Taylor
 polynomials of both boxes give the time of an impact, and the same hull proves that no impact happens before that time.
@@ -151,8 +151,9 @@ class Clock(NamedTuple):
 def step_to_event(runs, c, work, integrals):
     """Advance each waiting run to its next impact or, if it meets no wall so soon, by its trial step.
 
-    A run stays where it is, and its next trial step is half as long, unless it is proved that no ball meets a wall
-    before the end of the step. Returns the number of runs that need the event loop or have reached the end of a window.
+    If an impact before the end of the step cannot be excluded, the run stays where it is, and its next trial step is
+    half as long. Returns the number of runs that need the event loop or have reached the end of a window.
+
     work (2 ORDER + 2, 8): workspace for polynomials. integrals: number of observed integrals.
     """
     pending, leaves = load(runs, rows.OUTCOME) == WAITING, load(runs, rows.TRIAL) < 0.0
