@@ -23,7 +23,8 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED
 SAME = 1e-6
 """Largest difference between states that count as equal; near a bifurcation, errors are about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-# A ball is neutral if no entry of the row of its velocity in `run.jacobian` - 1 exceeds this times the largest entry.
+# A ball is neutral if no entry in the row of its velocity in D = `run.jacobian` - identity exceeds _NEUTRAL times the
+# largest entry of D or 1, whichever is larger.
 _NEUTRAL = 1e-10
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13

@@ -41,12 +41,12 @@ def extreme_depth(amplitudes) -> float:
 
 
 def swells(amplitudes) -> np.ndarray:
-    """Return the cycles in which the amplitude swells, as indices (s,) into the amplitudes (n,).
+    """Return the cycles in which a swell of the amplitude begins, as indices (s,) into the amplitudes (n,).
 
-    Measured from the smallest amplitude, in units of the range of the amplitudes, a swell begins when the amplitude
-    rises above 0.65 after it was below 0.35. The two thresholds exclude ripples.
+    A swell begins when the amplitude rises above 0.65 after it was below 0.35, where 0 is the smallest amplitude and 1
+    the largest. The two thresholds exclude ripples.
 
-    The differences between successive indices are the modulation periods. A steady response has no swells.
+    The differences between successive indices are the modulation periods in cycles. A steady response has no swells.
     """
     amplitudes = np.asarray(amplitudes, dtype=float)
     lowest, span = np.min(amplitudes), np.ptp(amplitudes)

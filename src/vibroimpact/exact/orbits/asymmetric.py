@@ -14,7 +14,8 @@ in total six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are t
 inactive module (see `System.modules`) has p_i = q_i = I_i = 0.
 
 The starts of Newton's method cover u_1, u_2 and the lag p_2 - p_1 evenly. For given values of these three, the
-equations are linear in I_i and in cosine and sine of the forcing phase, which start at their least-squares values.
+equations are linear in I_1, I_2 and the cosine and sine of the forcing phase. These four numbers start at their
+least-squares values.
 Roots may be missed.
 """
 

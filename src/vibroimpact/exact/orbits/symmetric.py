@@ -64,7 +64,7 @@ class SymmetricConditions:
         """Return P and dP, both (..., 2, 2) complex, of P C + i (1, 1) = forced response, for impact times (..., 2).
 
         P C collects all terms with the saw-tooth amplitudes C in the conditions of the modules. dP contains the
-        derivatives of P: the derivative of P by tau_i is +dP in row i and -dP in column i, and 0 on the diagonal.
+        derivatives of P: the one with respect to tau_i is +dP in row i and -dP in column i, and 0 on the diagonal.
         """
         x, v, a = self._response.between(times, _BOXES)
         own = np.eye(2)

@@ -29,7 +29,7 @@ class SteadyBoxes:
     Raises
     ------
     ValueError
-        If the boxes have an undamped resonance at a harmonic of the train or of the forcing.
+        If the boxes have an undamped resonance at a harmonic of the train or at the forcing frequency.
     """
 
     def __init__(self, system, sign: int):
@@ -112,7 +112,10 @@ class EnclosedConditions:
         return lags[2 * i + 1, 2 * i] / self.period
 
     def before(self, m, unknowns, lags):
-        """Return an array (4, 7): the state of the boxes just before impact m, then its derivatives by the unknowns."""
+        """Return the state of the boxes just before impact m with its derivatives, (4, 7).
+
+        Column 0 is the state; columns 1 to 6 are its derivatives with respect to the six unknowns.
+        """
         rate = acb(0, self.boxes.omega)
         forced = (self.boxes.amplitude * (rate * unknowns[m]).exp()).entries()
         state = np.full((4, 1 + _UNKNOWNS), arb(0))
@@ -131,7 +134,10 @@ class EnclosedConditions:
 
 
 def _jet(value, unknown=None):
-    """Return a value with its derivatives by the six unknowns, (7,); unknown: its index if it is an unknown."""
+    """Return a value with its derivatives with respect to the six unknowns, (7,).
+
+    unknown: index of the unknown that the value is; if None, the derivatives are 0.
+    """
     return np.array([value, *(arb(int(k == unknown)) for k in range(_UNKNOWNS))])
 
 

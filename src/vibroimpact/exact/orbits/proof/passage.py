@@ -26,7 +26,7 @@ class EnclosedPassage:
     """The motion at a root of `EnclosedConditions`; the root is given by intervals for the six unknowns.
 
     rate (10, 10): rate matrix of free flight. phases: times of the impacts in forcing periods. speeds: ball speeds on
-    the flights after the impacts. Both are dictionaries with the number of the impact as key.
+    the flights after the impacts. phases and speeds are dictionaries with the number of the impact as key.
     """
 
     def __init__(self, system, conditions, unknowns):
@@ -47,7 +47,7 @@ class EnclosedPassage:
     def states(self):
         """Yield the state (10, 1) at tau = 0.
 
-        If the first impact is within 1e-9 of tau = 0, yield the states before and after this impact.
+        If the first impact is within 1e-9 of tau = 0, also yield the state just after this impact.
         """
         *_, (last, first, state, _) = self.flights()
         yield (self.rate * (self._conditions.period - self._unknowns[last])).exp() * state
