@@ -1,4 +1,4 @@
-"""Measure the time per impact of every method on one motion, and of ensembles and single runs in typical scenes."""
+"""Measure the time per impact: of every method on one motion, and of ensembles and single runs on sets of motions."""
 
 from functools import partial
 
@@ -22,9 +22,9 @@ PROBLEM = Problem(
     100,
 )
 SINGLE_RUNS = 64
-"""Number of single runs per scene that are timed and compared with the ensemble."""
+"""Number of single runs per scene (see `scenes`) that are timed and compared with the ensemble."""
 SHORT = 10
-"""Number of cycles after which final states are compared; rounding errors grow in chaotic motions."""
+"""Number of cycles after which final states are compared; small, since rounding errors grow in chaotic motions."""
 
 
 def methods_table(seconds: float) -> list[dict]:
@@ -48,7 +48,7 @@ def methods_table(seconds: float) -> list[dict]:
 
 
 def scenes() -> dict[str, tuple]:
-    """Return the scenes, keyed by their descriptions: systems, initial states (n, 8) and number of cycles."""
+    """Return sets of n motions (scenes) by description, each as systems, initial states (n, 8) and number of cycles."""
     equal, weak = (System(**PARAMETERS, **CASES[case]) for case in ("equal", "weak"))
     sweep = [
         equal.with_(sigma_e_hat=detuning, f10_hat=force, f20_hat=force)
@@ -65,21 +65,22 @@ def scenes() -> dict[str, tuple]:
 
 
 def scenes_table(seconds: float) -> list[dict]:
-    """Return two rows per scene, for `ensemble` and for single runs: time per impact [us] on one core.
+    """Return two rows per scene of `scenes`, for `ensemble` and for single runs: time per impact [us] on one core.
 
-    The error of an ensemble is the median difference of its final states from those of single runs after SHORT cycles.
+    The error of an ensemble is the difference of a final state from that of the single run, after SHORT cycles, as the
+    largest over the coordinates and the median over SINGLE_RUNS runs.
 
     Parameters
     ----------
     seconds : float
-        Time [s] for which each of the two is repeated.
+        Time [s] for which the ensemble, and likewise the single runs, are repeated.
     """
     with at_most(1):
         return [row for name, scene in scenes().items() for row in _compared(name, *scene, seconds)]
 
 
 def _compared(name, systems, states, cycles, seconds):
-    """Return the two rows of a scene."""
+    """Return the two rows of `scenes_table` for one scene."""
     chosen = np.linspace(0, len(states) - 1, SINGLE_RUNS).astype(int)
     some = np.broadcast_to(np.asarray(systems, dtype=object), len(states))[chosen]
     pairs = list(zip(some, states[chosen], strict=True))

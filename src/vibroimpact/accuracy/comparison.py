@@ -1,4 +1,4 @@
-"""Compare methods by cost and stress tests, and choose the cheapest ones for each problem and error."""
+"""Compare methods by cost and stress tests, and choose the cheapest ones for each problem and allowed error."""
 
 from itertools import product
 
@@ -14,12 +14,12 @@ OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDL
 
 
 def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per method: relative cost, and counts of stress test results.
+    """Return one row per method, in the order of `work_precision`: relative cost, and counts of stress tests.
 
-    The methods have the order of `work_precision`. Columns method, family, problems (number of problems solved with an
-    error of at most 1e-6 and without missed or spurious impacts), times (largest ratio, over the problems, of the run
-    time to the run time of the first method; blank unless all problems are solved), right, wrong (silently), stopped
-    (by an error, or not finished), tests.
+    A problem is solved if a run has an error of at most 1e-6 and no missed or spurious impacts. Columns: method;
+    family; problems (number of solved problems); times (cost relative to the first method in the table, as the largest
+    ratio of the shortest times of runs that solve a problem; blank unless all problems are solved); and the numbers of
+    stress tests: right, wrong (without notice), stopped (by an error, or not finished), tests (all).
 
     Parameters
     ----------
@@ -40,11 +40,11 @@ def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> p
 
 
 def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
-    """Return the two cheapest methods for each problem and each error in GOALS.
+    """Return the two cheapest methods for each problem and each allowed error in GOALS.
 
-    `compared` is the result of `methods_table`; methods in it without stress tests are left out. Columns problem, error
-    (largest allowed error of the final state), choice (1, 2), method, setting, seconds_per_cycle, wrong (number of
-    stress tests with a silently wrong result), tests.
+    `compared` is the result of `methods_table`; methods without stress tests in this table are left out. Columns:
+    problem, error (largest allowed error of the final state), choice (1 or 2), method, setting, seconds_per_cycle,
+    wrong (number of stress tests with a wrong result without notice), tests (number of stress tests).
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]

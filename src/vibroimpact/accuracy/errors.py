@@ -16,9 +16,10 @@ WINDOW = 0.05
 class Errors(NamedTuple):
     """Errors of a run against a reference, named like the columns of tables.
 
-    error_state: largest difference of a coordinate of the final state (inf if the run has no final state). error_time:
-    largest time difference [tau] between matching impacts (0 if no impacts match). missed: number of impacts of the
-    reference without a match in the run. spurious: number of impacts of the run without a match in the reference.
+    error_state: largest difference of a coordinate of the final state. error_time: largest time difference [tau]
+    between matching impacts (0 if no impacts match). Both are inf if the run has no final state. missed: number of
+    impacts of the reference without a match in the run. spurious: number of impacts of the run without a match in the
+    reference.
     """
 
     error_state: float

@@ -30,9 +30,9 @@ MODELS = {
 }
 """Description of each model, keyed by its name in the config, in order of ascending cost.
 
-The slow flow solves (10.23). The exact orbit also solves the conditions of a symmetric orbit, and the second term
-solves these conditions at three values of epsilon. A reference run repeats a float64 run at least twice, with more
-digits.
+The model slow_flow needs the solutions of (10.23); exact_orbit also needs those of the conditions of a symmetric orbit,
+and second_term those of the same conditions at three values of epsilon. The model reference integrates the motion at
+least twice, with more digits than float64.
 """
 CHOICES = {
     "fixed_points": ("slow_flow", "exact_orbit"),

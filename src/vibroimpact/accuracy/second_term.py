@@ -47,7 +47,7 @@ def at_zero(slope):
 
 
 def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
-    """Return the system with the given epsilon, and the root (4,) of its symmetric conditions next to a fixed point.
+    """Return the system with the given epsilon, and the root (4,) of its SymmetricConditions next to a fixed point.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 
 
 def offsets(system, point, roots) -> np.ndarray:
-    """Subtract a fixed point from exact roots (..., 4); return the differences in C and phase [rad], (..., 2, 2).
+    """Subtract a fixed point from roots (..., 4) as in `near`; return differences in C and phase [rad], (..., 2, 2).
 
     Entries of an inactive module are NaN.
     """

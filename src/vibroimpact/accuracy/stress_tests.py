@@ -1,4 +1,4 @@
-"""Define stress tests, problems that are hard for a known reason, and judge every method on them.
+"""Define stress tests (problems that are hard for a known reason), and judge every method on them.
 
 To add a stress test, extend the function `stress_tests`.
 """
@@ -30,8 +30,8 @@ class StressTest:
     """A test problem: group (kind of difficulty), name, system, initial state (8,) at tau = 0, forcing cycles.
 
     faint: impacts with at most this rebound speed need not be found (0: all impacts must be found). reference_cycles:
-    smaller number of cycles for the reference, if the motion settles by then. quick: True if the test is in the reduced
-    set.
+    number of cycles of the reference run, fewer than `cycles`, for a motion that settles by then; None for all cycles.
+    quick: True if the test also belongs to the reduced set.
     """
 
     group: str
@@ -83,7 +83,7 @@ def stress_tests() -> list[StressTest]:
 
 
 def judge(test: StressTest, methods) -> list[dict]:
-    """Run each method with its careful setting on a stress test; return one row per method: verdict and errors."""
+    """Run each method with the setting `Method.careful` on a stress test; return rows with verdict and errors."""
     reference = reference_of(test)
     return [_row(test, method, reference) for method in methods]
 

@@ -1,4 +1,4 @@
-"""Time functions by repeated calls; the fastest call is the one least disturbed by other work on the machine."""
+"""Measure the run time of functions by repeated calls; the fastest call is least disturbed by other work."""
 
 import platform
 import time

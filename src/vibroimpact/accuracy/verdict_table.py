@@ -1,4 +1,4 @@
-"""Tabulate verdicts on all fixed points and orbits of a case: (10.26), fast, slow, theory, exact."""
+"""Tabulate the verdicts of all criteria in CRITERIA on the fixed points and orbits of a case."""
 
 import numpy as np
 
@@ -19,8 +19,8 @@ PROOF = "box_radius", "orbit_error", "moduli_error", "motion_proved", "floquet_p
 """Columns of `OrbitProof.row`; a table without rows has them as well."""
 NO_ORBIT = "no orbit"
 REACH = 1.0
-"""Largest distance in C between a fixed point and its orbit. Over the grid of forces at epsilon = 0.1 the distances are
-at most 0.29, except that they exceed 2.5 where the orbits next to two fixed points have merged."""
+"""Upper limit of the distance in C between a fixed point and its orbit. Over the verdict grid of the studies at epsilon
+= 0.1, the distances are at most 0.29, or above 2.5 where the orbits next to two fixed points have merged."""
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:

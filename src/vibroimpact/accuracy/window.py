@@ -24,7 +24,7 @@ class Window:
 
     samples: columns tau and the state, at evenly spaced times, both ends included. events: columns tau, module, wall,
     kind and the state just after the event. strobe: columns as in samples, at the start of every forcing cycle of the
-    whole run and at its end. trust: validation metadata of the run.
+    whole run and at its end. trust: how far the run can be trusted: method, and certificate or agreement of two runs.
     """
 
     samples: pd.DataFrame
@@ -66,7 +66,7 @@ def window(system: System, settings: dict) -> Window:
 
 
 def _integrate(system, settings, cycles, times):
-    """Return the run and its validation metadata."""
+    """Return the run and the value of `Window.trust`."""
     if settings["model"] not in ARITHMETICS:
         raise ValueError(f"model: {settings['model']!r} should be {' or '.join(ARITHMETICS)}")
     if settings["model"] == "float64":

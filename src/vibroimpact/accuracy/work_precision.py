@@ -12,8 +12,8 @@ from vibroimpact.integrators.protocol import FINISHED, Method
 from vibroimpact.system import System
 
 RESOLVED = 0.03, 1e-11
-"""Largest and smallest error used to fit an order. Larger errors are distances between two different motions; smaller
-errors are due to rounding."""
+"""Largest and smallest error from which the order of a method is fitted. Larger errors are distances between two
+different motions; smaller errors are due to rounding."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
     Parameters
     ----------
     seconds : float
-        Time [s] for which each setting is repeated, in turn with the others, after a first call that compiles.
+        Time [s] for which each setting is repeated, in turn with the other settings, after a first call that compiles.
     short : bool, default False
         Use only every second setting of each method.
     """
@@ -68,7 +68,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 
 
 def _measured(problem, setting, run, time, reference):
-    """Return the columns of a run: errors, time, steps, evaluations, outcome, and the reason for a failure or doubt."""
+    """Return the columns of a run: errors, time, steps, evaluations, outcome, and reason (of a failure) or doubt."""
     return {
         "setting": str(setting),
         **run_errors(run, reference, problem.system.period)._asdict(),
@@ -83,7 +83,7 @@ def _measured(problem, setting, run, time, reference):
 def fitted_order(points) -> float | None:
     """Fit log(error) against log(scale) by least squares; return the slope, or None for fewer than three points.
 
-    Only the points (scale, error) whose error is in the range RESOLVED are used.
+    `points` are pairs (scale, error), with `Method.scale`. Only pairs whose error is in the range RESOLVED are used.
     """
     largest, smallest = RESOLVED
     resolved = [(scale, error) for scale, error in points if smallest <= error <= largest]

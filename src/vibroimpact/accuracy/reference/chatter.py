@@ -9,8 +9,9 @@ from vibroimpact.accuracy.reference.taylor_models import to_ball
 class Chatter:
     """Consecutive impacts of the same balls on the same walls, and the limit of the states after them.
 
-    The map from one impact to the next is analytic in the rebound speed. At speed zero this map contracts the speed
-    by kappa and is neutral in the other coordinates. In Koenigs' linearising coordinate the map is a multiplication
+    The map from one impact to the next is analytic in the rebound speed. States with a rebound speed of 0 are fixed
+    points of the map, with the eigenvalues kappa (for the speed) and 1 (for the other coordinates). In Koenigs'
+    linearising coordinate the map is a multiplication
     by kappa, so that every coordinate of the state after the n-th impact is limit + c1 kappa^n + c2 kappa^(2n) + ...
     (the term c1 kappa^n is due to the geometric series of the flight times). Richardson extrapolation removes the
     powers one by one; its error after n impacts falls like kappa^(n^2 / 2).

@@ -49,8 +49,8 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
 def refine(series, ball: arb) -> arb:
     """Return the root of a series in the interval `ball`, to working precision.
 
-    The series must fall in this interval and have one root there. The interval Newton method is used, with bisection as
-    the fallback.
+    The series must decrease on this interval and have one root in it. The interval Newton method is used, with
+    bisection as the fallback.
     """
     slope = series.derivative()
     while True:

@@ -60,8 +60,9 @@ def reference_run(
 ) -> ReferenceRun:
     """Simulate (10.1) over a number of forcing periods from tau0, with the given decimal digits in each flight.
 
-    A ball that rests on a wall w at the start sticks if the wall pushes it: w X'' > 0, or, if w X'' vanishes within the
-    digits, its first nonzero derivative is positive. Otherwise the ball leaves the wall at once.
+    A ball that rests on a wall w at the start sticks if the wall pushes it, that is if the first nonzero number among
+    w X'' and its derivatives is positive, or if all are 0. Numbers below the accuracy of a flight count as 0. Otherwise
+    the ball leaves the wall at once.
 
     Parameters
     ----------
@@ -86,7 +87,7 @@ def reference_run(
     ValueError
         If parameters are inadmissible, a ball starts beyond a wall, or times are outside the window.
     Undecidable
-        If a decision, such as graze or miss, needs more digits.
+        If more digits are needed to decide, for example, whether a ball grazes or misses a wall.
     """
     if digits < 20:
         raise ValueError(f"digits: {digits} should be at least 20; for fewer digits, use vibroimpact.simulate")

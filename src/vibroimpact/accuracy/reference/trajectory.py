@@ -77,7 +77,7 @@ class Trajectory:
 
     def _sample_queue(self):
         times = [] if self.sample_times is None else list(self.sample_times)
-        # Floats among the times are computed, such as k * period: the binary value counts, not the shortest decimal.
+        # Floats among the times are computed numbers such as k * period, so that their binary values are meant.
         rational = [Fraction(float(t)) if isinstance(t, float) else to_fraction("sample_times", t) for t in times]
         if any(later < earlier for earlier, later in pairwise(rational)):
             raise ValueError("sample_times: should be ascending")
@@ -265,9 +265,9 @@ class Trajectory:
     def _settle(self, *modules, started=False):
         """Release each stuck ball, in the given modules or in both, whose contact force w X'' no longer pushes it.
 
-        The force just after this instant has the sign of its first nonzero Taylor coefficient (nonzero within the
-        digits). This rule holds after the force falls through zero, after it jumps due to an impact of the other
-        module, and at the start.
+        The force just after this instant has the sign of its first nonzero Taylor coefficient, where coefficients of
+        at most `tolerance` count as zero. This rule holds after the force falls through zero, after it jumps due to an
+        impact of the other module, and at the start.
         """
         for module in modules or range(2):
             ball = self.balls[module]
@@ -288,7 +288,7 @@ class Trajectory:
     def _follow_chatter(self, contacts):
         """Add the simultaneous impacts `contacts` to the chatter, or start a new one.
 
-        A chatter is completed as soon as its limit is known.
+        A chatter is replaced by its limit as soon as `_is_complete` holds.
         """
         if self.chatter is None or self.chatter.contacts != contacts:
             self.chatter = Chatter(contacts, self.system.kappa) if contacts else None
@@ -301,7 +301,11 @@ class Trajectory:
             self._complete(contacts, others)
 
     def _is_complete(self, contacts):
-        """Return True if the end of the chatter is known to the digits and precedes every sample and other event."""
+        """Return True if the chatter can be replaced by its limit.
+
+        The limit must be known to `tolerance`, the last rebounds must be at most as fast as LISTED_SPEED, and the limit
+        must come before every sample and every other event.
+        """
         if not self.chatter.change < self.tolerance:
             return False
         if any(abs(self.balls[module].rate) > to_ball(LISTED_SPEED) for module, _ in contacts):
@@ -370,7 +374,7 @@ def _parabola_hint(distance, longest):
 
 
 def _earliest(found, tolerance):
-    """Return the pairs (key, root interval) in `found` whose root may be earliest, or at most `tolerance` later."""
+    """Return the pairs (key, interval) of `found` whose root may be at most `tolerance` after the earliest root."""
     if not found:
         return []
     first = min(ball.upper() for _, ball in found)
