@@ -89,7 +89,7 @@ def fixed_point_error(system, point) -> float:
 
 
 def _of(system, psi, C, error):
-    """Return the verdicts in CRITERIA on a motion; error: bound on the errors of psi and C, each (2,).
+    """Return the verdicts in CRITERIA on a motion with psi and C, each (2,); `error` bounds the errors of psi and C.
 
     At the fold of the manifold, where an eigenvalue of the slow flow is infinite, the slow verdict is "undecided".
     """

@@ -1,7 +1,7 @@
 """Slow invariant manifold (SIM) of a module in 1:1 resonance, (10.15)-(10.17) and (10.25), and its saw-tooth.
 
-The amplitudes B of U and C of the saw-tooth and the dissipation rho, (10.15), are dimensionless numbers or arrays that
-broadcast; angles are in radians.
+The amplitude B of U, the amplitude C of the saw-tooth, and rho, which measures dissipation (10.15), are dimensionless
+numbers or arrays that broadcast; angles are in radians.
 
 A value of C is admissible if the ball stays between the walls, that is if |W_0| <= 1 for the relative displacement W_0
 of (10.10). A time t after the impact at W = +1, and before the next impact, W_0 = cos t + C h(t) with

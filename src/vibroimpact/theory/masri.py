@@ -16,7 +16,7 @@ from vibroimpact.system.verdict import verdict
 from vibroimpact.theory.manifold import C_min, rho
 
 ROUNDING = 16 * np.finfo(float).eps
-# At this C asymmetric motions branch off the symmetric motion, which is unstable above it (docs/stability.md).
+# At this C asymmetric motions branch off the symmetric motion, which is unstable at larger C (docs/stability.md).
 SYMMETRY_BREAKING_C = np.pi**2 / (np.pi**2 - 4)
 
 

@@ -104,7 +104,7 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
     B, ball
         Amplitudes B_i and complex N_i B_i, each shape (..., 2).
     B_x, ball_x
-        Derivatives of B_i and of N_i B_i by x_i, each shape (..., 2).
+        Derivatives of B_i and of N_i B_i with respect to x_i, each shape (..., 2).
     """
     e, K = impedances(system)
     forcing = np.array([system.f10_hat, system.f20_hat])

@@ -139,7 +139,7 @@ def _at(points, polynomials):
 
 
 def _derivatives(pair):
-    """Return the coefficients of the derivatives by x and by y for a pair of polynomials."""
+    """Return the coefficients of the derivatives of a pair of polynomials, first with respect to x, then to y."""
     return poly.polyder(pair, axis=1), poly.polyder(pair, axis=2)
 
 

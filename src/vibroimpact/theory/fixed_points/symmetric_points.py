@@ -3,8 +3,8 @@
 The zeros of the polynomials in C_1 and C_2 (`Balance.polynomials`) are refined by Newton's method for amplitudes and
 phases together. This restores digits that are lost because the polynomials are differences of squares. Without
 dissipation the slow flow is reversible: each fixed point has a partner with the same C and mirrored phases, and the
-denominator Delta of `Balance.solve` vanishes at both points. Close to this limit, two well separated fixed points have
-amplitudes that are equal within rounding; only their phases distinguish them.
+denominator Delta of `Balance.solve` vanishes at both points. With very little dissipation, two well separated fixed
+points have amplitudes that are equal within rounding; only their phases distinguish them.
 """
 
 from dataclasses import dataclass, replace
@@ -125,7 +125,7 @@ def fixed_points(system: System) -> list[FixedPoint]:
 
 
 def search(system: System) -> list[FixedPoint]:
-    """Return all fixed points in ascending order of C_1, without labels, also those with some C_i < 0.
+    """Return all fixed points, including those with a negative C_i, in ascending order of C_1 and without labels.
 
     Raises
     ------
