@@ -5,7 +5,7 @@
 - `orbits`, `prove`: exact periodic motions with Floquet multipliers; proof of such a motion in interval arithmetic.
 - `periodic_orbit`: a periodic motion of any period and any impacts, refined from a state near it.
 - `simulate`, `simulate_many`, `ensemble`: one exact run; many exact runs; summary statistics of many runs.
-- `largest_lyapunov`, `lyapunov_spectrum`: Lyapunov exponents with errors.
+- `largest_lyapunov`, `lyapunov_spectrum`: Lyapunov exponents with error estimates.
 - `attractors`, `basins`: the attractors of a system; their basins on a plane of initial states.
 - `sections`: stroboscopic sections of many runs, such as a bifurcation diagram.
 - `branches`: continuation of 1:1 motions in one parameter.
@@ -13,8 +13,8 @@
 - `design`: choice of the ball for a machine.
 - `to_frame`, `to_dataset`: results as tables.
 
-Verdicts on stability have the same names everywhere: `fast` (impacts), `slow` (amplitudes), `theory` (both), `exact`
-(the exact orbit).
+Verdicts on stability have the same names everywhere: `fast` (stability of the impacts), `slow` (of the amplitudes),
+`theory` (`fast` and `slow` together) and `exact` (of the exact orbit).
 """
 
 from importlib import import_module

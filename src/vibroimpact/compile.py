@@ -1,4 +1,4 @@
-"""Compile the code of simulations, results of runs and ensembles in advance: `python -m vibroimpact.compile`.
+"""Compile in advance the code for simulations, results of a Run, and ensembles: `python -m vibroimpact.compile`.
 
 Numba caches the code in NUMBA_CACHE_DIR if this is set. Otherwise it uses the first of these folders that is writable:
 the folder of the library, the user's cache, a temporary folder.
@@ -18,7 +18,7 @@ def main() -> None:
 
 
 def beforehand() -> None:
-    """Prepare a process that only compiles: omit the hint to compile in advance, and disable garbage collection."""
+    """Prepare a process that only compiles: omit the advice to compile in advance, disable garbage collection."""
     from vibroimpact.exact.engine.compiled import NOTICE
 
     NOTICE.hint = ""
@@ -26,7 +26,7 @@ def beforehand() -> None:
 
 
 def simulations() -> None:
-    """Compile simulations, with their certificates, Jacobians, energies, errors and growth of perturbations."""
+    """Compile `simulate`, `growth`, and the certificate, Jacobian, energy and errors of a Run."""
     import numpy as np
 
     from vibroimpact.exact.engine.simulation import simulate
@@ -37,7 +37,7 @@ def simulations() -> None:
 
 
 def ensembles() -> None:
-    """Compile ensembles: the code for runs in lanes, and the code for the runs of undamped systems, one by one.
+    """Compile ensembles: the code for several runs at once, and the code for runs of undamped systems, one at a time.
 
     Call this function last, because ensembles use all other compiled code.
     """

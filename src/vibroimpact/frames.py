@@ -22,13 +22,13 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     Parameters
     ----------
     result : object
-        A run (its events become the rows), an ensemble, basins, or a list of fixed points, orbits, branches or rows.
+        A run (its events become the rows), an ensemble, basins, or a list of fixed points, orbits, branches or dicts.
 
     Returns
     -------
     pandas.DataFrame
-        One row per event, run, start, point or orbit. An empty list from a function of this package gives a table
-        without rows that has the usual columns.
+        One row per event, run, initial state, point, orbit or dict. An empty list from a function of this package gives
+        a table without rows that has the usual columns.
 
     Raises
     ------

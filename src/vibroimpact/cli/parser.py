@@ -71,7 +71,7 @@ def _run(options):
 
 
 def _check_folders(options):
-    """Raise ValueError if an output file cannot be written, before anything is computed."""
+    """Raise ValueError if an output file cannot be written; called before anything is computed."""
     for name in ("output", "plot"):
         path = getattr(options, name, None)
         if path is None:

@@ -22,7 +22,7 @@ EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"
 """Data type of an event: time, module (1 or 2), wall (+1 or -1), kind (a key of KINDS), state just after the event."""
 
 _LABELS = "keys", "columns", "coords", "_fields"
-"""Attributes of mappings, tables and their rows, labelled arrays and named tuples."""
+"""Attributes that only labelled values have: mappings, tables and their rows, labelled arrays and named tuples."""
 
 
 def states_array(name: str, values) -> np.ndarray:
