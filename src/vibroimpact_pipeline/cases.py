@@ -12,9 +12,9 @@ def with_cases(config: dict) -> dict:
     """Return a copy of a config in which every entry that needs a case names its case.
 
     An entry without a case gets `default_case`, or the first case if the config sets no default. The chapter's figures
-    must name their case. If the config omits a case of the chapter (`CASES`), the figures that name it are removed,
-    and also `regimes.epsilon.mixed` if it names it. Other entries that name it get the default case.
-    Malformed entries are left unchanged; validation reports them.
+    must name their case. If the config omits a case of the chapter (`CASES`), figures with this case are removed, as
+    is an entry `regimes.epsilon.mixed` with this case. Other entries with this case get the default case. Malformed
+    entries are left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")

@@ -1,8 +1,8 @@
 """Compute the fingerprint of the code of a job: its script, the modules that it imports, and their data files.
 
-The `params` of each rule contain the fingerprint. It covers the parsed code without comments and docstrings. Editing a
-comment therefore reruns nothing, and editing a formula reruns every job that imports the module of the formula,
-directly or indirectly.
+The `params` of each rule contain the fingerprint. It covers the parsed code of modules without comments and docstrings.
+Editing a comment of a module therefore reruns at most the report, and editing a formula reruns every job that imports
+the module of the formula, directly or indirectly.
 """
 
 import ast
@@ -43,7 +43,11 @@ def code_files(*roots: str) -> list[Path]:
 
 
 def fingerprint(*roots: str) -> str:
-    """Return the fingerprint of the files of `code_files`; for folders, the fingerprint covers every byte."""
+    """Return the fingerprint of the files of `code_files`.
+
+    It covers the parsed code of Python files, and every byte of other files and of all files in folders among the
+    roots.
+    """
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
     for path in code_files(*roots):
         if path in listed or path.suffix != ".py":
@@ -60,7 +64,7 @@ def change_times(*roots: str) -> dict[Path, int]:
 
 
 def _paths(root: str) -> list[Path]:
-    """Return the files for one root of `code_files`, without the modules that they import."""
+    """Return the files of one root, without the modules that these files import."""
     if root.split(".")[0] in PACKAGES:
         return module_files(root)
     top = ROOT / root
@@ -89,7 +93,7 @@ def modules() -> dict[str, Path]:
 
 @cache
 def module_files(name: str) -> list[Path]:
-    """Return the files of a module, its parent packages and the data in its folder; none if it is from elsewhere."""
+    """Return the files of a module, its parent packages and data in its folder; none if it is not of this project."""
     if name not in modules():
         return []
     parts = name.split(".")
@@ -125,5 +129,5 @@ def changed(code: dict) -> bool:
 
 
 def code_of(*roots: str) -> dict:
-    """Return the value of `params.code` for a rule: `roots` as in `code_files`, and the fingerprint of their files."""
+    """Return the roots (see `code_files`) and their `fingerprint`, the value of `params.code` of a rule."""
     return {"of": sorted(roots), "fingerprint": fingerprint(*roots)}

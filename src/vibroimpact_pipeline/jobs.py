@@ -33,8 +33,8 @@ def running(job) -> Iterator[SimpleNamespace]:
 
     The paths are attributes with the names of the outputs, such as `out.json`. Everything that the script prints is
     written to the log of the job (see `log_of`). If the code differs from `params.code` (see `code.code_of`), if an
-    input differs from its record, or if either changes while the job runs, the job fails with one line and replaces no
-    output. An invalid config value also gives one line.
+    input differs from its record, or if code or inputs change while the job runs, the job fails with one line and
+    replaces no output. The job also fails with one line if a config value is invalid.
     """
     if sys.platform == "linux":  # make the kernel terminate this process when its parent ends
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
@@ -78,7 +78,7 @@ def log_of(job) -> Path:
 
 
 def with_key(error, decided: dict) -> str | None:
-    """Return the text of an error with the full config key of the argument that it names, or None without such a key.
+    """Return the text of an error with the full config key of the argument it names, or None if no key matches.
 
     Parameters
     ----------

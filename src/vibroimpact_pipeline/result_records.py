@@ -126,7 +126,7 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
 
 
 def distrust(outputs: Iterable) -> list[str]:
-    """Mark a result as incomplete if it was modified or its records are incomplete; return the paths of these results.
+    """Mark as incomplete each existing result that lacks a record or does not match it; return the paths of these.
 
     Without the mark, Snakemake would treat such a result as up to date. A result with the mark is rebuilt when needed.
     """

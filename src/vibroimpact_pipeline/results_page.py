@@ -1,4 +1,4 @@
-"""Write the index page of a build: the exact system's verdict on each figure, recommended methods, links to results."""
+"""Make the index page of a build: figures with what the exact system shows, recommended methods, links to results."""
 
 import csv
 import json
@@ -39,7 +39,7 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
 
 
 def _choices(results) -> list[list[str]]:
-    """Return, for each problem and allowed error in accuracy/choices.csv: problem, exponent of the error, methods."""
+    """Return a row per problem and allowed error in accuracy/choices.csv: problem, exponent of the error, methods."""
     path = results / "accuracy/choices.csv"
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines())) if path.is_file() else []
     found = []
@@ -55,7 +55,7 @@ def _choices(results) -> list[list[str]]:
 
 
 def _listed(results, titles) -> list[dict]:
-    """Return, for each existing figure, its title, links, a sentence on the exact system, and its picture."""
+    """Return, for each existing figure, its title, links, text on the exact system (from its page), and picture."""
     found = []
     for name, title in titles.items():
         drawn = [(kind, f"{place}/{name}{end}") for place in ("figures", "accuracy") for kind, end in KINDS.items()]

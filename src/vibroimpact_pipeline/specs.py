@@ -99,7 +99,7 @@ def case_parameters(config: dict, case: str) -> dict:
 
 
 def columns(table: dict, shared: dict) -> dict[str, dict]:
-    """Return each column of a table by its single name, with shared meanings and units filled in."""
+    """Return the columns of a table by single names, with missing entries (meaning, unit, ...) taken from `shared`."""
     return {name: shared.get(name, {}) | entry for name, entry in each(table["columns"]).items()}
 
 

@@ -7,9 +7,9 @@ from pydantic import AfterValidator, Field, ValidationInfo
 NAME, CASE = "^[a-z][a-z0-9_]{1,39}$", "^[a-z][a-z0-9_-]{1,39}$"
 TITLE, LETTER = "^[A-Za-z][A-Za-z0-9 ,()-]{0,39}$", "^[a-z]$"
 BEYOND_LIMITS = 1.69
-"""Value of C above all stability limits that the companions derive; the highest limit is pi^2 / (pi^2 - 4) = 1.68."""
+"""Value of C above the stability limits derived in docs/stability.md, the larger of which is 1.6815."""
 MAX_VALUES = 1000
-"""Maximum number of values along an axis."""
+"""Maximum number of values of a varied quantity; only a sweep axis with a range may have more."""
 
 
 def needs(fits, what: str) -> AfterValidator:
@@ -41,7 +41,7 @@ WITHIN_WALLS = needs(
 
 
 def items(kind, least: int, most: int, about: str | None = None, check: AfterValidator | None = DIFFERENT):
-    """Return the type of a list of `least` to `most` values, which must be distinct unless `check` is another rule."""
+    """Return the type of a list of `least` to `most` values; `check` validates the list (default: no value twice)."""
     return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), check]
 
 
@@ -51,7 +51,7 @@ def span(kind, about: str = "Lower and upper end"):
 
 
 def named(kind, least: int, most: int, name: str = NAME):
-    """Return the type of a mapping with free names; null removes an entry of an earlier file (see `reading`)."""
+    """Return the type of a mapping whose keys are free names; the value null removes an entry of an earlier file."""
     free = Annotated[str, Field(pattern=name)]
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]
 

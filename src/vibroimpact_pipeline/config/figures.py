@@ -11,12 +11,12 @@ MAX_FIGURES = 100
 """Maximum number of figures of a build; each is one job."""
 LIKE = Field(description="Figure of the chapter whose drawing code is used")
 MODEL = "Model: "
-"""First word in the description of `model`; results/accuracy/models.csv compares the models of each figure."""
+"""First word in the description of each key `model`; results/accuracy/models.csv compares the models of a figure."""
 THEORY = f"{MODEL}slow_flow (leading order) or exact_orbit (the exact orbits next to the fixed points)"
 
 
 class Drawing(Section):
-    """Figures 10.1 and 10.2, drawings of the system without settings."""
+    """Figures 10.1 and 10.2, drawings of the system; they have no settings."""
 
 
 class Sawtooth(Section):

@@ -17,7 +17,7 @@ from vibroimpact_pipeline.specs import specs
 MIN_FREQUENCY = 1e-3
 """Lowest forcing frequency; the cost to simulate one cycle is inversely proportional to the frequency."""
 PREFIXES = "companion_", "sweep_", "tile_", "table_", "fig10_", "pages_"
-"""Reserved prefixes; names of rules for companions, sweeps and pages, and of the chapter's figures, begin with them."""
+"""Reserved prefixes: those of the rules for companion figures, sweeps, pages and the figures of the chapter."""
 RULES = {
     name
     for path in (ROOT / "workflow").rglob("*.smk")
@@ -156,7 +156,7 @@ class Config(Section):
                 yield place, what
 
     def parameter_errors(self):
-        """Yield errors for parameters that System rejects: of cases or, if all cases are valid, of sweeps and paths."""
+        """Yield errors for parameters that System rejects: of the cases or, if these are valid, `varied_parameters`."""
         systems, found = {}, False
         for name, case in self.cases.items():
             overrides = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)
@@ -171,7 +171,7 @@ class Config(Section):
                     yield place, f"at {at}: {': '.join([*key, what])}"
 
     def varied_parameters(self) -> Iterable[tuple[Place, str | None, dict[str, float]]]:
-        """Return varied parameters to check, as tuples (key path of the entry, case or None for all, parameters)."""
+        """Return varied parameters to check, as tuples (key path, case or None for all cases, parameters)."""
         return ()
 
 

@@ -106,9 +106,9 @@ def _add(verdict, file, differences):
 
 
 def _other_pictures(verdict, reference, built, old, new) -> list[str]:
-    """Return the kinds of pictures that differ from the reference; add a reason to the verdict if a picture is blank.
+    """Return the kinds of pictures that differ from the reference; add reasons for failure to the verdict.
 
-    If the reference pictures were drawn with the present library versions, a difference is a reason as well.
+    Reasons are a blank picture, and a difference from reference pictures drawn with the present library versions.
     """
     # If the tables are equal, drawing the reference tables would only repeat the picture in the build.
     equal = all(name in new and old[name].equals(new[name]) for name in verdict["files"])

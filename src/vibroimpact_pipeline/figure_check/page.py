@@ -1,4 +1,4 @@
-"""Write the offline HTML page of the figure check: for each figure, both pictures, their difference, all distances."""
+"""Make the offline HTML page of the figure check: old and new picture of each figure, difference, all distances."""
 
 import base64
 import io

@@ -50,7 +50,7 @@ def small(content: bytes) -> bytes:
 
 
 def sums(files: dict[str, Path]) -> dict[str, str]:
-    """Return the SHA-256 of the content of each file, without metadata and compression, by kind."""
+    """Return the SHA-256 of each file by kind; metadata, compression and the last digits of numbers have no effect."""
     return {kind: hashlib.sha256(COMPARED_CONTENT[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
 
 
@@ -60,14 +60,14 @@ def _png(content):
 
 
 def _svg(content):
-    """Return the text of an SVG without metadata; embedded pictures are replaced by pixels, and numbers rounded."""
+    """Return the text of an SVG without metadata, with pixels in place of embedded PNGs, and with rounded numbers."""
     content = re.sub(rb"<metadata>.*?</metadata>", b"", content, flags=re.DOTALL)
     embedded = re.compile(rb"data:image/png;base64,\s*([^\"]+)")
     return _rounded(embedded.sub(lambda found: _png(base64.b64decode(found[1])).hex().encode(), content))
 
 
 def _pdf(content):
-    """Return the decompressed objects of a PDF, without document information, stream lengths and cross references."""
+    """Return the decompressed objects of a PDF with rounded numbers, without document information and lengths."""
     objects = dict(re.findall(rb"(?ms)^(\d+) 0 obj\s(.*?)\sendobj$", content))
     (info,) = re.findall(rb"/Info (\d+) 0 R", content)
     parts = []

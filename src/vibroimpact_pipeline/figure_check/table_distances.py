@@ -16,8 +16,8 @@ OTHER_SERIES = "others"
 MAX_DISTANCE = 999.0
 """Distance assigned to changes that no limit allows, such as a value that becomes infinite or a class that vanishes."""
 LOG_FLOOR = np.finfo(float).eps
-"""Lower limit of numbers in logarithms. Smaller errors of coordinates of order one are rounding, which depends on the
-processor, and count as this value."""
+"""Smallest number of which a logarithm is taken; smaller numbers count as this value. They are errors of coordinates of
+order one due to rounding, which depends on the processor."""
 EQUAL_WITHIN = 1e-6
 """Counts and shares that differ by less than this value are equal."""
 RARE_ROWS = 5
@@ -148,9 +148,9 @@ def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[s
     Parameters
     ----------
     points
-        One row for each point, with some columns of `table` and the column `tolerance`, a distance relative to the
-        extent of each axis. The text cells of a point select the rows of `table` that form its curve. Blank cells are
-        ignored.
+        One row for each point, with some columns of `table` and the column `tolerance`, a distance in units of the
+        range of each column in the panel. The text cells of a point select the rows of `table` that form its curve.
+        Blank cells are ignored.
     table
         Plotted table in the build.
     """
@@ -223,7 +223,7 @@ def _balance(old, new, limit):
 
     Rounding moves rows in both directions equally often. The difference of the two numbers of rows is measured in
     standard deviations of a binomial distribution with one trial for each moved row. A class that vanishes exceeds the
-    limit, unless it is rare.
+    limit if it had RARE_ROWS rows or more.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:

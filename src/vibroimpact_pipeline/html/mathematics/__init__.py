@@ -29,7 +29,7 @@ MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)'
 
 
 def mathml(tex: str, display: bool) -> str:
-    r"""Return a LaTeX formula as MathML, inline or, with `display`, on a line of its own, where it may have a \tag.
+    r"""Return a LaTeX formula as MathML: inline or, if `display`, on a line of its own (where it may have a \tag).
 
     Raises
     ------

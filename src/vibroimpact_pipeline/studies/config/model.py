@@ -58,7 +58,7 @@ class Whole(Config, Studies):
         yield from (("machines", name) for name in self.machines)
 
     def varied_parameters(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
-        """Yield varied parameters to check, as tuples (key path of the entry, case or None for all, parameters)."""
+        """Yield varied parameters to check, as tuples (key path, case or None for all cases, parameters)."""
         branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
         for number, path in enumerate(branches.paths):
             for end in path.range:

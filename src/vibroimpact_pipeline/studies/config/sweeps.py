@@ -17,7 +17,7 @@ MAX_POINTS = 4_000_000
 """Maximum number of points of a sweep, since one job keeps the whole table in memory."""
 SIMULATED = ("starts", "seed", "cycles", "settle")
 NEEDED = dict.fromkeys(RUNS, SIMULATED) | {"regimes": ("starts", "seed"), "peaks": (*SIMULATED, "band")}
-"""Keys of a sweep that each observation requires."""
+"""For each observation that needs further keys of the sweep, these keys."""
 OBSERVATIONS = Literal["regimes", "amplitudes", "peaks", "energy", "fixed_points"]
 FORMS = [{"range", "values"}, {"range", "values", "scale"}, {"range", "cells"}, {"listed"}, {"tuples"}]
 """Allowed combinations of keys that define the values of an axis."""
@@ -60,7 +60,7 @@ class Axis(Section):
         return len(self.listed or self.tuples or ()) or self.cells or self.values
 
     def ends(self) -> list[dict[str, float]]:
-        """Return the parameters at the lowest and the highest value of the axis, or at every tuple."""
+        """Return the parameters at the lowest and the highest value of the axis, or at each of its `tuples`."""
         values = self.tuples or [[end] * len(self.along) for end in self.range or (min(self.listed), max(self.listed))]
         return [dict(zip(self.along, at, strict=True)) for at in values]
 

@@ -40,8 +40,8 @@ def live_data(config: dict) -> str:
 def _points(system, roots) -> list[dict]:
     """Return the fixed points of a system by label; `roots` are its symmetric exact orbits.
 
-    Each fixed point has C, B and psi of module 2, the verdict of (10.26), and the verdict on its exact orbit with the
-    largest multiplier.
+    Each fixed point has its label, C, B and psi of module 2, the verdict of (10.26) and, for the exact orbit next to
+    the point, the verdict and the modulus of the largest multiplier.
     """
     points = fixed_points(system)
     exact = exact_orbits(system, [point.C for point in points], roots)
@@ -83,8 +83,8 @@ def map_data(results, config: dict) -> str:
 def verdict_data(results, config: dict) -> str:
     """Return the data for the slider of epsilon as JSON.
 
-    The two criteria are (10.26) and the theory, which uses both time scales. For each criterion and each epsilon, the
-    data list the points that the criterion classifies as stable, each as [f10, f20, verdict on the exact orbit].
+    For each of two criteria, (10.26) and the theory (fast and slow together), and for each epsilon, the data list the
+    fixed points that the criterion classifies as stable, each as [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
     by_epsilon = list(table.groupby("epsilon"))[::-1]
@@ -107,8 +107,8 @@ DOTS = {"printed_10_26": "(10.26)", "fast": "fast scale", "theory": "fast and sl
 def verdict_dots(results) -> dict:
     """Return the verdict matrix: values of epsilon, column heads, and one row for each fixed point.
 
-    A row contains the verdict of each criterion of the theory and, for each epsilon, the verdict on the exact orbit
-    with the largest multiplier.
+    A row contains case and label, the verdict of each criterion of the theory and, for each epsilon, the verdict on the
+    exact orbit and its largest multiplier.
     """
     table = results.table("verdicts_by_epsilon.csv")
     rows = [

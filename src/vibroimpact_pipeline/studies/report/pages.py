@@ -18,7 +18,7 @@ TEMPLATES = "report/pages"
 NUMBER = re.compile(r"\[(?P<number>−?[\d.]+)\]\((?:studies/)?numbers\.yaml#(?P<key>[\w.-]+)\)")
 """Matches a number in a document with the link to its key in numbers.yaml."""
 RUN_TIMES = "| times"
-"""Column at the end of the place of a ratio of run times."""
+"""End of each place in numbers.yaml that gives a ratio of run times: the table column `times`."""
 PICTURE = re.compile(r"(?P<text>!?\[[^\]]*\])\((?:\.\./)+results/\w+/(?P<name>\w+)\.png\)")
 """Matches a figure in a document, shown with a caption or linked."""
 LIVE = re.compile(r"<!-- live: (?P<part>\w+) -->\n(?P<still>.*?)(?=\n\n)", re.DOTALL)
@@ -134,7 +134,7 @@ class Pages:
         return text[1:-1] if paper or name not in self.pictures else f"{text}(#{name})"
 
     def plates(self) -> str:
-        """Return the figures of the chapter for the end of the printed article, except 10.1, which the text shows."""
+        """Return the chapter's figures for the end of the printed article, without 10.1, which its text shows."""
         shown = (name for name in self.chapter if name != "fig10_01")
         plates = [f"![{plain(self.about[name]['title'])}](../results/figures/{name}.png)" for name in shown]
         return "\n\n".join(["\n## The figures of the chapter", *plates]) if plates else ""
@@ -178,7 +178,7 @@ class Pages:
 
 
 def table(frame, heads: dict, number: int = 3) -> str:
-    """Return columns of a DataFrame as a Markdown table with `number` digits; `heads` maps names to column heads."""
+    """Return the DataFrame columns in `heads` (head by name) as a Markdown table with `number` significant digits."""
     rows = [[digits(value, number) for value in row] for row in frame[list(heads)].itertuples(index=False)]
     return "\n".join("| " + " | ".join(line) + " |" for line in [heads.values(), ["---"] * len(heads), *rows])
 

@@ -68,7 +68,7 @@ class Results:
         return [claim for claim in self.claims() if named.search(claim["place"])]
 
     def most_accurate(self) -> pd.DataFrame:
-        """Return, for each problem and method, the finished run with the smallest error.
+        """Return, for each problem and method, the finished run with the smallest error of the final state.
 
         The column ratio is the run time of this run divided by that of the library's most accurate run for the same
         problem.

@@ -38,9 +38,9 @@ ELSEWHERE = re.compile(r"(?<=\]\()(?:studies|\.\.|(?:\.\./)+report/pages)/(?=\w+
 """Matches the path to another folder in a link between documents."""
 EQUATION = re.compile(r"\((10\.\d+)\)")
 NAMES = (nodes.title, nodes.reference, nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw)
-"""Types of nodes in which equation numbers are not explained."""
+"""Types of nodes in which equation numbers are not linked to their explanations."""
 OF_PAGE = re.compile(r"^(?!.*docstring of|.*<unknown>|.*more than one target).*(WARNING|ERROR)")
-"""Matches a Sphinx warning about a page, but none about a docstring or about a name that is documented twice."""
+"""Matches Sphinx warnings and errors, except those about docstrings and about names that are documented twice."""
 SPHINX = {
     "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", __name__],
     "myst_enable_extensions": ["dollarmath"],
