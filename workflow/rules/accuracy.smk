@@ -79,7 +79,7 @@ rule method_comparison:
         "../scripts/method_comparison.py"
 
 
-# CHARTS are the charts that the figure check compares with the reference set: errors, orders and failures, but not times.
+# Charts that the figure check compares with the reference set: their errors, orders and failures, but not their times.
 CHARTS = "work_precision", "stress_tests", "grazing"
 ALL_CHARTS = *CHARTS, "models"
 

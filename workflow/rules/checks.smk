@@ -1,4 +1,4 @@
-# Compare figures with the reference set in figures/. Only `make accept` changes the set, and records the reason.
+# Compare figures with the reference set in figures/. Only `make accept` changes the set; it also records the reason.
 
 
 # The figure check has no output file, so that it always runs. It also prints the result on the terminal. With

@@ -18,7 +18,7 @@ def refuse(message):
 
 
 def checkout_path(path):
-    """Return the path of a file in the checkout, relative if builds run in the checkout, so that it can be moved."""
+    """Return the path of a file in the checkout; relative if builds run in the checkout, so that this can be moved."""
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
@@ -78,7 +78,7 @@ config = validated
 
 
 def code(script, *others):
-    """Return `params.code` for a script and further roots of `code_of`, such as modules that it imports by their name."""
+    """Return `params.code` for a script and further roots of `code_of`, such as modules that it loads by name."""
     return code_of(f"workflow/scripts/{script}.py", "environment.lock", *others)
 
 
@@ -106,7 +106,7 @@ def figure_files(stem, tables):
 
 
 def in_report(outputs, category):
-    """Mark picture and plotted table for `snakemake --report`."""
+    """Return the outputs of a figure, with picture and plotted table marked for `snakemake --report`."""
     caption = str(ROOT / "report/caption.rst")
     marked = {
         kind: report(path, caption=caption, category=category, labels={"name": Path(path).stem, "kind": kind})
@@ -127,7 +127,7 @@ def entries(paths):
 
 
 def figure_params(figure, paths, case=None, systems=False, decides=()):
-    """Return the params of a figure: its settings by the last key of their path, the parameters of its systems, and more.
+    """Return the params of a figure: names, `settings` by the last key of their path, parameters of its systems, code.
 
     The param `config` contains all config entries on which the figure depends. Among them are the entries at the paths
     `decides`, which only affect the inputs of the figure.
@@ -149,13 +149,13 @@ def files(figure, category="Figures of the chapter", folder="figures"):
 
 
 def chart(figure, settings={}, decides={}, *shown):
-    """Return the params of an accuracy chart: its settings, the config entries that affect it, and the code of its job."""
+    """Return the params of an accuracy chart: its settings, the config entries that affect it (`decides`), and code."""
     known = {"figure": figure, "module": module_of(figure), "settings": settings, "config": decides}
     return known | {"code": code("figure", module_of(figure), *shown)}
 
 
 def of_case(figure, paths):
-    """Return the paths of results with the case and model of a figure filled in; none if the figure has no case."""
+    """Return the paths of results, with case and model of a figure filled in; no paths if the figure has no case."""
     shown = SCENES.get(figure, {})
     return {name: path.format_map(shown) for name, path in paths.items()} if "case" in shown else {}
 
@@ -183,7 +183,7 @@ def page_inputs(figure):
 
 
 def page_params(figure):
-    """Return the params of the page of a figure: its config entry, parameters and input files."""
+    """Return the params of the page of a figure: its params, its config entry as in `titled`, and files to read."""
     params = getattr(rules, figure).params
     known = {name: params.get(name) for name in ("case", "system", "config")}
     return known | {"scene": titled(figure), "inputs": page_inputs(figure)}
@@ -196,7 +196,7 @@ def titled(figure):
 
 
 def modelled(figure, entry):
-    """Return notebook, model, module, system and settings of a figure; for a simulation, the settings of the run."""
+    """Return notebook, model, module, system and settings of a figure; for a simulation, settings of its case."""
     known = {"notebook": spec(figure)["notebook"], "model": entry["model"], "module": spec(figure)["module"]}
     settings = {name: value for name, value in entry.items() if name not in ("like", "model", "case")}
     if known["notebook"] == "simulation":

@@ -9,7 +9,7 @@ MOTION = {
     "samples": "results/simulations/{case}/{model}/samples.csv",
     "events": "results/simulations/{case}/{model}/events.csv",
 }
-# READ lists further results that a notebook reads, in addition to the files of its figure.
+# For each notebook, READ lists the results that it reads in addition to the files of its figure.
 ORBITS = {"orbits": "results/orbits/{case}.csv"}
 READ = {
     "fixed_points": POINTS | ORBITS,

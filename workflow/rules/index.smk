@@ -1,4 +1,4 @@
-# Index page: the exact system's verdict on each figure, and links to all results, including those of built studies.
+# Index page: what the exact system shows for each figure, and links to all results, including those of built studies.
 
 
 rule index:

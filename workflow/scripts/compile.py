@@ -9,7 +9,7 @@ import vibroimpact_pipeline  # noqa: F401 (sets the environment, which Numba rea
 from vibroimpact.compile import beforehand, simulations
 
 NAMED = "snakemake.cli", "ipykernel.kernelapp", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"
-"""Further modules that jobs use although no module of the library imports them."""
+"""Modules that jobs need although no module of the library imports them."""
 
 
 def other_methods():

@@ -5,9 +5,9 @@ include: "common.smk"
 
 
 # Arguments of `compute` for each figure. `settings` lists paths of config entries; each argument has the name of the
-# last key of its path, and * means all settings of a section except `case`. `inputs` are tables by name. With `case`, the
-# system of this case is an argument; with `systems`, the systems of all cases are one argument. A figure is omitted if
-# the config lacks one of these entries or an entry in `needs`. `outputs` replace those of a companion figure.
+# last key of its path, and * means all settings of a section except `case`. `inputs` are tables by name. `case` is the
+# path of a case, whose system is an argument; with `systems`, the systems of all cases are one argument. A figure is
+# omitted if the config lacks one of these entries or an entry in `needs`. `outputs` replaces the usual outputs.
 COMPANIONS = {
     "companion_10_08": {
         "case": "figures.fig10_08.case",
@@ -86,7 +86,7 @@ for figure, found in STUDY_FIGURES.items():
 
 
 ALL_FIGURES += STUDY_FIGURES
-# Figures with a reference picture; the nudge is a picture of the article.
+# Figures with a reference picture: all but `nudge`, the picture at the head of the article.
 STUDY_DRAWINGS = [figure for figure in STUDY_FIGURES if figure != "nudge"]
 
 

@@ -1,8 +1,8 @@
 """Write proofs on the fixed points and orbits of all cases as JSON.
 
 Interval arithmetic proves that three lists are complete: symmetric fixed points, asymmetric fixed points, and
-symmetric orbits. The list of asymmetric orbits is not proved complete. Each of its orbits was reached from a number of
-Newton starts; the smallest of these numbers indicates how likely it is that another orbit was missed.
+symmetric orbits. The list of asymmetric orbits is not proved complete. Each orbit in it was reached from a number of
+Newton starts; the larger the smallest of these numbers, the less likely it is that an orbit was missed.
 """
 
 import dataclasses
