@@ -14,7 +14,7 @@ REPOSITORY = re.compile(r'^repository-code: "?([^"\s]+)"?$', re.MULTILINE)
 
 
 def long_description(readme: str, repository: str | None, version: str) -> str:
-    """Return a README with absolute links instead of relative ones, or with plain text if `repository` is None.
+    """Return a README with absolute links in place of relative ones, or with their texts if `repository` is None.
 
     The links lead to the files of `version` in the repository.
     """

@@ -22,7 +22,7 @@ nox.options.download_python = "never"
 @nox.session(python=PYTHONS)
 @nox.parametrize("strategy", PACKAGES)
 def matrix(session, strategy):
-    """Run the make targets in a clone with locked, lowest or newest packages."""
+    """Run the make targets in TARGETS in a clone, with locked, lowest or newest packages."""
     clone = Path(session.create_tmp()) / "clone"
     shutil.rmtree(clone, ignore_errors=True)
     session.run("git", "clone", "--quiet", ROOT, clone, external=True)

@@ -7,7 +7,7 @@ import vibroimpact as vi
 
 
 def wall(F, omega, c, kappa):
-    """Return an oscillator with mass and stiffness 1, and a ball of mass 1e12 as wall; lengths are divided by 50."""
+    """Return an oscillator with mass and stiffness 1 and, as wall, a ball of mass 1e12; the unit of length is 50."""
     return vi.PhysicalSystem.single(M=1, m=1e12, k=1, c=c, F=F, L=50, kappa=kappa, omega=omega).dimensionless()
 
 
@@ -23,7 +23,7 @@ def sector(r, clearance=0.3):
 
 
 def resonant(system):
-    """Return the symmetric motions with two impacts per period."""
+    """Return the admissible symmetric orbits with two impacts per period."""
     return [orbit for orbit in vi.orbits(system) if orbit.symmetric and orbit.admissible]
 
 
@@ -36,7 +36,7 @@ def flight(stiffness, x, V):
 
 
 def half_period(stiffness, V, low, high):
-    """Return half the period of a free motion with mirrored halves; low < x < high for the box position at impact."""
+    """Return half the period of a symmetric free motion; at impact, the box position is between `low` and `high`."""
     x = brentq(lambda x: flight(stiffness, x, V)[1] + x, low, high)
     return flight(stiffness, x, V)[0]
 
