@@ -15,7 +15,7 @@ from vibroimpact.system.state import KINDS, NAMES
 
 
 def summarise(simulated: Window, settings: dict) -> dict:
-    """Return for the window: first and last time, events by kind and module, changes after 1 to 4 cycles, last state."""
+    """Return for the window: both end times, events by kind and module, changes after 1 to 4 cycles, last state."""
     events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {
         kind: {str(module): int(((events["kind"] == kind) & (events["module"] == module)).sum()) for module in (1, 2)}
