@@ -67,13 +67,13 @@ def scenes() -> dict[str, tuple]:
 def scenes_table(seconds: float) -> list[dict]:
     """Return two rows per scene of `scenes`, for `ensemble` and for single runs: time per impact [us] on one core.
 
-    The error of an ensemble is the difference of a final state from that of the single run, after SHORT cycles, as the
-    largest over the coordinates and the median over SINGLE_RUNS runs.
+    The error of an ensemble is the median, over SINGLE_RUNS runs, of the largest difference of a coordinate between the
+    final states of the ensemble and of the single run after SHORT cycles.
 
     Parameters
     ----------
     seconds : float
-        Time [s] for which the ensemble, and likewise the single runs, are repeated.
+        Time [s] for which the ensemble is repeated, and likewise the single runs.
     """
     with at_most(1):
         return [row for name, scene in scenes().items() for row in _compared(name, *scene, seconds)]

@@ -19,7 +19,7 @@ def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> p
     A problem is solved if a run has an error of at most 1e-6 and no missed or spurious impacts. Columns: method;
     family; problems (number of solved problems); times (cost relative to the first method in the table, as the largest
     ratio of the shortest times of runs that solve a problem; blank unless all problems are solved); and the numbers of
-    stress tests: right, wrong (without notice), stopped (by an error, or not finished), tests (all).
+    stress tests: right, wrong (no error or doubt reported), stopped (by an error, or not finished), tests (all).
 
     Parameters
     ----------
@@ -44,7 +44,8 @@ def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFram
 
     `compared` is the result of `methods_table`; methods without stress tests in this table are left out. Columns:
     problem, error (largest allowed error of the final state), choice (1 or 2), method, setting, seconds_per_cycle,
-    wrong (number of stress tests with a wrong result without notice), tests (number of stress tests).
+    wrong (number of stress tests with a wrong result, but no error or doubt reported), tests (number of all stress
+    tests).
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]

@@ -19,8 +19,8 @@ PROOF = "box_radius", "orbit_error", "moduli_error", "motion_proved", "floquet_p
 """Columns of `OrbitProof.row`; a table without rows has them as well."""
 NO_ORBIT = "no orbit"
 REACH = 1.0
-"""Upper limit of the distance in C between a fixed point and its orbit. Over the verdict grid of the studies at epsilon
-= 0.1, the distances are at most 0.29, or above 2.5 where the orbits next to two fixed points have merged."""
+"""Upper limit of the distance in C between a fixed point and its orbit. Over the verdict grid of the studies, at
+epsilon = 0.1, it is at most 0.29, or above 2.5 where the orbits next to two fixed points have merged."""
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:

@@ -68,7 +68,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 
 
 def _measured(problem, setting, run, time, reference):
-    """Return the columns of a run: errors, time, steps, evaluations, outcome, and reason (of a failure) or doubt."""
+    """Return the columns of a run: errors, time, steps, evaluations, outcome, and reason of a failure or doubt."""
     return {
         "setting": str(setting),
         **run_errors(run, reference, problem.system.period)._asdict(),

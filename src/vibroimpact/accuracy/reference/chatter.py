@@ -11,10 +11,10 @@ class Chatter:
 
     The map from one impact to the next is analytic in the rebound speed. States with a rebound speed of 0 are fixed
     points of the map, with the eigenvalues kappa (for the speed) and 1 (for the other coordinates). In Koenigs'
-    linearising coordinate the map is a multiplication
-    by kappa, so that every coordinate of the state after the n-th impact is limit + c1 kappa^n + c2 kappa^(2n) + ...
-    (the term c1 kappa^n is due to the geometric series of the flight times). Richardson extrapolation removes the
-    powers one by one; its error after n impacts falls like kappa^(n^2 / 2).
+    linearising coordinate the map is a multiplication by kappa, so that every coordinate of the state after the n-th
+    impact is limit + c1 kappa^n + c2 kappa^(2n) + ... (the term c1 kappa^n is due to the geometric series of the flight
+    times). Richardson extrapolation removes the powers one by one. The error after n impacts falls like
+    kappa^(n^2 / 2).
     """
 
     def __init__(self, contacts, kappa: Fraction):
