@@ -19,11 +19,12 @@ class Linear:
     Attributes
     ----------
     mass, damping, stiffness : ndarray
-        Matrices M, C, K, each (n, n); the first two coordinates are the boxes.
+        Matrices M, C, K, each (n, n). The first two coordinates are the boxes, X_1 and X_2; absorbers, Y_1 and Y_2,
+        follow.
     force : ndarray
         Amplitudes F, (n,).
     scale : callable
-        Function that returns the factor of the force at an array of frequencies.
+        Function of an array of frequencies Omega; it returns the factors by which `force` is multiplied there.
     """
 
     mass: np.ndarray
@@ -45,7 +46,7 @@ class Linear:
         return np.abs(self._responses(Omega)[..., :2])
 
     def strokes(self, Omega) -> np.ndarray:
-        """Return the stroke of each absorber, the largest |X_i - Y_i| of the steady response, shape (..., 2).
+        """Return the stroke of each absorber, the amplitude of X_i - Y_i, (..., 2), at the frequencies `Omega`, (...).
 
         Raises
         ------
@@ -62,13 +63,13 @@ class Linear:
         return np.linalg.solve(impedance, self.scale(Omega) * self.force[:, None])[..., 0]
 
     def peak(self, band: tuple[float, float]) -> float:
-        """Return the largest |X_i| of both boxes in a band; inf if the band contains an undamped resonance."""
+        """Return the largest amplitude of X_1 and X_2 in a band; inf if the band contains an undamped resonance."""
         return self._highest(self.amplitudes, band)
 
     def stroke(self, band: tuple[float, float]) -> float:
-        """Return the largest |X_i - Y_i| of both absorbers in a band of frequencies.
+        """Return the larger of the strokes of both absorbers in a band; inf if it contains an undamped resonance.
 
-        The stroke is the room that an absorber needs on each side.
+        The stroke, the amplitude of X_i - Y_i, is the room that an absorber needs on each side.
         """
         return self._highest(self.strokes, band)
 

@@ -1,8 +1,8 @@
-"""Compute the peak displacement with balls in a band of frequencies, a value that one cycle in a hundred exceeds.
+"""Compute the peak displacement of boxes with balls in a band of frequencies; one cycle in a hundred exceeds the peak.
 
 The largest displacement of a chaotic motion grows with the length of the run. The peak is therefore a quantile of the
 largest displacements in single cycles, which does not grow. The lowest of many measured peaks is still too low, since
-its random error is likely to be negative. Therefore the lowest peaks are measured again, from other starts.
+its random error is likely to be negative. Therefore callers measure the lowest peaks again, from other initial states.
 """
 
 from collections.abc import Sequence
@@ -17,15 +17,15 @@ from vibroimpact.system import System
 from vibroimpact.system.state import inactive_at_rest
 
 QUANTILE = 0.99
-"""The largest displacement in a cycle is at most the peak in this fraction of all cycles."""
+"""Fraction of all cycles in which the largest displacement does not exceed the peak."""
 
 
 @dataclass(frozen=True)
 class CycleMaxima:
-    """Results of runs of m systems, each from n states, cycle by cycle.
+    """Maxima of runs of m systems, each from n initial states, in each observed cycle.
 
-    largest: largest |X_i| of both boxes in each cycle, (m, n, cycles); nan for unfinished runs. rms: largest
-    root mean square of X_1 or X_2 in any run. unfinished: number of unfinished runs.
+    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: largest root
+    mean square of X_1 or X_2 over the observed cycles of a finished run. unfinished: number of unfinished runs.
     """
 
     largest: np.ndarray
