@@ -13,7 +13,7 @@ from vibroimpact.theory.manifold import B_min, B_of_C, C_min, C_of_B, impact_pha
 ROUNDING = 1e-12
 KAPPAS = (0.05, 0.3, 0.65, 0.95)
 _TERMS = {"one term": "distance", "two terms": "two terms"}
-"""Number of terms of (10.7) -> panel of `epsilon_orders` with the distance between their sum and the exact orbit."""
+"""Terms of (10.7) that are added -> panel in `Evidence.epsilon_orders` for the distance of the sum from the orbit."""
 
 
 def small_balls(evidence):
@@ -51,8 +51,8 @@ def bound_of_the_balls(evidence):
 def common_impact_instants(evidence):
     """Check whether both modules in (10.2) share one sequence tau_j of impact times, or have one sequence each.
 
-    At each impact the distance of both balls from their nearer wall is measured: of the ball that hits, and of the ball
-    of the other module.
+    At each impact, the distance from the nearer wall is measured for the ball that hits and for the ball of the other
+    module.
     """
     own, other = [], []
     for simulation in evidence.simulations.values():
@@ -68,9 +68,9 @@ def common_impact_instants(evidence):
 
 
 def equations_in_U_and_W(evidence):
-    """Check (10.3) line by line at a random state between impacts, and its jumps at random impacts.
+    """Check the lines of (10.3) at a random state between impacts, and the jumps in (10.3) at random impacts.
 
-    The accelerations of this state come from (10.2).
+    The accelerations at the random state come from (10.2).
 
     As printed, line W1 has the force on box 2. As corrected, this line has the force on box 1.
     """
@@ -122,7 +122,7 @@ def leading_order_solution(evidence):
 
 
 def _vanish(found, **others):
-    """Return the Finding whose parts hold if the largest residual of each name vanishes to rounding.
+    """Return the Finding with a part for each name, which holds if the largest residual of this name is below ROUNDING.
 
     found: a list of dictionaries name -> residuals, each with the same names. others: further residuals by name.
     """
@@ -161,7 +161,8 @@ def _error_of_the_harmonics():
 def orders_of_the_expansion(evidence):
     """Check the orders of (10.7): the error is O(epsilon) with one term, O(epsilon^2) with two.
 
-    The chapter gives the first term, the fixed point. The second is the derivative of the exact orbit at epsilon = 0.
+    The first term, which the chapter gives, is the fixed point. The second term is epsilon times the derivative of the
+    exact orbit with respect to epsilon, at epsilon = 0.
     """
     table = evidence.epsilon_orders
     orders = {name: table.loc[table["panel"] == panel, "order"] for name, panel in _TERMS.items()}

@@ -26,7 +26,7 @@ class Simulation:
 class Evidence:
     """Results of a build with the parameters of the chapter.
 
-    fixed_points, orbits, verdict_grid, modulation, special_points, epsilon_orders: the tables of these names.
+    fixed_points, orbits, verdict_grid, modulation, special_points, epsilon_orders: the result tables with these names.
     proofs: case -> results of the completeness proofs. simulations: case -> Simulation. systems: case -> system.
     """
 

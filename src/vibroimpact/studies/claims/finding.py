@@ -51,6 +51,6 @@ def _plain(value):
 
 
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
-    """Return the finding on a statement as printed; its numbers include the verdict on the corrected statement."""
+    """Return the Finding on a statement as printed; its `numbers` include the verdict on the corrected statement."""
     numbers["as corrected"] = HOLDS if corrected else REFUTED
     return Finding({"as printed": holds}, numbers, corrected=bool(corrected))

@@ -3,7 +3,7 @@
 docs/studies/claims.yaml lists all claims. A claim is a mapping with the keys id, place, statement, check (name of a
 function in `MODULES`) and refuted_by (a result that would refute the claim). Three keys are optional: arguments (of the
 check), central (true for an important claim) and fact (the reason why the claim does not hold). Claims that fail for
-the same reason have the same text as fact. A check takes the Evidence and the arguments, and returns a Finding.
+the same reason have the same text under fact. A check takes the Evidence and the arguments, and returns a Finding.
 """
 
 from inspect import isfunction

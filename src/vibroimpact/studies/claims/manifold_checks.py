@@ -54,7 +54,7 @@ def printed_condition(evidence):
     """Check (10.26), a lower limit on C, against the multipliers of the impact map at this limit and above it.
 
     (10.26) is a misprint if it holds with other exponents p and q in 4 / (4 + pi^p rho^q). `numbers` also contains the
-    interval of lower limits of C for which all captions hold, and the exponents p, q whose limit lies in this interval.
+    interval of `_limits_of_the_captions`, and the exponents p, q whose limit lies in this interval.
     """
     kappa = evidence.system.kappa
     limit, squared = printed_limit(rho(kappa)), 4 / (4 + (np.pi * rho(kappa)) ** 2)
@@ -92,13 +92,14 @@ def printed_condition(evidence):
 
 
 def _limits_of_the_captions(evidence):
-    """Return the open interval of lower limits of C for which all captions hold.
+    """Return the open interval of lower limits of C, in place of (10.26), that agree with all CAPTIONS.
 
-    If (10.26) had a limit in this interval, the verdict of every caption on a point would hold, and a part of the left
-    arm would be stable.
+    A limit agrees with the captions if min(C_1, C_2) is above the limit at each point that a caption calls stable, and
+    below the limit at each other point. All limits in the interval are also below the fold of the manifold, so that a
+    part of the left arm is stable.
 
-    A point is stable if both C_i are above the limit, so that the points with the largest min(C_1, C_2) are the stable
-    ones. If the letters in the captions were permuted, the interval would be the same, or empty.
+    For any limit, the stable points of a case are those with the largest min(C_1, C_2). If the captions named the
+    points of a case in another order, the interval would therefore be either the same or empty.
     """
     smallest = {True: [], False: []}
     for case, captions in CAPTIONS.items():
@@ -155,8 +156,8 @@ def left_arm_has_a_stable_piece(evidence):
 def stability_regions(evidence):
     """Check the shaded (stable) and the white (unstable) region of Fig. 10.5 against the impact map.
 
-    For C from 0.5 to 1.1, the share of each region that has the stability drawn is measured. The border between both
-    regions, (10.26), must lie below the curve C_min(kappa) for every kappa.
+    On a grid with C from 0.5 to 1.1 and kappa in KAPPAS, the share of each region is measured in which the stability is
+    as drawn. The border between both regions, (10.26), must lie below the curve C_min(kappa) for every kappa.
     """
     kappa, C = (values.ravel() for values in np.meshgrid(KAPPAS, np.linspace(0.5, 1.1, 61)))
     border, stable = printed_limit(rho(kappa)), _stable(C, kappa)

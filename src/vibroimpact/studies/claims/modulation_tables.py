@@ -36,8 +36,8 @@ def modulation_tables(
     cycles : int
         Length of the window for the measures, in forcing cycles.
     blocks, block : int
-        Number of blocks, and cycles per block, for the Lyapunov exponents of chaotic spread starts. The exponents of
-        other starts come from the window.
+        Number of blocks, and cycles per block, for the Lyapunov exponents of spread starts that end in a regime of
+        CHAOS. The exponents of all other starts come from the window.
     windows : list of int
         Lengths of windows, in cycles, for which measures of the envelope are compared.
     observation : dict

@@ -17,7 +17,7 @@ from vibroimpact.theory.manifold import stays_within_walls
 SIMILAR = 0.1
 """Amplitudes count as similar up to this relative difference; smaller differences are hardly visible in a figure."""
 BEAT_VARIATION = 0.5 / np.sqrt(2)
-"""Standard deviation / mean of the amplitude 1 + cos(...) / 2 of a beat, whose maximum is 3 times its minimum."""
+"""Standard deviation / mean of the amplitude 1 + cos(...) / 2 of a beat; its maximum is 3 times its minimum."""
 PER_CYCLE = 2
 SMALL = 2e-4, 1e-4
 """Two values of epsilon, so small that the error of the theory is proportional to epsilon."""
@@ -69,9 +69,9 @@ def transients_are_long(evidence, case):
 
 
 def only_possible_behaviour(evidence, case):
-    """Check that no 1:1 response is stable, and find the regimes in which motions end.
+    """Check that no 1:1 response is stable, and that all motions end strongly modulated.
 
-    Initial states are spread evenly; one more start is from rest.
+    The motions start from evenly spread initial states and from rest.
 
     A motion with an idle ball has the regime "one ball idle", however strong its modulation. For the start from rest,
     `numbers` contains the regime and measures of the modulation.
@@ -103,7 +103,7 @@ def no_practical_importance(evidence, case, label):
 def resonant_intervals(evidence, case):
     """Check that bursts of resonance are longer than the pauses between them, and that the motion is chaotic.
 
-    The motion counts as chaotic if its largest Lyapunov exponent exceeds five times the uncertainty.
+    The motion counts as chaotic if its largest Lyapunov exponent exceeds five times the uncertainty of this exponent.
     """
     share, burst = (
         evidence.measured(case, "spread", quantity).set_index("module")["mean"].loc[[1, 2]].to_numpy()
@@ -121,7 +121,7 @@ def resonant_intervals(evidence, case):
 
 
 def beating(evidence, case):
-    """Check that the amplitude of each box varies more than in a beat whose maximum is 3 times its minimum."""
+    """Check that the amplitude of each box varies more than that of a beat, BEAT_VARIATION, by two uncertainties."""
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
     found = rows["mean"].loc[[1, 2]]
     parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > BEAT_VARIATION for i in (1, 2)}
@@ -129,7 +129,10 @@ def beating(evidence, case):
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
-    """Check that the first case of `sequence` has stable fixed points, and the last none, but modulated responses."""
+    """Check that the first case of `sequence` has stable fixed points, and that the last case has none.
+
+    The last case must have strongly modulated responses.
+    """
     points = [evidence.points(case) for case in sequence]
     in_theory = [int((rows["theory"] == STABLE).sum()) for rows in points]
     exactly = [int((rows["exact"] == STABLE).sum()) for rows in points]
@@ -150,9 +153,10 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
 
 
 def unstable_means_modulated(evidence, case):
-    """Check that the exact orbits of a case are unstable and that all its spread starts end strongly modulated.
+    """Check that all fixed points of a case have unstable exact orbits and all spread starts end strongly modulated.
 
-    The chapter claims this for `case`. `numbers` contains the modulated share of each case without a stable orbit.
+    The chapter claims this for `case`. `numbers` contains the share of spread starts that end strongly modulated, for
+    `case` and for every case whose fixed points all have unstable exact orbits.
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]

@@ -61,8 +61,8 @@ def label_of_a_point(evidence, case, label, says):
 def stable_points(evidence, case, number):
     """Count the stable fixed points of a case by each criterion of the theory, and by their exact orbits.
 
-    By "stable" the chapter means the fast criterion as derived: stability of the impacts at constant B and phase. This
-    criterion is also compared with the captions.
+    By "stable" the chapter means the fast criterion: stability of the impacts at constant B and phase. This criterion,
+    as derived and not as printed in (10.26), is also compared with the captions.
     """
     points = evidence.points(case)
     counts = {
@@ -82,7 +82,7 @@ def stable_points(evidence, case, number):
 
 
 def on_the_left_arm(evidence, case, label, modules):
-    """Check that a fixed point is left of the fold of the manifold, in the plane of each of the given modules."""
+    """Check that C_i of a fixed point is left of the fold of the manifold, for each module i in `modules`."""
     row, fold = evidence.points(case).loc[label], C_min(rho(evidence.systems[case].kappa))
     parts = {f"P{i}": row[f"C{i}"] < fold for i in modules}
     return Finding(parts, {"C": row[NAMES].tolist(), "C_min": fold})
@@ -91,7 +91,7 @@ def on_the_left_arm(evidence, case, label, modules):
 def points_move_left(evidence, before, after):
     """Check that each C_i of each fixed point falls from the case `before` to the case `after`, label by label.
 
-    `numbers` also contains the result for the pairing of points in which most C_i fall.
+    `numbers` also contains the largest number of C_i that fall, over all ways to pair the points of both cases.
     """
     first, last = (evidence.points(case)[NAMES] for case in (before, after))
     parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
@@ -163,13 +163,13 @@ def singular_and_bifurcating(evidence, case, f20_range):
 
 
 def _nearest_singular(system, point):
-    """Return the smallest difference in C_i between a fixed point and a singular point S_i, for i = 1, 2."""
+    """Return the smallest difference in C_i between a fixed point and a singular point S_i, over i = 1, 2."""
     gaps = [np.abs(singular_points(system, point, i)[:, 0] - point.C[i - 1]) for i in (1, 2)]
     return np.concatenate(gaps).min(initial=np.inf)
 
 
 def places_of_singular_points(evidence, case, label):
-    """Compare the singular points S_1 for two ways to eliminate the phases from (10.23).
+    """Compare the singular points S_1 that two ways of eliminating the phases from (10.23) give.
 
     The chapter does not print the functions h_1 and h_2 of (10.24), so that either way may be meant.
     """

@@ -59,7 +59,7 @@ def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
 
 
 def exact_orbits(system, points, roots):
-    """For each fixed point, yield its exact symmetric Orbit, or None without an orbit.
+    """For each fixed point, yield its exact symmetric Orbit, or None if it has none.
 
     points: C of the fixed points, (n, 2). roots: all symmetric orbits, as returned by `symmetric_solutions`.
     """
