@@ -35,14 +35,16 @@ FINALISTS = 3
 PER_WIDTH, LEAST, MOST = 6, 41, 801
 """Frequencies per half-power width of the resonance without ball; least and largest number of frequencies in a band."""
 FEW_STARTS, MORE_STARTS = 3, 6
-"""Number of initial states for each candidate, which is run at every other frequency, and for each of the best few."""
+"""Number of initial states for each candidate, and for each of the FINALISTS. A candidate is run at every other
+frequency, a finalist at all frequencies."""
 SETTLED, LONGEST = 5, 2000
 """Length of the transient in time constants of the machine, and its upper limit in forcing periods."""
 SHORT, LONG = 100, 600
-"""Forcing periods of the window for each candidate; shortest transient for the best few (transients may be chaotic)."""
+"""Window for each candidate, and shortest transient for each of the FINALISTS, in forcing periods. A shortest transient
+is needed, since transients may be chaotic."""
 WINDOW, LATER = 300, 1000
-"""Forcing periods of the window for each of the best few, and forcing periods for which the largest motion at each
-frequency is continued after the window, to show whether it is a transient."""
+"""Window for each of the FINALISTS, and time for which the largest motion at each frequency is continued after this
+window, to show whether the motion is a transient; both in forcing periods."""
 NEAR = 0.02
 """Relative difference in clearance between a design and its two neighbours."""
 FRAGILE_FACTOR = 1.1
@@ -80,14 +82,14 @@ class Design:
         Forcing periods of the transient and of the window.
     candidates : list of dict
         One row per pair of clearance and restitution: clearance_m, restitution, peak_m from a few initial states. The
-        best few pairs have near_m, the larger value of `near`, which is nan for all other pairs. The chosen pair has
-        the smallest near_m.
+        best few pairs have near_m, the largest of their three peaks as in `near`; near_m of all other pairs is nan. The
+        chosen pair has the smallest near_m.
     response : list of dict
         One row per frequency: frequency_Hz; the displacements without_m, with_m (in the window, the largest of all
         initial states), settling_m (before the window, from rest) and absorber_m. All other entries describe the motion
-        behind with_m: impacts_per_s; the mean impact_speed_m_s of the ball against the wall; the mean impulse_Ns of an
-        impact; later_m, the displacement in the 1000 periods after the window, which is smaller than with_m if this
-        motion is a transient.
+        whose displacement is with_m: impacts_per_s; the mean impact_speed_m_s of the ball against the wall; the mean
+        impulse_Ns of an impact; later_m, the displacement in the 1000 periods after the window, which is smaller than
+        with_m if this motion is a transient.
 
     Examples
     --------
@@ -312,7 +314,8 @@ class _Measured:
 class _Study:
     """Simulations of one machine over a band, with their frequencies, numbers of cycles and initial states.
 
-    machine, system: the machine at its natural frequency with a clearance of 1 m, so that displacements are in metres.
+    machine: the machine with the force |F|, driven at its natural frequency, with a clearance of 1 m. system: its
+    dimensionless form, whose displacements are therefore in metres.
     """
 
     def __init__(self, machine, band):
