@@ -1,1 +1,1 @@
-"""Prove that no fixed point and no symmetric orbit is missing."""
+"""Prove that the lists of fixed points and of symmetric orbits are complete."""

@@ -35,15 +35,15 @@ need("reference", "flint")
 
 from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the dependency check)
 
-_NARROWEST = 2.0**-24  # relative to the half period; the 53 bits of arb resolve intervals of this width
+_NARROWEST = 2.0**-24  # smallest width, relative to the half period; the 53 bits of arb resolve it
 _FIRST = 8
-_MOST = 10_000  # largest number of intervals; the rest is reported as undecided
+_MOST = 10_000  # largest number of intervals that are examined; all others are reported as undecided
 _TERMS = 3
 
 
 @dataclass(frozen=True)
 class Proof:
-    """Result of the proof for the symmetric orbits of a system; its float64 parameters are taken as exact.
+    """Result of the proof for the symmetric orbits of a system, whose float64 parameters are taken as exact.
 
     isolated: ascending intervals of the lag (tau_2 - tau_1) / T, or of C for a single machine, each with exactly one
         symmetric response.

@@ -1,10 +1,11 @@
 """Prove in interval arithmetic (python-flint's arb) that the lists of fixed points are complete.
 
 The conditions are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2 on each pair of charts (docs/derivation.md, section 11;
-the code calls the numerators m_i n1 and n2). Together, the squares |x_i| <= 1 of all pairs cover every real C_i, and
-v^2 from -1 to 1. Each square is quartered until every box is decided or has the smallest width. In a decided box, the
-interval of one condition excludes 0, or a contraction (Krawczyk's test, Neumaier 1990) proves the number of zeros. The
-number is 0 in the box, or 1 in the box of twice the width. Boxes that are undecided at the smallest width are reported.
+in the code, the numerators m_1 and m_2 are n1 and n2). Together, the squares |x_i| <= 1 of all pairs cover every real
+C_i, and v^2 from -1 to 1. Each square is quartered until every box is decided or has the smallest width. A box is
+decided if the interval of |Delta|^2 - |beta_i m_i|^2 excludes 0 for an i, or if a contraction (Krawczyk's test,
+Neumaier 1990) proves that there is no zero in the box, or exactly one in the box of twice the width. Boxes that are
+undecided at the smallest width are reported.
 
 The functions of a chart are computed from the parameters in interval arithmetic and expanded to second order about the
 centre of a box, with a remainder that holds in the box of twice the width. Where the interval of Delta excludes 0, the
@@ -32,8 +33,8 @@ SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
 _BITS = 128
 _REACH = 2  # a box is tested at this multiple of its width, so that a zero on its edge is inside
 _NARROWEST = 2.0**-24
-_ISOLATED_WIDTH = 2.0**-20  # half-width at which a zero is distinguished from other zeros
-_MOST = 20_000  # largest number of boxes in a pair of charts; the rest is reported as undecided
+_ISOLATED_WIDTH = 2.0**-20  # half-width to which the box of a zero is narrowed, before it is compared with other zeros
+_MOST = 20_000  # number of boxes in a pair of charts after which undecided boxes are reported instead of quartered
 _TERMS = 30
 _TAIL = arb(0, 2.0**-150)  # for |v^2| <= 2: the omitted terms and their derivatives are below 5^30 100^2 / 60!
 _ORDERS = 3
@@ -44,15 +45,15 @@ Box = tuple[tuple[float, float], ...]
 
 @dataclass(frozen=True)
 class Proof:
-    """Result of the proof for the fixed points of a system; its float64 hatted parameters are taken as exact.
+    """Result of the proof for the fixed points of a system, whose float64 hatted parameters are taken as exact.
 
     isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point; for asymmetric
-        points, pairs of charts and boxes of the chart parameters. For a single machine a box has one interval, and one
-        chart takes the place of a pair.
-    undecided: boxes in which nothing is proved. Outside the isolated and undecided boxes, no fixed point exists for any
-        real C_i and v^2 in [-1, 1].
-    motions: number of isolated points that are motions at leading order, C_i > 0 and v_i^2 > 0. A point is not counted
-        if its box contains 0. On the asymmetric branch C is always positive.
+        points, tuples (pair of charts, box of the chart parameters) instead. For a single machine a box has one
+        interval, and one chart takes the place of a pair.
+    undecided: boxes in which nothing is proved, in the form of `isolated`. Outside the isolated and undecided boxes, no
+        fixed point exists for any real C_i and v^2 in [-1, 1].
+    motions: number of isolated points that are motions at leading order: C_i > 0 for each symmetric module, v_i^2 > 0
+        for each asymmetric one (whose C_i is always positive). A point is not counted if its box contains 0.
     complete: True if nothing is undecided, and the search lists exactly one point in each isolated box.
     """
 
@@ -181,8 +182,8 @@ def _subdivide(conditions):
 def _narrowed(conditions, x, y, half):
     """Return the centre and half-width of a small box about the only zero in a wide box, or None.
 
-    The wide box has the centre (x, y) and the half-width `half`. The result is None if it cannot be narrowed, or if the
-    phases at the zero are not unique.
+    The wide box has the centre (x, y) and the half-width `half`. The result is None if this box cannot be narrowed, or
+    if the phases at the zero are not unique.
     """
     while half > _ISOLATED_WIDTH:
         _, (x, y, half) = conditions.count(x, y, half)
@@ -216,9 +217,8 @@ class _Conditions:
     def count(self, x, y, half):
         """Return the number of zeros in the box of half-width `half` about (x, y), and a box around the zero.
 
-        Number: 0; 1, for exactly one zero in _REACH times the box; None, if undecided.
-
-        Box around the zero: (x, y, half-width) if the number is 1, else None.
+        The number is 0 if the box has no zero, 1 if the box enlarged by the factor _REACH has exactly one zero, and
+        None if undecided. The box around the zero is (centre x, centre y, half-width) if the number is 1, else None.
         """
         delta, one, two = self.sides(x, y, half)
         local = np.array([delta - one, delta - two])
@@ -313,7 +313,7 @@ def _size(polynomial, reach):
 
 
 def _slope(polynomial, reach):
-    """Return a bound on the sum of the moduli of the derivatives by t_1 and by t_2 for |t| <= reach."""
+    """Return a bound on the sum of the moduli of the derivatives with respect to t_1 and to t_2 for |t| <= reach."""
     degrees = _degrees(polynomial)
     return (degrees * abs(polynomial) * reach ** np.maximum(degrees - 1, 0)).sum()
 
