@@ -31,15 +31,16 @@ def branches(
     Pseudo-arclength continuation (Keller 1977) passes folds and branch points. It also follows the branches that
     emanate from branch points, and asymmetric orbits that emanate from symmetric ones. Each branch is divided at its
     special points: folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf, grazing. If a branch
-    ends inside `between`, the special point at its end gives the reason: speed zero, lost, or symmetry breaking (the
-    branch meets its mirror image).
+    ends inside `between`, the kind of the special point at its end gives the reason: "speed zero" (the speed of a ball
+    vanishes), "symmetry breaking" (a branch of asymmetric orbits meets its mirror image), "branch point" (the
+    continuation cannot pass it) or "lost" (the continuation finds no further point).
 
     Parameters
     ----------
     system : System
         System with the values of all other parameters.
     along : str or sequence of str
-        A parameter of System, or several that vary together.
+        A parameter of System, or several that all have the same value.
     between : tuple of float
         Least and greatest value of the parameter.
     of : str, default 'both'

@@ -33,7 +33,7 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     -------
     ndarray
         States (..., cycles - settle, 8), dimensionless, where ... is the shape to which `systems` and `states`
-        broadcast; nan from the cycle on in which a run fails (`ensemble` gives the reason).
+        broadcast; nan after a run has failed (`ensemble` gives the reason).
 
     Raises
     ------

@@ -42,10 +42,10 @@ def sweep(
         Values of one or two parameters, by name.
     observe : sequence of str
         Names of observations. The following ones simulate all initial states: "amplitudes" (largest |X_i|, root mean
-        square, mean ball speeds), "energy" (share of the work of the forces that impacts dissipate), "peaks" (amplitude
-        exceeded by one cycle in a hundred along a band) and "regimes" (share of the initial states that end in each
-        regime, and the regime reached from rest). "fixed_points" (number of fixed points of the theory, and how many
-        of them are stable) does not simulate.
+        square, mean ball speeds), "energy" (energy that impacts dissipate, divided by the work of the forces), "peaks"
+        (displacement that one cycle in a hundred exceeds, at the worst point of a band) and "regimes" (share of the
+        initial states that end in each regime, and the regime reached from rest). "fixed_points" (number of fixed
+        points of the theory, and how many of them are stable) does not simulate.
     starts : int, default 5
         Number of initial states, evenly spread, the first at rest. A ball that starts at rest may stay idle, although
         it moves from any other initial state.
