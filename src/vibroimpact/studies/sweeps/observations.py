@@ -40,7 +40,7 @@ def _regimes(system, states, spec):
 def _amplitudes(system, states, spec):
     """Return the largest |X_i|, the root mean square of X_i, the mean ball speeds, and the number of unfinished runs.
 
-    The amplitudes and speeds, two of each, are those of all finished runs together.
+    The first three quantities have a value for each module, over all finished runs together.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
@@ -67,9 +67,9 @@ def _peaks(system, states, spec):
 
 
 def _energy(system, states, spec):
-    """Return the share of the work of the forces that impacts dissipate, and the number of runs without impacts.
+    """Return the energy that impacts dissipate over the work of the forces, and the number of runs without impacts.
 
-    The share is that of all finished runs with impacts together.
+    Energy and work are summed over all finished runs with impacts. Unfinished runs are not counted.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]
