@@ -1,12 +1,12 @@
 """Find all fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
 
 The balance is linear in w_i = u_i / beta_i, with coefficients that depend on the chart parameters x_i alone
-(docs/derivation.md, section 11). By Cramer's rule w_i = m_i / Delta, where the code calls the numerators m_i n1 and n2.
+(docs/derivation.md, section 11). By Cramer's rule w_i = m_i / Delta; the numerators m_1, m_2 are n1, n2 in the code.
 Since |u_i| = 1, the conditions are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2 on the square |x_i| <= 1.
 `completeness.points` proves that no fixed point is missed.
 
 Points with v^2 < 0 are kept too. They are not motions at leading order, but continue the branch beyond symmetry
-breaking. A motion close to such a point exists once terms of order epsilon raise v^2 above 0.
+breaking. A motion close to such a point exists if terms of order epsilon raise v^2 above 0.
 """
 
 import itertools
@@ -32,7 +32,7 @@ PAIRS = [pair for pair in itertools.product((SMALL, LARGE, ASYMMETRIC), repeat=2
 _STARTS = 20  # number of starts along each edge of the square
 _REACH = 0.25
 _SAME = 1e-7
-_ROUNDING = 1e-10  # error of an eigenvalue, relative to the largest one
+_ROUNDING = 1e-10  # rounding error of an eigenvalue, relative to the largest eigenvalue
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -115,7 +115,7 @@ class AsymmetricPoint(Representation):
 
 
 class Balance:
-    """The two conditions for a fixed point on (x_1, x_2) in one pair of charts; x_i = 0 if module i is inactive."""
+    """The two conditions that (x_1, x_2) is a fixed point in one pair of charts; x_i = 0 for an inactive module i."""
 
     def __init__(self, system: System, pair: tuple[str, str]):
         one, two = (charts(system.kappa)[name] for name in pair)

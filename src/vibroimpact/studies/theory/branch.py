@@ -28,8 +28,8 @@ from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC
 
 SMALL, LARGE, ASYMMETRIC = "small C", "large C", "asymmetric"
-_TERMS = 16  # number of terms; the next term, (pi^2 / 4)^16 / 32!, is below rounding
-_ROUNDING = 1e-12  # error of a trace
+_TERMS = 16  # number of terms of c and s; the next term, (pi^2 / 4)^16 / 32!, is below rounding
+_ROUNDING = 1e-12  # rounding error of `trace`
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +77,7 @@ def charts(kappa: float) -> dict[str, Chart]:
 def amplitudes(squared, kappa):
     """Return C and B on the asymmetric branch at v^2 in [0, 1), each in the shape of v^2.
 
-    The branch starts at C = pi^2 / (pi^2 - 4). From there C grows up to 2, for every kappa, and B without bound.
+    At v^2 = 0, C = pi^2 / (pi^2 - 4). As v^2 tends to 1, C grows to 2, for every kappa, and B grows without bound.
     """
     return charts(kappa)[ASYMMETRIC].amplitudes(np.asarray(squared, dtype=float))
 
@@ -132,7 +132,7 @@ def overshoot(v: float, kappa: float) -> float:
     """
     C, B = amplitudes(v**2, kappa)
     a, b = impact_phases(v, kappa)
-    change, excess = 4 * C / (np.pi * (1 - v**2)), 0.0  # of the slope of Z at an impact
+    change, excess = 4 * C / (np.pi * (1 - v**2)), 0.0  # change of the slope of Z at an impact
     for wall, start, fraction in ((1, a, (1 - v) / 2), (-1, b, (1 + v) / 2)):
         slope = -wall * change * (1 - fraction)
         turn = np.arccos(np.clip(-slope / B, -1, 1))

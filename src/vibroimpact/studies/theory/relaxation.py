@@ -29,7 +29,7 @@ _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 class Relaxation:
     """Statistics of both modules in a relaxation oscillation, each (..., 2).
 
-    share: share of the time observed in which each ball is in resonance.
+    share: share of the observed time in which each ball is in resonance.
     largest: largest amplitude B of each box.
     """
 
@@ -38,7 +38,10 @@ class Relaxation:
 
 
 def describing_function(kappa: float):
-    """Return the function B -> N on the stable symmetric branch and, for larger B, on the asymmetric branch."""
+    """Return the describing function N of a ball, as a function of B, on the stable symmetric branch.
+
+    For larger B, where the symmetric branch is unstable, N is that on the asymmetric branch.
+    """
     r, chart = rho(kappa), charts(kappa)[ASYMMETRIC]
     squared = np.linspace(0.0, _LARGEST_SQUARED, _NODES)
     skewed = np.abs(chart.z(squared) / chart.beta(squared))
