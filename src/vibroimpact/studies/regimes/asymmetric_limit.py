@@ -61,7 +61,7 @@ def leads_to(stations, points):
     """Return the fixed point that an orbit approaches at epsilon = 0, or None.
 
     The last two stations are extrapolated linearly to epsilon = 0. The result is None if no fixed point is near, as for
-    an orbit that turns back at a fold, or if there are fewer than two stations.
+    an orbit whose branch turns back at a fold, or if there are fewer than two stations.
     """
     if len(stations) < 2:
         return None
@@ -72,7 +72,7 @@ def leads_to(stations, points):
 
 
 def onset(stations) -> float:
-    """Return the epsilon at which the asymmetric orbit emanates from a symmetric one, or 0 if this is not above 0.
+    """Return the epsilon at which the asymmetric orbit emanates from a symmetric one, or 0 if it is computed below 0.
 
     The polynomial for epsilon in v^2 through the last stations (at most `_MOST_NODES`) is evaluated at v^2 = 0, where
     the orbit is symmetric. A line through the last two stations instead would give only three correct digits if their

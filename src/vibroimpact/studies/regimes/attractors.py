@@ -20,7 +20,7 @@ _SAME, _SAME_IDLE = 1e-6, 1e-4
 ball is at rest: Newton's method does not refine a motion with a ball at rest, so that part of its transient remains."""
 
 _COORDINATES = {name: (k,) for k, name in enumerate(NAMES)} | {"W1": (0, 1), "W2": (2, 3)}
-"""Name of a coordinate -> its index in the state; for W_i, the indices of X_i and Y_i, from which Y_i = X_i - W_i."""
+"""Name of a coordinate -> its index in the state. W_i has the indices of X_i and Y_i, and sets Y_i to X_i - W_i."""
 
 
 @dataclass(frozen=True, eq=False)

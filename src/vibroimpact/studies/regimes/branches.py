@@ -63,8 +63,8 @@ class Branch(Representation):
 
     If the curve is closed, the first node is also the last.
 
-    places: points of the curve with their tangents. All nodes that are not special have a place, and some ends of the
-    curve.
+    places: points of the curve with their tangents; one for each node that is not special, and at most one more at each
+    end of the curve.
     """
 
     family: object
@@ -114,9 +114,9 @@ def branches(
     """Return the branches of a family that pass a seed (a value of p), and those that emanate from them.
 
     A branch ends at the ends of the interval, where a ball speed vanishes, or where the continuation loses it. A branch
-    of asymmetric motions also ends at a symmetric motion, where it meets its mirror image. Only one of the images is
-    followed. A branch that neither passes a seed nor emanates from another branch is missed. A seed at which the search
-    for roots fails is skipped with a warning.
+    of asymmetric motions also ends at a symmetric motion, where it meets its mirror image. Of two mirror images, only
+    one is followed. A branch that neither passes a seed nor emanates from another branch is missed. A seed at which the
+    search for roots fails is skipped with a warning.
 
     Parameters
     ----------

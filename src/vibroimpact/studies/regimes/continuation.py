@@ -2,14 +2,14 @@
 
 A step goes from a point z = (x, p) along the tangent; then Newton's method corrects x at constant p. Where the tangent
 has only a small component along p, the correction is in the plane normal to the tangent instead, so that folds in p are
-passed like any other point. A special point is a sign change of a function along the curve. It is found by Brent's
-method in the arclength. Every evaluation is at a root of F accurate to rounding, so the zero is as accurate as the
-function itself.
+passed like any other point. A special point is where a given function changes sign along the curve. This zero is found
+by Brent's method in the arclength. Every evaluation is at a root of F accurate to rounding, so the zero is as accurate
+as the function itself.
 
 Branches cross where the determinant of [[dF/dz], [tangent]] changes sign. Newton's method is ill-conditioned there, so
 a branch point is bracketed by bisection in the arclength and stepped over. The branches through it are found on a small
-circle in the plane of both null vectors: they pass where the component of F along the left null vector vanishes
-(Lyapunov and Schmidt).
+circle in the plane of both null vectors: a branch crosses the circle where the component of F along the left null
+vector vanishes (Lyapunov and Schmidt).
 """
 
 from collections.abc import Callable, Iterator
@@ -37,7 +37,7 @@ _TURN = 0.15  # radians by which the tangent may turn in one step
 _SHORTEST = 1e-7  # shortest step; the curve is lost where a shorter one is needed
 _RESOLVED = 1e-6  # arclength at which bisection ends; this far from a branch point Newton's method keeps 10 digits
 _SINGULAR = 1e-5  # relative size up to which a singular value is 0 within rounding
-_CORNER = 1e-5  # length of a step past a corner
+_CORNER = 1e-5  # length of a step past a corner of the curve, where dF/dz jumps
 _CIRCLE, _ANGLES = 1e-4, np.linspace(0.0, 2 * np.pi, 97)
 
 
@@ -65,8 +65,8 @@ class Place(NamedTuple):
 class Curve:
     """The solution set of F(x, p) = 0.
 
-    equations(x, p) returns the residual (d,) and its Jacobian (d, d) by x. images(z, near) returns the points that are
-    equivalent to z, with angles within half a turn of those of `near`.
+    equations(x, p) returns the residual (d,) and its Jacobian (d, d) with respect to x. images(z, near) returns the
+    points that are equivalent to z, with angles within half a turn of those of `near`.
     """
 
     equations: Callable
@@ -113,8 +113,8 @@ class Curve:
     def trace(self, start: Place, longest: float, inside: Callable) -> Iterator[Place]:
         """Yield the places along the curve from `start`, including branch points.
 
-        The last place is the first one for which inside(z) is False. The curve ends earlier where it closes, where it
-        is lost, or after _MOST_STEPS steps.
+        The last place is the first one for which inside(z) is False. The places end earlier where the curve closes,
+        where no further place is found, or after _MOST_STEPS steps.
 
         Parameters
         ----------
@@ -291,9 +291,9 @@ class Curve:
     def _bisected(self, place, after, before: Callable):
         """Return two places between `place` and `after`, less than _RESOLVED apart, found by bisection of the curve.
 
-        before(middle) is True for the first of both places and all places of the curve before it. If no step leads on
-        from a singular place, the bisection stops there. The result is None if the curve does not join `place` and
-        `after`.
+        before(middle) is True for the first of the two returned places and for all places of the curve before it. If no
+        step leads on from a singular place, the bisection stops there. The result is None if the curve does not join
+        `place` and `after`.
         """
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:

@@ -1,7 +1,8 @@
 """Patterns of asymmetric flights of both balls, from weak to strong coupling.
 
-The flight asymmetry v of a ball is the difference of its two flight times, divided by the period. The balls may be
-asymmetric in phase (IN_PHASE) or in antiphase (ANTIPHASE), each with a mirror image (docs/derivation.md, section 14).
+The flight asymmetry v of a ball is the difference of its two flight times, divided by the period. If the flights of
+both balls are asymmetric, the longer flights end at the same wall (IN_PHASE) or at opposite walls (ANTIPHASE). Each of
+these patterns has a mirror image (docs/derivation.md, section 14).
 """
 
 from collections.abc import Iterator
@@ -22,11 +23,11 @@ from vibroimpact.studies.regimes.families import (
 IN_PHASE, ANTIPHASE = "in phase", "antiphase"
 VANISHES = "asymmetry vanishes"
 SOUGHT = (1.0, 14.0, 30.0)
-"""Couplings at which stable orbits of each pattern are searched."""
+"""Values of alpha12_hat at which stable orbits of each pattern are searched."""
 LEAST_ASYMMETRY = 0.05
 """Smallest |v| at which the flights of a ball count as asymmetric."""
 STEP, SHARP = 0.1, 3e-5
-"""Longest and shortest step in the logarithm of the coupling."""
+"""Longest and shortest step in the logarithm of alpha12_hat."""
 _SAME_BRANCH, _AT_THE_END = 0.1, 5e-3
 
 
@@ -69,7 +70,7 @@ def patterns(system) -> dict[str, np.ndarray]:
 
 
 def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
-    """Yield each pattern that has a stable orbit at a coupling of SOUGHT, with its orbits in the range of stability.
+    """Yield each pattern that has a stable orbit at a coupling in SOUGHT, with the orbits of its stable range.
 
     The coupling damper changes in proportion.
 
@@ -78,8 +79,9 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
     limits
         Smallest and largest alpha12_hat.
 
-    Yields (pattern, coupling at which it was found, [(alpha12_hat, Orbit), ...] ascending, (end below, end above)). An
-    end is a fold, Neimark-Sacker, a period doubling, grazing or VANISHES, or "" at a limit.
+    Yields (pattern, coupling at which it was found, [(alpha12_hat, Orbit), ...] ascending, (reason for the lower end,
+    reason for the upper end)). A reason is FOLD, NEIMARK_SACKER, PERIOD_DOUBLING, GRAZING or VANISHES, or "" if the
+    range ends at a limit.
     """
     seen = []
     for start in SOUGHT:

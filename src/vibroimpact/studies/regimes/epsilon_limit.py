@@ -15,8 +15,8 @@ from vibroimpact.theory.masri import multipliers
 class Comparison:
     """A fixed point and the exact orbit next to it, at one epsilon.
 
-    offset: coordinates of the orbit minus those of the fixed point; for a symmetric orbit C and impact phases [rad] of
-    both modules, (4,). distance: norm of the offset.
+    offset: coordinates of the orbit minus those of the fixed point. For a symmetric orbit, the coordinates are C and
+    the impact phase [rad] of each module, (4,). distance: norm of the offset.
     multipliers, predicted_multipliers: (8,) complex; those of the exact orbit, and those predicted by slow flow (first
     four) and impact map (last four). The exact multipliers are in the order that brings them closest to the predicted.
     rates, predicted: log(mu) / (epsilon 2 pi / Omega) of the first four multipliers mu, exact and by the slow flow.

@@ -2,10 +2,10 @@
 
 The test functions of an orbit, except that for grazing, are symmetric polynomials in its multipliers mu, so that they
 are real and change sign at their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j,
-vanishes where a pair of multipliers reaches the unit circle (Neimark-Sacker if the pair is complex). For a symmetric
-orbit mu are the multipliers over half a period followed by mirroring, and mu = -1 breaks the symmetry. A symmetric
-orbit cannot double its period before its symmetry breaks (Swift and Wiesenfeld 1984). Folds and branch points (mu = 1)
-are found by the continuation instead.
+vanishes where two multipliers have the product 1; if they are complex, they are on the unit circle (Neimark-Sacker).
+For a symmetric orbit mu are the multipliers over half a period followed by mirroring, and mu = -1 breaks the symmetry.
+A symmetric orbit cannot double its period before its symmetry breaks (Swift and Wiesenfeld 1984). Folds and branch
+points (mu = 1) are found by the continuation instead.
 
 The unknowns of an inactive module (not in `System.modules`) are held at the constants `rest`: angles at 0; sizes, C_i
 or I_i, at 1, so that a size of 0 always means a ball without speed. The amplitude of such a module is NaN.
@@ -32,7 +32,7 @@ SYMMETRY_BREAKING, PERIOD_DOUBLING = "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
-_EQUAL = 1e-6  # largest difference of flight fractions that counts as 0
+_EQUAL = 1e-6  # largest difference of a flight fraction from 1/2 that counts as 0
 _HELD = 1e-12
 
 
@@ -45,7 +45,7 @@ class SymmetricOrbits:
 
     @staticmethod
     def turn(system) -> float:
-        """Return the forcing period: impact times that differ by it describe the same motion."""
+        """Return the forcing period, since impact times that differ by it describe the same motion."""
         return system.period
 
     @classmethod
@@ -150,7 +150,7 @@ class FixedPoints:
 
     @staticmethod
     def turn(system) -> float:
-        """Return 2 pi: phases [rad] that differ by it describe the same motion."""
+        """Return 2 pi, since phases [rad] that differ by it describe the same motion."""
         return 2 * np.pi
 
     @classmethod

@@ -2,7 +2,7 @@
 
 The Jacobian of every cycle, saltation matrices included (Müller 1995), propagates a frame of perturbations, which is
 orthonormalised by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990). The logarithms of the diagonal of R
-are the growth in this cycle. The initial time is not perturbed. With the time as another coordinate, the flow has one
+are the growth in the cycle. The initial time is not perturbed. With the time as another coordinate, the flow has one
 more exponent, 0, and the dimension of its attractor is larger by one.
 
 If a ball sticks, two directions are lost. If both balls stick at the same time, four directions are lost. If such
@@ -36,8 +36,9 @@ class Exponent(NamedTuple):
     """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
     The error is the root of the sum of squares of two errors: the standard error from block means, and ln(t1 / t0) /
-    (t1 - t0), where the blocks last from the time t0 to t1. The second error is the rate that a perturbation which
-    grows linearly in time, as that of a ball at rest does, shows over the blocks. Its true exponent is 0.
+    (t1 - t0), where the blocks last from the time t0 to t1. The second error is the mean growth rate, over the blocks,
+    of a perturbation that grows linearly in time, as that of a ball at rest does. The exponent of such a perturbation
+    is 0.
     """
 
     mean: float
@@ -56,8 +57,8 @@ def largest_lyapunov(
     """Return the largest Lyapunov exponent of the motion reached from an initial state, in nats per period.
 
     An exponent above about three times its error indicates chaos. For a periodic motion, the exponent is the logarithm
-    of the modulus of the largest Floquet multiplier, divided by the period of the motion. The exponent is computed from
-    the exact Jacobian through impacts, chatter and sticking, for the active modules.
+    of the modulus of the largest Floquet multiplier, divided by the period of the motion in forcing periods. The
+    exponent is computed from the exact Jacobian through impacts, chatter and sticking, for the active modules.
 
     Parameters
     ----------
@@ -78,8 +79,8 @@ def largest_lyapunov(
     Returns
     -------
     Measured
-        .mean, .error and .scatter. The error includes the rate that a perturbation which grows linearly in time, as
-        that of a ball at rest does, shows over `cycles`; its true exponent is 0.
+        .mean, .error and .scatter. The error includes the mean growth rate, over `cycles`, of a perturbation that grows
+        linearly in time, as that of a ball at rest does, although the exponent of such a perturbation is 0.
 
     Raises
     ------
@@ -126,7 +127,8 @@ class Spectrum:
         ball sticks in a cycle, its motion afterwards does not depend on how it came to its wall: two values of the
         cycle are -inf, or four if both balls stick at the same time.
     contraction : ndarray
-        Logarithm of the contraction of volume in each cycle, in closed form, (n,); the sum of `growth`.
+        Logarithm of the contraction of volume in each cycle, in closed form, (n,); equal to the sum of `growth` over
+        the directions.
     stuck : ndarray
         Largest number of balls that stick at the same time in each cycle, (n,).
     """
@@ -160,7 +162,7 @@ class Spectrum:
         return kaplan_yorke(self.exponents)
 
     def errors(self, block: int) -> tuple[np.ndarray, float]:
-        """Return the standard errors of the exponents (nan for -inf) and of the dimension.
+        """Return the standard errors of the exponents (nan for an exponent of -inf) and of the dimension.
 
         The circular block bootstrap (Politis and Romano 1992) resamples the n cycles in n / block stretches of `block`
         cycles, which preserve the correlation of successive cycles.
@@ -192,7 +194,8 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
 
     The exponents are those of the map from one forcing period to the next; the exponent 0 of a shift in time is not
     included. If a ball sticks, two directions are lost, whose exponents are -inf. A perturbation that grows linearly in
-    time t, as that of a ball at rest does, has the exponent 0, but shows ln(t) / t; the errors do not include this.
+    time t, as that of a ball at rest does, has the exponent 0, but its computed exponent is about ln(t) / t. The errors
+    do not include this difference.
 
     Parameters
     ----------

@@ -14,8 +14,8 @@ DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 class MotionSpectrum(NamedTuple):
     """Spectrum of a motion without the cycles in which both balls stick at the same time.
 
-    errors, dimension_error: bootstrap errors of the exponents and of the dimension. double_sticks: number of the cycles
-    that are left out.
+    errors, dimension_error: standard errors of the exponents and of the dimension, by bootstrap. double_sticks: number
+    of the cycles that are left out.
     """
 
     spectrum: Spectrum
