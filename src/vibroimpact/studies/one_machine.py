@@ -26,7 +26,7 @@ from vibroimpact.system.progress import track
 from vibroimpact.system.state import IMPACT, inactive_at_rest
 
 RESTITUTIONS = (0.05, 0.15, 0.3, 0.5, 0.8)
-"""Default candidates for the restitution coefficient; for steel on steel with damping it is about 0.6."""
+"""Default candidates for the restitution coefficient. For a damped contact of steel with steel it is about 0.6."""
 CLEARANCE_FACTOR, WIDEST_FACTOR, COARSE_CLEARANCES = 4, 8, 8
 """Default clearances: COARSE_CLEARANCES values from (F / k) (M / m) / CLEARANCE_FACTOR to (F / k) (M / m) times
 CLEARANCE_FACTOR. The lower end is at most the peak without ball / WIDEST_FACTOR, the upper end at most this peak."""

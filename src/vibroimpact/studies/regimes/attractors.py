@@ -152,7 +152,7 @@ def basins(
         Values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2, where
         W_i = X_i - Y_i places ball i between its walls, -1 < W_i < 1.
     state : array_like, optional
-        State at tau = 0 that gives the other coordinates, shape (8,); at rest by default.
+        State at tau = 0 with the values of the coordinates that are not in `axes`, shape (8,); at rest by default.
     observation, progress
         As for `attractors`.
 

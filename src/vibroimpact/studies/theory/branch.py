@@ -12,7 +12,7 @@ c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v) are entire functions of v^2 (
 On the asymmetric branch the flight from wall +1 takes the fraction (1 - v) / 2 of the cycle, and the flight back the
 fraction (1 + v) / 2, so that v is the difference of both fractions. All quantities except the impact phases are
 functions of v^2, since a motion and its mirror image have opposite v. Stability on the asymmetric branch means
-stability of the impacts at constant B and phi.
+stability of the impacts at constant amplitude B and phase phi of U.
 """
 
 import functools
