@@ -54,7 +54,7 @@ class Modal(Method):
 def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
     """Return tables of the modes in the four contact states, and the largest condition number of the eigenvectors.
 
-    Tables: number of modes, (4,), where the last mode is the forced response; rates of the modes, (4, 2, 5); mode
+    Tables: number of modes, (4,), the last of which is the forced response; rates of the modes, (4, 2, 5); mode
     shapes in [X1, X2, X1', X2'], doubled for a conjugate pair, (4, 2, 4, 5); matrix from the free motion of the boxes
     to the amplitudes of the free modes, (4, 2, 4, 4). Axes of length 2 hold real and imaginary parts.
     """

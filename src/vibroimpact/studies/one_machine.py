@@ -334,7 +334,7 @@ class _Study:
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
         if self.system.modules != (1,):
             raise ValueError(
-                "machine: got two machines, coupled or both with a force; expected one, see PhysicalSystem.single"
+                "machine: got two machines (coupled, or both with a force), expected one; see PhysicalSystem.single"
             )
         ratio = machine.c1 / (2 * machine.M * machine.omega10)
         width = 2 * ratio * self.hertz

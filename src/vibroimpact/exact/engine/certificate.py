@@ -54,7 +54,7 @@ class Errors(NamedTuple):
 def errors_of(flow, flights, events, limit):
     """Return the estimated errors at the start and end of every flight, rows (m + 1, 2), and at the end of the run.
 
-    An error is the root of the sum of the mean squares over all components of the state. If it exceeds `limit` after an
+    An error is the root of the sum, over all components of the state, of their mean square errors. If it exceeds `limit` after an
     event or at the end of the run, the errors from there on are inf.
     """
     q = flow.coefficients
@@ -207,7 +207,7 @@ def _multiply(a, b, product):
 
 @inlined
 def _root(errors):
-    """Return the root of the sum of the mean squares of errors over all components of the state."""
+    """Return the root of the sum, over all components of the state, of their mean square errors."""
     total = 0.0
     for k in range(8):
         row = errors.independent[k, k]  # the processor can add separate sums for the rows in parallel

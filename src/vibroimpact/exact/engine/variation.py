@@ -217,7 +217,7 @@ def _fill_free(flow, walls, t, matrix):
 
 @inlined
 def copy(source, target):
-    """Copy entries one by one; for an array assignment Numba would compile an error message, which takes 2 s."""
+    """Copy entries one by one, since Numba needs 2 s more to compile an array assignment."""
     for i in range(len(source)):
         target[i] = source[i]
 

@@ -25,7 +25,8 @@ def fold_of_the_manifold(evidence):
         found = minimize_scalar(lambda C, r=r: B_of_C(C, r) ** 2, bracket=(0.0, 0.8, 2.0), tol=1e-10)
         place = max(place, abs(found.x - C_min(r)))
         level = max(level, abs(np.sqrt(found.fun) - B_min(r)))
-    # A minimisation finds the position to the square root of rounding, but the minimum itself to rounding.
+    # A minimisation finds the minimum with an error of the size of rounding, but its position only to the square root
+    # of rounding.
     numbers = {"largest error of C_min": place, "of B_min": level}
     return Finding({"C_min": place < 1e-6, "B_min": level < 1e-12}, numbers)
 

@@ -142,7 +142,7 @@ class _Condition:
     def _at(self, position, half):
         """Return the Taylor coefficients 0, 1, 2 of F and D at delta = (half + position) T/2.
 
-        The position is a number or an interval.
+        half: 0 or 1, the half of the period. position: a number or an interval in [0, 1].
         """
         sign = 1 - 2 * half
         forward = (self.rate * (self.half_period * position)).exp() * self.start

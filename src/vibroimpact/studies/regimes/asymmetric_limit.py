@@ -74,7 +74,7 @@ def leads_to(stations, points):
 def onset(stations) -> float:
     """Return the epsilon at which the asymmetric orbit emanates from a symmetric one, or 0 if it is computed below 0.
 
-    The polynomial for epsilon in v^2 through the last stations (at most `_MOST_NODES`) is evaluated at v^2 = 0, where
+    The polynomial epsilon(v^2) through the last stations (at most `_MOST_NODES`) is evaluated at v^2 = 0, where
     the orbit is symmetric. A line through the last two stations instead would give only three correct digits if their
     epsilons differ by a fifth.
     """

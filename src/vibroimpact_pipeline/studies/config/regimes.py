@@ -67,7 +67,7 @@ class Branches(Section):
 
 
 class Modulation(Exponent):
-    """Measures of modulated responses."""
+    """Settings of the measures of modulated responses."""
 
     starts: fields.Starts
     seed: fields.Seed
