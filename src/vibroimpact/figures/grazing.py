@@ -15,7 +15,7 @@ from vibroimpact.system import System
 SPEC = {
     "title": "Error of each method against the depth of a grazing impact",
     "caption": "Error of each method against the depth of a grazing impact, in units of half the gap: without the "
-        "wall, the ball would move beyond it by this depth. The error of a missed impact (hollow marks) is "
+        "wall, the ball would move beyond it by this depth. The error of a missed impact is "
         "proportional to the square root of the depth, until other errors of the method exceed it.",
     "alt": "Error of the final state against the depth of an impact from 0.01 to 1e-14, on logarithmic axes, with a "
         "named line per method. One after the other, some methods leave the lower part for a common line with hollow "

@@ -90,7 +90,7 @@ def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
     grid[-1].set_xlabel(r"forcing cycle, $\tau\,\Omega/2\pi$")
     figure.align_ylabels()
     if len(shaded):
-        key = Patch(color=LIGHT_GREY, label="no resonance (over a cycle from wall to wall)")
+        key = Patch(color=LIGHT_GREY, label="ball takes more than a cycle from wall to wall")
         figure.legend(handles=[key], loc="outside lower center", fontsize=9)
     return figure
 
