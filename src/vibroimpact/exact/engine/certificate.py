@@ -54,8 +54,8 @@ class Errors(NamedTuple):
 def errors_of(flow, flights, events, limit):
     """Return the estimated errors at the start and end of every flight, rows (m + 1, 2), and at the end of the run.
 
-    An error is the root of the sum, over all components of the state, of their mean square errors. If it exceeds `limit`
-    after an event or at the end of the run, the errors from there on are inf.
+    An error is the root of the sum, over all components of the state, of their mean square errors. If it exceeds
+    `limit` after an event or at the end of the run, the errors from there on are inf.
     """
     q = flow.coefficients
     estimates, largest = np.full((len(flights), 2), math.inf), limit / UNIT
