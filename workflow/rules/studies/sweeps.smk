@@ -56,7 +56,7 @@ for name, sweep in SWEEPS.items():
             "../../scripts/figure.py"
 
 
-# Figure of each sweep that no companion figure draws.
+# A figure for each sweep that no companion figure draws.
 rule sweeps:
     input:
         [

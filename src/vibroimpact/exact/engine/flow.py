@@ -121,7 +121,7 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
 def flow_of(system) -> Flow:
     """Return the coefficients and flow tables of a system.
 
-    The tables cover at least one forcing period, unless this needs more than LONGEST_TABLE times.
+    The tables cover at least one forcing period, unless this needs more than LONGEST_TABLE entries.
     """
     (numbers,), (rates,) = numbers_of([system], 2)
     count = min(LONGEST_TABLE, int(np.ceil(system.period / numbers[SPACING])) + 1)

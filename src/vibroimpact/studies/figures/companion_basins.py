@@ -70,7 +70,8 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
         Arguments of `regimes.settling.Observation`.
 
     Returns "csv", a row per start: columns panel (the case), label (regime), W1, W2; "orbits": columns series
-    ("shared": the state with the boxes and velocities of all starts; "mirror image": its mirror image) and NAMES; and
+    ("shared": the state from which all starts take the positions of the boxes and the velocities; "mirror image": its
+    mirror image) and NAMES; and
     "shares": columns regime, share, uncertainty (binomial standard error of the share).
     """
     orbit = stable_response(system)

@@ -262,7 +262,7 @@ def _require_both_modules(family, system, x):
     """
     held = np.abs(x - family.rest) < _HELD
     if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
-        raise Lost("both modules are active, but the response is that of one module")
+        raise Lost("both modules of the system are active, but only one of them has impacts in this response")
 
 
 def asymmetric_root(system, x) -> np.ndarray:
