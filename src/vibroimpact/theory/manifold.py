@@ -4,7 +4,7 @@ The amplitude B of U, the amplitude C of the saw-tooth, and rho, which measures 
 numbers or arrays that broadcast; angles are in radians.
 
 A value of C is admissible if the ball stays between the walls, that is if |W_0| <= 1 for the relative displacement W_0
-of (10.10). A time t after the impact at W = +1, and before the next impact, W_0 = cos t + C h(t) with
+of (10.10). Let t be the time since the impact at W = +1. Until the next impact, W_0 = cos t + C h(t) with
 h(t) = 1 - 2 t / pi - cos t + rho sin t (docs/stability.md). W_0 is linear in C, so that the admissible C form one
 interval. The interval begins at C = 0. At its upper end the ball, on its way to the other wall, just grazes the wall
 that it has left.

@@ -290,8 +290,8 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     For a completed chatter, inward = u and push = a as in `contact._hop`; otherwise both are 0.
 
     Box and ball keep their momentum and centre of mass. During the chatter, springs and dampers act on the box at its
-    actual position, not at the centre of mass. The time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), and the
-    time integral of the gap's rate is the gap. Both contribute to first order in the perturbation.
+    actual position, not at the centre of mass. The time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), and that
+    of the gap's rate is minus the gap at the start of the chatter. Both contribute to first order in the perturbation.
     """
     e = q.epsilon
     share = e / (1.0 + e)

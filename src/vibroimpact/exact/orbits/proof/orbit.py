@@ -161,7 +161,7 @@ def krawczyk(equations, approximate: np.ndarray):
 
 
 def _image(equations, box):
-    """Return the image of a box under Krawczyk's operator, which contains every root in the box, or None on failure."""
+    """Return the image of a box under Krawczyk's operator, or None on failure; it contains every root in the box."""
     found, at = equations(box), equations([value.mid() for value in box])
     if found is None or at is None:
         return None
