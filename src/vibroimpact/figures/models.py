@@ -140,8 +140,8 @@ def _simulations(module, system, settings, models, seconds):
 def largest_error(table, reference) -> float:
     """Return the largest difference between two tables of a figure [percent of the range of the axis].
 
-    Points P_i of planes are compared, and curves at the times that both tables have. The result is inf if a table is
-    None, or if the tables show different points.
+    Points P_i in the planes (C_i, B_i) are compared, or curves at the times that both tables have. The result is inf if
+    a table is None, or if the tables show different points.
     """
     if table is None or reference is None:
         return np.inf

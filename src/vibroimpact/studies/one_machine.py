@@ -118,10 +118,10 @@ class Design:
             f"clearance {1000 * machine.L:.10g} mm to each side, restitution {machine.kappa:g}",
             f"largest displacement {_mm(self.peak)} once settled{settled}: {verdict} than {_mm(self.without)} without "
             "ball",
-            f"  {_mm(self.near[0])} to {_mm(self.near[1])} with clearances within {NEAR:.0%} of it",
+            f"  {_mm(self.near[0])} to {_mm(self.near[1])} if the clearance differs by up to {NEAR:.0%}",
             f"  {_mm(settling)} while it settles from rest",
-            f"  best linear absorber of its mass {_mm(self.absorber)}, which needs {_mm(self.absorber_stroke)} to each "
-            "side",
+            f"  {_mm(self.absorber)} with the best linear absorber of the ball's mass, which needs "
+            f"{_mm(self.absorber_stroke)} to each side",
             f"hardest impacts at {hardest['frequency_Hz']:.4g} Hz: {hardest['impacts_per_s']:.3g} per second of "
             f"{hardest['impulse_Ns']:.3g} N s each, at {hardest['impact_speed_m_s']:.3g} m/s",
             f"Settled: in {watched} periods of the force after {waited}, the largest of {MORE_STARTS} starts.",

@@ -51,8 +51,8 @@ class Memory(NamedTuple):
     For each lane: runs, constants: arrays with the rows defined in `rows`; members: index of the initial state, or -1;
     slots: index of the slot with the flow tables of its system; counters: counters of its event log. For each slot:
     owners: index of the system, or -1; made: contact states whose tables are computed; series, rotations: tables as
-    from `flow_tables.tables`; known: constants. begun: number of initial states processed. work, log, statistics,
-    change: workspace.
+    from `flow_tables.tables`; known: a column of `constants`. begun: number of initial states processed. work, log,
+    statistics, change: workspace.
     """
 
     runs: np.ndarray

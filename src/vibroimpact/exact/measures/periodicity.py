@@ -26,7 +26,7 @@ def samples_per_cycle(tau, period: float) -> int:
             f"tau: needs evenly spaced times, a whole number per period of {period}, got a mean spacing of {step}"
         )
     if len(tau) <= number:
-        raise ValueError(f"tau: {len(tau)} samples span less than one period; needs at least {number + 1} at this spacing")
+        raise ValueError(f"tau: {len(tau)} samples span less than one period; needs at least {number + 1}")
     return number
 
 

@@ -97,9 +97,9 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
 
 
 def _called_stable(system):
-    """Return (label, orbit) of the most unstable exact orbit whose fixed point (10.26) calls stable.
+    """Return (label, orbit) of the most unstable exact orbit at the fixed points that (10.26) calls stable.
 
-    label: of the fixed point. The result is (None, None) if none of these orbits is an unstable motion.
+    label: that of the fixed point. The result is (None, None) if none of these orbits is an unstable motion.
     """
     points = fixed_points(system)
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))

@@ -145,8 +145,8 @@ class Spectrum:
     def without_double_sticks(self) -> "Spectrum":
         """Return the spectrum over the cycles in which the balls do not stick at the same time.
 
-        The result depends little on how many cycles are excluded. After each excluded cycle, four directions of the
-        frame of perturbations start again and align within about ten cycles; these cycles are not excluded.
+        After each excluded cycle, four directions of the frame of perturbations start again and align within about ten
+        cycles. These ten cycles are included; excluding them, too, would change the result little.
         """
         others = self.stuck < BOTH
         return Spectrum(_largest_first(self.growth[others]), self.contraction[others], self.stuck[others])
