@@ -1,4 +1,4 @@
-"""Section `figures`: figures of the chapter, and your own figures, each drawn like one of the chapter."""
+"""Config section `figures`: figures of the chapter, and your own figures, which use the same drawing code."""
 
 from typing import Annotated, Literal
 
@@ -20,7 +20,7 @@ class Drawing(Section):
 
 
 class Sawtooth(Section):
-    """Figure 10.3."""
+    """Settings of figure 10.3, the saw-tooth function."""
 
     amplitude: fields.real("Amplitude C of the saw-tooth", 1e-3, 1000)
     theta: fields.real("Phase of the impacts [rad]", -100, 100)
@@ -28,13 +28,13 @@ class Sawtooth(Section):
 
 
 class Manifold(Section):
-    """Figure 10.4."""
+    """Settings of figure 10.4, the slow invariant manifold."""
 
     C_max: fields.Amplitude = Field(description="Right end of the axis, above the fold of the manifold (below 1)")
 
 
 class Regions(Section):
-    """Figure 10.5."""
+    """Settings of figure 10.5, the stable and unstable regions."""
 
     C_range: tuple[Annotated[float, Field(ge=0, le=0.6)], Annotated[float, Field(ge=1.01, le=100)]] = Field(
         description="Ends of the axis; it must contain the limit of (10.26)"

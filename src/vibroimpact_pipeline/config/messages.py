@@ -10,7 +10,10 @@ from vibroimpact_pipeline.config.section import Place, Section
 
 
 def problems_of(error: ValidationError) -> dict[Place, dict]:
-    """Return Pydantic's errors by key path; missing keys are left out if the same mapping has an unknown key."""
+    """Return Pydantic's errors by key path.
+
+    If a mapping has an unknown key, errors about missing keys of this mapping are omitted.
+    """
     errors = error.errors(include_url=False)
     misspelt = {details["loc"][:-1] for details in errors if details["type"] == "extra_forbidden"}
     found = {}
@@ -19,7 +22,7 @@ def problems_of(error: ValidationError) -> dict[Place, dict]:
         if details["type"] == "missing" and place[:-1] in misspelt:
             continue
         if place[:1] == ("figures",) and len(place) > 2 and str(place[2]).startswith("fig10_"):
-            place = place[:2] + place[3:]  # remove the name of the figure in `like`, which Pydantic inserts
+            place = place[:2] + place[3:]  # remove the value of `like`, which Pydantic inserts into the path
         place = place[:-1] if place[-1:] == ("[key]",) else place
         place += ("like",) if "discriminator" in details.get("ctx", {}) else ()
         found.setdefault(place, details)
@@ -61,6 +64,9 @@ def key_path(place: Place) -> str:
 
 
 def short_repr(value, plain: bool = False) -> str:
-    """Return a value as text on one line for an error message; a long text is shortened in the middle."""
+    """Return a value as text on one line for an error message; a long text is shortened in the middle.
+
+    If `plain` is True, a printable value is written without quotes.
+    """
     text = "null" if value is None else str(value) if plain and str(value).isprintable() else repr(value)
     return text if len(text) <= 120 else f"{text[:60]}...{text[-60:]}"

@@ -1,4 +1,4 @@
-"""Model of the chapter's config, config/config.yaml, with its small sections and the conditions across sections."""
+"""Pydantic model of config/config.yaml, with the checks that involve more than one section."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -28,7 +28,7 @@ Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 
 
 class SystemSection(Section):
-    """Default parameters of all cases, dimensionless; the hat has the meaning of (10.4) and (10.6)."""
+    """Default parameters of all cases, dimensionless; the suffix _hat stands for the hat in (10.4) and (10.6)."""
 
     epsilon: fields.Epsilon
     kappa: float = Field(gt=0, lt=1, description="Restitution coefficient")
@@ -67,7 +67,7 @@ def _refuse_resonance(system):
     """Raise ValueError for an undamped system whose periodic responses are not isolated or not bounded."""
     if system.gamma1 > 0 and system.gamma2 > 0:
         return
-    # Import these here because loading SciPy takes longer than everything else in a build that is up to date.
+    # Import these only here: if no job has to run, loading SciPy would take longer than the rest of the build.
     from vibroimpact.exact.orbits.impulse_response import impulse_response
     from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
@@ -105,7 +105,7 @@ class Case(create_model("Overrides", __base__=Section, **OVERRIDES)):
 
 
 class Problem(Section):
-    """A test problem for the work-precision chart; all methods and the reference solve it many times."""
+    """A test problem for the work-precision chart; every integration method solves the problem many times."""
 
     case: fields.CaseName
     initial_state: fields.State
@@ -113,7 +113,7 @@ class Problem(Section):
 
 
 class Accuracy(Section):
-    """Test problems for the integration methods, and durations of timings."""
+    """Settings of the accuracy charts: test problems for the integration methods, and how long to measure run times."""
 
     effort: Literal["quick", "full"] = Field(
         "quick", description="quick, or full: longer timings and all stress tests (some minutes)"
@@ -142,7 +142,7 @@ class Config(Section):
         yield from self.parameter_errors()
 
     def named_rules(self) -> Iterator[Place]:
-        """Yield the key path of each entry from which a rule of the same name is made."""
+        """Yield the key path of each config entry that becomes a Snakemake rule with the name of the entry."""
         yield from (("figures", name) for name in self.figures.model_extra)
 
     def taken_names(self):
@@ -156,7 +156,7 @@ class Config(Section):
                 yield place, what
 
     def parameter_errors(self):
-        """Yield errors for parameters that System rejects: of the cases or, if these are valid, `varied_parameters`."""
+        """Yield errors for cases with invalid parameters or, if there are none, for invalid `varied_parameters`."""
         systems, found = {}, False
         for name, case in self.cases.items():
             overrides = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)
@@ -171,7 +171,10 @@ class Config(Section):
                     yield place, f"at {at}: {': '.join([*key, what])}"
 
     def varied_parameters(self) -> Iterable[tuple[Place, str | None, dict[str, float]]]:
-        """Return varied parameters to check, as tuples (key path, case or None for all cases, parameters)."""
+        """Return parameter values that must be valid, in addition to those of the cases.
+
+        Each item is a tuple (key path of the config entry, case or None for all cases, values by parameter).
+        """
         return ()
 
 

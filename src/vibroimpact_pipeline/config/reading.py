@@ -78,14 +78,16 @@ def read(path) -> dict:
 
 
 def merged(sources) -> dict:
-    """Merge sources (name, content); a later source overrides earlier ones.
+    """Merge config sources, given as pairs (name, content); a later source overrides earlier ones.
 
-    The value null, or its text "null", which Snakemake passes inside mappings of `--config`, removes an earlier entry.
+    The value null removes an entry of earlier sources. The text "null" has the same effect, because Snakemake passes a
+    null inside a mapping of `--config` as text.
 
     Raises
     ------
     ConfigError
-        If a null has no entry to remove, or a source contains unsupported values; one line for each problem.
+        If a null has no entry to remove, or if a source contains unsupported values. The message has one line for each
+        problem.
     """
     whole = {}
     for name, content in sources:
@@ -122,7 +124,7 @@ def checked(config: dict, sources=()) -> dict:
 
 
 def model():
-    """Return the model of both config files, or of the chapter's file alone if the studies are not installed."""
+    """Return the class that validates the config: `Whole`, or `Config` if the studies are not installed."""
     if find_spec("vibroimpact_pipeline.studies"):
         return import_module("vibroimpact_pipeline.studies.config.model").Whole
     return import_module("vibroimpact_pipeline.config.model").Config

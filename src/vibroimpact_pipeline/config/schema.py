@@ -26,9 +26,10 @@ def schema(model) -> str:
 
 
 def _plain(node):
-    """Return a schema node without titles and null defaults.
+    """Return a node of a JSON Schema without titles and null defaults.
 
-    A text may replace a number, free keys must match a pattern, and a key `case` may be missing.
+    The returned schema accepts a text in place of a number, and a section without its key `case`. If the names of keys
+    are free, each name must match a pattern.
     """
     if not isinstance(node, dict):
         return [_plain(item) for item in node] if isinstance(node, list) else node

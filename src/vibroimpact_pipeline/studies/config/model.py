@@ -1,4 +1,4 @@
-"""Model of the studies' config, config/studies.yaml, with its small sections and the conditions across both files."""
+"""Pydantic models of config/studies.yaml and of both config files together, with checks that involve both files."""
 
 from collections.abc import Iterator
 
@@ -13,7 +13,7 @@ from vibroimpact_pipeline.studies.config.sweeps import Sweep
 
 
 class VerdictGrid(Section):
-    """Grid of `points` x `points` cells of forcing amplitudes; cell centres get verdicts of theory and exact orbits."""
+    """Grid of `points` x `points` cells of forcing amplitudes; stability is judged at the centre of each cell."""
 
     f10_range: fields.Forces
     f20_range: fields.Forces
@@ -53,12 +53,15 @@ class Whole(Config, Studies):
             yield ("sweeps", "self"), "this name is reserved by Snakemake; rename the sweep"
 
     def named_rules(self) -> Iterator[Place]:
-        """Yield the key path of each entry from which a rule of the same name is made."""
+        """Yield the key path of each config entry that becomes a Snakemake rule with the name of the entry."""
         yield from super().named_rules()
         yield from (("machines", name) for name in self.machines)
 
     def varied_parameters(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
-        """Yield varied parameters to check, as tuples (key path, case or None for all cases, parameters)."""
+        """Yield parameter values that must be valid, in addition to those of the cases.
+
+        Each item is a tuple (key path of the config entry, case or None for all cases, values by parameter).
+        """
         branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
         for number, path in enumerate(branches.paths):
             for end in path.range:

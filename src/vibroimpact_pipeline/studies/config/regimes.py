@@ -97,7 +97,7 @@ class EpsilonRange(Section):
 
 
 class Asymmetric(EpsilonRange):
-    """Asymmetric orbits, followed to small epsilon, and the manifold."""
+    """Settings for following asymmetric orbits to small epsilon, and for drawing the slow invariant manifold."""
 
     C_max: fields.real("Right end of the manifold, above the derived limits", fields.BEYOND_LIMITS, 100)
 

@@ -60,7 +60,7 @@ class Axis(Section):
         return len(self.listed or self.tuples or ()) or self.cells or self.values
 
     def ends(self) -> list[dict[str, float]]:
-        """Return the parameters at the lowest and the highest value of the axis, or at each of its `tuples`."""
+        """Return the parameters at the lowest and the highest value of the axis; for `tuples`, those of every tuple."""
         values = self.tuples or [[end] * len(self.along) for end in self.range or (min(self.listed), max(self.listed))]
         return [dict(zip(self.along, at, strict=True)) for at in values]
 
@@ -78,7 +78,7 @@ class Sweep(Section):
     band: Axis | None = Field(None, description="Axis along which the worst peak is searched at every point")
 
     def moving(self) -> list[Axis]:
-        """Return the axes and, if given, the band."""
+        """Return the axes of the grid and, if given, the axis `band`."""
         return self.axes + ([self.band] if self.band else [])
 
     def conditions(self):
@@ -101,7 +101,10 @@ class Sweep(Section):
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):
-        """Yield the reasons why companion figures cannot draw this sweep, although their SPECs name it as `name`."""
+        """Yield a pair (key path, message) for each reason why a companion figure cannot draw this sweep.
+
+        Only companion figures that draw a sweep called `name` are considered.
+        """
         for figure, spec in specs().items():
             if drawn := spec.get("sweeps", {}).get(name):
                 even = all(axis.range and axis.scale != "logarithmic" for axis in self.axes)
