@@ -49,7 +49,7 @@ def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.d
     """
     reason, reference, build = " ".join(reason.split()), Path(reference), Path(build)
     if not reason:
-        raise ValueError('reason: empty, expected why the reference set changes, for example REASON="longer axis"')
+        raise ValueError('reason: empty, expected the reason for the change, for example REASON="longer axis"')
     built = [verdict["figure"] for verdict in verdicts if verdict["module"]]
     new = [figure for figure in built if not (reference / f"{figure}.png").exists()]
     if new and pictures_only:

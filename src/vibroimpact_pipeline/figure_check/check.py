@@ -66,7 +66,8 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
     dict
         Keys: figure; stem (path of the pictures in the build, without suffix); module; files (for each compared table,
         the file name in the reference set and the path in the build); status; reasons (one line each); distance (the
-        largest; 1 is the limit); tables (distances from `table_differences`, each with the name of the table).
+        largest distance in `tables`); tables (a list of the distances from `table_differences` and `printed_distances`,
+        in units of their limits, each with the file name of its table).
     """
     verdict = {"figure": figure, "stem": f"results/figures/{figure}", "module": None, "files": {}}
     verdict |= {"status": FAILED, "reasons": [], "distance": 0.0, "tables": []}
@@ -135,7 +136,7 @@ def _errors_as_reasons(reasons, what):
 
 
 def ordered(verdicts: list[dict]) -> list[dict]:
-    """Sort verdicts: failures first, then by distance, then by name."""
+    """Sort verdicts by status, failures first, then from the largest to the smallest distance, then by name."""
     order = [FAILED, NOT_COMPARABLE, PASSED]
     return sorted(verdicts, key=lambda one: (order.index(one["status"]), -one["distance"], one["figure"]))
 

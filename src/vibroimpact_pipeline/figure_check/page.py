@@ -1,4 +1,4 @@
-"""Make the offline HTML page of the figure check: old and new picture of each figure, difference, all distances."""
+"""Make the offline HTML page of the figure check, with the pictures and distances of each figure."""
 
 import base64
 import io

@@ -67,7 +67,7 @@ def _svg(content):
 
 
 def _pdf(content):
-    """Return the decompressed objects of a PDF with rounded numbers, without document information and lengths."""
+    """Return the decompressed objects of a PDF with rounded numbers, without document metadata and stream lengths."""
     objects = dict(re.findall(rb"(?ms)^(\d+) 0 obj\s(.*?)\sendobj$", content))
     (info,) = re.findall(rb"/Info (\d+) 0 R", content)
     parts = []

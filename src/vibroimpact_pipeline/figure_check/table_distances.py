@@ -29,8 +29,9 @@ MOVED_BY = 1e-3
 def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
     """Return the reasons why a table fails, and the distance of each column from its reference.
 
-    A series consists of all rows with the same text in the first two text columns that are not compared. The rows of a
-    series are compared with its reference rows in order.
+    The rows of a table are grouped into series. Rows belong to one series if they have the same text in the first two
+    text columns, not counting text columns with the entry `compared`. The rows of a series are compared in order with
+    the reference rows of the same series.
 
     Parameters
     ----------
@@ -39,16 +40,16 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
     new
         Table of the build.
     columns
-        Entries of the columns in a SPEC. Text columns that are not compared must be equal.
+        SPEC entry of each column by name. Text columns without the entry `compared` must be equal to the reference.
 
     Returns
     -------
     reasons : list of str
         One line for each reason. The table passes if the list is empty.
     distances : list of dict
-        For each column and measure, a mapping with the keys column, kind, measure, distance (the largest; 1 is the
-        limit), where (the place of this distance), reference and new (both values at this place; medians for a measure
-        of the whole column).
+        One mapping for each column and measure. Its keys are column; kind and measure, as in KINDS; distance, the
+        largest one in units of the limit; where, the row with this distance; reference and new, the values of the two
+        tables in this row. If a measure gives one distance for the whole column, the two values are medians.
     """
     if list(old) != list(new):
         return [f"columns are {', '.join(new)} instead of {', '.join(old)}"], []
@@ -108,7 +109,7 @@ def _by_series(table, columns):
 
 
 def _kind(columns, name, series):
-    """Return the kind of number of a column in a series, or None if the column is not compared."""
+    """Return the key of KINDS that applies to a column in a series, or None if the column is not compared."""
     kinds = columns.get(name, {}).get("compared")
     if not isinstance(kinds, dict):
         return kinds
@@ -141,16 +142,16 @@ def _distance(old, new, name, kind, measure):
 
 
 def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[str], list[dict]]:
-    """Return why a table fails, and the largest distance between its curves and points read from the printed book.
+    """Compare points read from the printed book with the curves in a table.
 
-    The values are returned in the form of `table_differences`.
+    Return the reasons why the table fails, and the largest distance, in the form of `table_differences`.
 
     Parameters
     ----------
     points
-        One row for each point, with some columns of `table` and the column `tolerance`, a distance in units of the
-        range of each column in the panel. The text cells of a point select the rows of `table` that form its curve.
-        Blank cells are ignored.
+        One row for each point, with some columns of `table` and the column `tolerance`. The text cells of a point
+        select the rows of `table` that form its curve. The tolerance limits the distance of the point from its curve,
+        where each coordinate is divided by the range of its column in the panel. Blank cells are ignored.
     table
         Plotted table in the build.
     """
@@ -187,8 +188,8 @@ def _nearest(point, curve):
     return places[np.linalg.norm(places - point, axis=1).argmin()]
 
 
-# Measures of the distance between two columns of shape (n,). Each returns one distance per row or one for all rows, in
-# units of its limit.
+# Measures of the distance between two columns of shape (n,). Each measure returns one distance per row, or one distance
+# for all rows. Distances are divided by `limit`, so that 1 is the largest allowed distance.
 
 
 def _difference(old, new, limit):
@@ -217,13 +218,13 @@ def _rows(old, new, limit):
 
 
 def _balance(old, new, limit):
-    """Compare the number of rows that join a class with the number that leave it (sign test).
+    """Compare how many rows enter a class with how many rows leave the class (sign test).
 
-    For a column of numbers, rows that rise and rows that fall are compared instead.
+    For a column of numbers, compare how many numbers increase with how many decrease.
 
-    Rounding moves rows in both directions equally often. The difference of the two numbers of rows is measured in
-    standard deviations of a binomial distribution with one trial for each moved row. A class that vanishes exceeds the
-    limit if it had RARE_ROWS rows or more.
+    Rounding changes rows in both directions equally often. The difference of the two counts is divided by its standard
+    deviation, the square root of the number of changed rows. If a class of RARE_ROWS rows or more vanishes, the
+    distance is MAX_DISTANCE.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:
