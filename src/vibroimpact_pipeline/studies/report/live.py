@@ -1,7 +1,7 @@
-"""Compute the data of interactive pages.
+"""Compute the data of the interactive pages of the report.
 
-These are parameters, fixed points of each case and, in the plane of both forces, regimes and verdicts of the criteria
-on stability.
+The data contain parameters, the fixed points of each case, and regimes and stability verdicts on grids of the two
+forcing amplitudes.
 """
 
 import json
@@ -60,9 +60,10 @@ def _point(system, point, orbit) -> dict:
 
 
 def map_data(results, config: dict) -> str:
-    """Return the data of the regime map on the page Play as JSON; an empty text if the map is for another system.
+    """Return the data of the regime map on the page Play as JSON.
 
-    Each cell has its forces, its most frequent regime, and its fixed points.
+    The text is empty if the parameters of the map are not those of the first case. Each cell of the map has its forces,
+    its most frequent regime, and its fixed points.
     """
     first, *_ = (case_parameters(config, case) for case in config["cases"])
     swept = case_parameters(config, config["sweeps"]["regime_map"]["case"]) if "regime_map" in config["sweeps"] else {}
@@ -83,8 +84,9 @@ def map_data(results, config: dict) -> str:
 def verdict_data(results, config: dict) -> str:
     """Return the data for the slider of epsilon as JSON.
 
-    For each of two criteria, (10.26) and the theory (fast and slow together), and for each epsilon, the data list the
-    fixed points that the criterion classifies as stable, each as [f10, f20, verdict on the exact orbit].
+    There are two criteria: (10.26), and the theory, which combines the criteria on the fast and the slow scale. For
+    each criterion and each epsilon, the data list the fixed points that the criterion classifies as stable. The entry
+    of a fixed point is [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
     by_epsilon = list(table.groupby("epsilon"))[::-1]

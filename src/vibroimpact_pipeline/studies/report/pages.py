@@ -134,7 +134,10 @@ class Pages:
         return text[1:-1] if paper or name not in self.pictures else f"{text}(#{name})"
 
     def plates(self) -> str:
-        """Return the chapter's figures for the end of the printed article, without 10.1, which its text shows."""
+        """Return the chapter's figures for the end of the printed article.
+
+        Figure 10.1 is omitted, since the text of the article shows this figure.
+        """
         shown = (name for name in self.chapter if name != "fig10_01")
         plates = [f"![{plain(self.about[name]['title'])}](../results/figures/{name}.png)" for name in shown]
         return "\n\n".join(["\n## The figures of the chapter", *plates]) if plates else ""

@@ -70,8 +70,8 @@ class Results:
     def most_accurate(self) -> pd.DataFrame:
         """Return, for each problem and method, the finished run with the smallest error of the final state.
 
-        The column ratio is the run time of this run divided by that of the library's most accurate run for the same
-        problem.
+        The column ratio is the run time per forcing cycle, divided by the run time per forcing cycle of the
+        event-driven engine for the same problem.
         """
         table = self.table("accuracy/work_precision.csv")
         whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]

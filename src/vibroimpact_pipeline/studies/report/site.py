@@ -168,7 +168,7 @@ def _ancestors(node):
 
 
 def write_article(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
-    """Write the document of findings as PDF, with links to the pages of the site."""
+    """Write the article, docs/studies/findings.md, as PDF, with links to the pages of the site."""
     article = ELSEWHERE.sub("", (root / f"docs/studies/{ARTICLE}.md").read_text(encoding="utf-8"))
     text = pages.with_numbers(article + pages.plates(), paper=True)
     metadata = {"date": f"Built from {built}."} | ({"abstract": notice} if notice else {})
@@ -181,7 +181,10 @@ def write_article(folder: Path, root: Path, pages, built: str, notice: str = "")
 
 
 def setup(app) -> dict:
-    """Set up this module as a Sphinx extension: MathML formulas, vertical bars in docstrings, the security policy."""
+    """Set up this module as a Sphinx extension.
+
+    The extension renders formulas as MathML, escapes vertical bars in docstrings, and adds the content security policy.
+    """
     app.add_html_math_renderer("mathml", (_formula, None), (_formula, None))
     app.connect("autodoc-process-docstring", _with_bars)
     app.connect("html-page-context", _with_policy)
