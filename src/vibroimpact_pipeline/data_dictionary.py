@@ -59,7 +59,10 @@ def read() -> tuple[dict, dict]:
 
 
 def files(known: dict, data: dict) -> list[File]:
-    """Return all kinds of results files, first the tables of figures; `known` contains the SPEC of each figure."""
+    """Return a description of each kind of results file, first of the tables of figures.
+
+    `known` and `data` are the two values that `read` returns.
+    """
     shared = each(data["shared"])
     tables = [table for spec in known.values() for table in spec.get("tables", {}).values()]
     found = []

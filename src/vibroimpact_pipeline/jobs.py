@@ -31,10 +31,12 @@ class Refused(RuntimeError):
 def running(job) -> Iterator[SimpleNamespace]:
     """Run the body of a `with` statement as the script of a Snakemake job; yield a temporary path for each output.
 
-    The paths are attributes with the names of the outputs, such as `out.json`. Everything that the script prints is
-    written to the log of the job (see `log_of`). If the code differs from `params.code` (see `code.code_of`), if an
-    input differs from its record, or if code or inputs change while the job runs, the job fails with one line and
-    replaces no output. The job also fails with one line if a config value is invalid.
+    The yielded object has the path of each output as an attribute, such as `out.json` for the output `json`. Everything
+    that the script prints is written to the log of the job (see `log_of`).
+
+    The job fails with a message of one line and replaces no output if the code differs from `params.code` (see
+    `code.code_of`), if an input differs from its record (see `result_records`), if code or inputs change while the job
+    runs, or if a config value is invalid.
     """
     if sys.platform == "linux":  # make the kernel terminate this process when its parent ends
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
@@ -78,7 +80,9 @@ def log_of(job) -> Path:
 
 
 def with_key(error, decided: dict) -> str | None:
-    """Return the text of an error with the full config key of the argument it names, or None if no key matches.
+    """Replace the argument name at the start of an error text by the full config key, such as system.kappa.
+
+    Return the new text, or None if the argument is in none of the config entries.
 
     Parameters
     ----------

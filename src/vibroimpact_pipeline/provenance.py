@@ -21,7 +21,9 @@ CONFIG = "config"
 
 
 def write(job, out) -> None:
-    """Write the provenance record of a figure, whose files must exist: config, code, inputs, files and commit.
+    """Write the provenance record of a figure; the files of the figure must exist.
+
+    The record describes the config, code, inputs, files, package versions and commit.
 
     Parameters
     ----------

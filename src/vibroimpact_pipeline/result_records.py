@@ -126,11 +126,12 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
 
 
 def distrust(outputs: Iterable) -> list[str]:
-    """Mark as incomplete each existing result that lacks a record or does not match it; return the paths of these.
+    """Mark existing results that have no record, or differ from their record, as incomplete; return their paths.
 
     Without the mark, Snakemake would treat such a result as up to date. A result with the mark is rebuilt when needed.
+    Results that already have the mark are skipped.
     """
-    # Read the marks before the records: while a job ends, a result is still marked by Snakemake or already recorded.
+    # Read the marks before the records, since Snakemake removes the mark of a result after the job wrote the record.
     present = [path for path in map(str, outputs) if os.path.exists(path)]
     unmarked = [path for path in present if not _of_snakemake("incomplete", path).exists()]
     found = [path for path in unmarked if not _as_recorded(path)]

@@ -1,4 +1,4 @@
-"""Make the index page of a build: figures with what the exact system shows, recommended methods, links to results."""
+"""Make the index page of a build, with the figures, comments on the exact system, recommended methods and links."""
 
 import csv
 import json
@@ -39,7 +39,10 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
 
 
 def _choices(results) -> list[list[str]]:
-    """Return a row per problem and allowed error in accuracy/choices.csv: problem, exponent of the error, methods."""
+    """Return one row for each pair of problem and allowed error in accuracy/choices.csv.
+
+    A row contains the problem, the decimal exponent of the allowed error, and the recommended methods.
+    """
     path = results / "accuracy/choices.csv"
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines())) if path.is_file() else []
     found = []
@@ -55,7 +58,10 @@ def _choices(results) -> list[list[str]]:
 
 
 def _listed(results, titles) -> list[dict]:
-    """Return, for each existing figure, its title, links, text on the exact system (from its page), and picture."""
+    """Return title, links, picture and comment on the exact system for each figure that has files.
+
+    The comment is read from the notebook page of the figure.
+    """
     found = []
     for name, title in titles.items():
         drawn = [(kind, f"{place}/{name}{end}") for place in ("figures", "accuracy") for kind, end in KINDS.items()]

@@ -3,16 +3,18 @@
 A SPEC is a dictionary literal with the entries below. The inputs and settings of a figure are in its rule, in
 workflow/rules/.
 
-- title, caption, alt, equations: texts of the figure. own: texts for figures of your own that use the same drawing
-  code. method: how the figure is computed. notebook: name of the notebook that explains the figure, if any.
+- title, caption, alt, equations: texts of the figure.
+- own: texts for figures of your own that use the same drawing code.
+- method: how the figure is computed.
+- notebook: name of the notebook that explains the figure, if any.
 - sweeps: for each sweep that the figure draws, the axes and observations that the figure needs.
-- columns: for each column of the plotted table, meaning, unit, allowed values, `compared` (a kind of number in
-  figure_check/tolerances.yaml, or kinds by series) and `infinite` if infinite values are allowed. file: path of the
-  table, if not the default.
-- tables: for each further table that `compute` returns, file, description and columns.
+- columns: for each column of the plotted table, its meaning, unit and allowed values. The entry `compared` is a key of
+  a file tolerances.yaml, or a mapping with such a key for each series. The entry `infinite` allows infinite values.
+- file: path of the plotted table, if not the default.
+- tables: for each further table that `compute` returns, its file, description and columns.
 
-For equations, columns or own, a SPEC may give the name of another figure, whose entry is then used. The key "C1, C2"
-describes both columns.
+The value of equations, columns or own may be the name of another figure, whose entry is then used. The key "C1, C2" in
+columns describes the two columns C1 and C2.
 """
 
 import ast
@@ -57,9 +59,10 @@ def module_of(figure: str) -> str:
 
 
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
-    """Return the SPEC of a figure and, as "module", its drawing module; your own figures get their own texts and files.
+    """Return the SPEC of a figure, with the name of its drawing module as the entry "module".
 
-    `scene` is the config entry of the figure, `known` the SPEC of every figure.
+    Your own figure gets the SPEC of the figure `like`, with the texts `own` and with its own file names. `scene` is the
+    config entry of the figure, and `known` contains the SPEC of every figure of the library.
     """
     module = scene.get("like", figure)
     if module == figure:
@@ -75,7 +78,7 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
 
 
 def with_model(caption: str, scene: dict) -> str:
-    """Return the caption of a figure, followed by the name of its model if the model is not the default."""
+    """Return the caption of a figure, followed by the name of its model if this is exact_orbit or second_term."""
     other = scene.get("model") in ("exact_orbit", "second_term")
     return f"{caption} Drawn with the model *{scene['model'].replace('_', ' ')}*." if other else caption
 
@@ -99,7 +102,7 @@ def case_parameters(config: dict, case: str) -> dict:
 
 
 def columns(table: dict, shared: dict) -> dict[str, dict]:
-    """Return the columns of a table by single names, with missing entries (meaning, unit, ...) taken from `shared`."""
+    """Return the columns of a table by name; entries that a column lacks, such as the unit, are taken from `shared`."""
     return {name: shared.get(name, {}) | entry for name, entry in each(table["columns"]).items()}
 
 

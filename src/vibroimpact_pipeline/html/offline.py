@@ -54,7 +54,7 @@ def markdown_to_html(source: str) -> str:
 
 
 def linked(page: str, address: str) -> str:
-    """Return the page of a notebook for the report, with adapted links and a link to the figure at `address`."""
+    """Return the page of a notebook with links to the HTML pages of the report and to the figure at `address`."""
     page = re.sub(r'href="\.\./(?:\.\./docs/)?(\w+)\.md"', r'href="../\1.html"', page)
     return re.sub(r'(<p class="of">)(.*?)(</p>)', rf'\1<a href="{escape(address)}">\2</a>\3', page, count=1)
 
