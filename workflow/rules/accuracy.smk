@@ -79,7 +79,7 @@ rule method_comparison:
         "../scripts/method_comparison.py"
 
 
-# Charts that the figure check compares with the reference set: their errors, orders and failures, but not their times.
+# Charts that the figure check compares with the reference set. The check ignores the run times in the charts.
 CHARTS = "work_precision", "stress_tests", "grazing"
 ALL_CHARTS = *CHARTS, "models"
 

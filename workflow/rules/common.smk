@@ -68,7 +68,7 @@ def validated_config():
 
 
 validated = validated_config()
-# Snakemake's report lists these files. They are validated first, since Snakemake's error messages are longer.
+# Declare the config files, so that Snakemake's report lists them. The files have already been validated above.
 for file in FOUND:
 
     configfile: file

@@ -138,7 +138,7 @@ if STUDIES:
 config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
 config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}
 
-# Pages of figures. A job executes one notebook for each of its figures, with the finished tables, picture and inputs.
+# Pages of figures. The job of a notebook executes the notebook once for each figure that the notebook explains.
 for path in sorted((ROOT / "notebooks").rglob("*.ipynb")):
     notebook = path.relative_to(ROOT).as_posix()
     shown = [figure for figure in SCENES if spec(figure).get("notebook") == path.stem]

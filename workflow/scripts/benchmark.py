@@ -1,4 +1,7 @@
-"""Measure the speed of every method on one motion, and of ensembles; print the table and write CSV with versions."""
+"""Measure the speed of every method on one motion, and the speed of ensembles.
+
+The table is printed, and written as CSV together with the versions of packages.
+"""
 
 from vibroimpact_pipeline.code import ROOT
 from vibroimpact_pipeline.result_records import replacing

@@ -26,7 +26,7 @@ def other_methods():
 
 
 def imports():
-    """Import all modules that jobs need, so that Python caches their bytecode and Matplotlib its list of fonts."""
+    """Import all modules that jobs need, so that Python caches bytecode and Matplotlib caches its list of fonts."""
     import vibroimpact
 
     library = (module.name for module in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact."))

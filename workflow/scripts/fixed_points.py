@@ -1,7 +1,7 @@
 """Compute fixed points and exact 1:1 responses for one case, with verdicts of all criteria and proofs; write CSV.
 
-search.json describes the search for asymmetric orbits: the number of orbits, the number of Newton starts, and the
-smallest number of starts that led to one orbit.
+search.json describes the search for asymmetric orbits. It contains the number of orbits found, the number of Newton
+starts and, for the orbit that was reached from the fewest starts, the number of these starts.
 """
 
 import json

@@ -83,6 +83,7 @@ with running(snakemake) as out:
         done = execute(snakemake.input.notebook, executed, given | {"inputs": shown["inputs"]})
         injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
         injected.id = "injected-parameters"  # a random id would change the page in every build
-        others = snakemake.params.pages.keys() - {figure}  # a cell with a figure as tag is only for its page
+        # A cell that has a figure as tag belongs only to the page of this figure.
+        others = snakemake.params.pages.keys() - {figure}
         done.cells = [cell for cell in done.cells if not others.intersection(cell.metadata.get("tags", ()))]
         Path(getattr(out, figure)).write_text(page(done, texts["title"]), encoding="utf-8")

@@ -15,7 +15,11 @@ from vibroimpact.system.state import KINDS, NAMES
 
 
 def summarise(simulated: Window, settings: dict) -> dict:
-    """Return for the window: both end times, events by kind and module, changes after 1 to 4 cycles, last state."""
+    """Return a summary of the window after the transient.
+
+    The summary contains the start and end time, the number of events by kind and module, the largest change of the
+    state after 1 to 4 cycles, and the final state.
+    """
     events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {
         kind: {str(module): int(((events["kind"] == kind) & (events["module"] == module)).sum()) for module in (1, 2)}

@@ -4,10 +4,14 @@
 include: "common.smk"
 
 
-# Arguments of `compute` for each figure. `settings` lists paths of config entries; each argument has the name of the
-# last key of its path, and * means all settings of a section except `case`. `inputs` are tables by name. `case` is the
-# path of a case, whose system is an argument; with `systems`, the systems of all cases are one argument. A figure is
-# omitted if the config lacks one of these entries or an entry in `needs`. `outputs` replaces the usual outputs.
+# For each figure, the arguments of its function `compute`:
+# - case: path of the config entry with the name of a case. The system of this case is an argument.
+# - systems: True if the systems of all cases are an argument.
+# - settings: paths of config entries. Each entry is an argument with the name of the last key of the path. At the end
+#   of a path, * stands for all settings of a section except `case`.
+# - inputs: path of each table by the name of the argument.
+# `outputs` replaces the usual outputs. A figure is omitted if the config lacks one of the entries above or an entry in
+# `needs`.
 COMPANIONS = {
     "companion_10_08": {
         "case": "figures.fig10_08.case",

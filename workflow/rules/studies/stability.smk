@@ -1,4 +1,5 @@
-# Proofs on the orbits of each case, verdicts of all criteria over both forces and over epsilon, and measures of modulation.
+# Proofs on the fixed points and orbits of each case, stability verdicts at several epsilon for these points and
+# for a grid of forcing amplitudes, and measures of modulation.
 
 
 rule proofs:

@@ -1,6 +1,6 @@
 # Parameter sweeps over a grid: snakemake sweep_NAME. A sweep is split into tiles, one job each. The number of tiles
-# follows from the predicted cost (vibroimpact.studies.sweeps.cost) or from `--set-scatter NAME=8`. It does not affect the
-# table.
+# follows from the predicted cost (vibroimpact.studies.sweeps.cost) unless `--set-scatter NAME=8` sets this number. The
+# table does not depend on the number of tiles.
 
 from vibroimpact.studies.sweeps.cost import points, tiles
 

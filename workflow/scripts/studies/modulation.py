@@ -1,4 +1,4 @@
-"""Write CSV files for all cases: measures of modulation, measures over several windows, and Lyapunov spectra."""
+"""Write CSV files for all cases: measures of modulation, measures for windows of several lengths, Lyapunov spectra."""
 
 from vibroimpact_pipeline.jobs import running
 

@@ -1,8 +1,8 @@
 """Write proofs on the fixed points and orbits of all cases as JSON.
 
 Interval arithmetic proves that three lists are complete: symmetric fixed points, asymmetric fixed points, and
-symmetric orbits. The list of asymmetric orbits is not proved complete. Each orbit in it was reached from a number of
-Newton starts; the larger the smallest of these numbers, the less likely it is that an orbit was missed.
+symmetric orbits. The list of asymmetric orbits is not proved complete. The search for these orbits counts the Newton
+starts that reach each orbit. If every orbit is reached from many starts, it is unlikely that an orbit was missed.
 """
 
 import dataclasses
@@ -23,7 +23,7 @@ CERTIFIED = {
 
 
 def proofs_of(system, search) -> dict:
-    """Return three proofs for one case, and the effort of the search for asymmetric orbits."""
+    """Return three proofs of completeness for one case, and the content of search.json in the file `search`."""
     proofs = {name: prove(system) for name, prove in CERTIFIED.items()}
     return {
         **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},
