@@ -1,8 +1,8 @@
 """Find periodic motions of any period and any sequence of events, by Newton's method on the stroboscopic map.
 
-The map leads from a state to the state n forcing periods later. The engine computes the map and its derivative through
-impacts, chatter, sticking and release. The map is discontinuous where an event passes the instant of the stroboscope,
-so this instant is placed in the middle of the longest interval without events.
+The stroboscopic map takes the state at a time tau to the state `periods` forcing periods later. `simulate` computes the
+map and its derivative through impacts, chatter, sticking and release. The map is discontinuous at a state for which an
+event occurs exactly at tau. Therefore tau is placed in the middle of the longest interval without events.
 """
 
 from dataclasses import dataclass
@@ -23,8 +23,8 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED
 SAME = 1e-6
 """Largest difference between states that count as equal; near a bifurcation, errors are about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-# A ball is neutral if no entry in the row of its velocity in D = `run.jacobian` - identity exceeds _NEUTRAL times the
-# largest entry of D or 1, whichever is larger.
+# D is `run.jacobian` - identity, and m is the largest modulus of an entry of D. A ball is neutral if no entry in
+# the row of D for the ball's velocity exceeds _NEUTRAL * max(1, m) in modulus.
 _NEUTRAL = 1e-10
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
@@ -74,8 +74,9 @@ class PeriodicOrbit(Representation):
     def stability(self) -> str:
         """Stability: "stable", "unstable" or "undecided".
 
-        It is undecided if a multiplier is on the unit circle within its error and none is outside. It is also undecided
-        if a ball hits no wall, so that two multipliers are 1, and none is outside.
+        A motion is unstable if a multiplier is outside the unit circle by more than its numerical error. Otherwise the
+        stability is undecided in two cases: a multiplier is on the unit circle within its numerical error, or a ball
+        hits no wall, so that two multipliers are 1.
         """
         part = _determined(self.run)
         states, rows = self._impacts["state"], np.arange(len(self._impacts))
@@ -86,13 +87,16 @@ class PeriodicOrbit(Representation):
 
     @property
     def impacts(self) -> np.ndarray:
-        """Number of impacts per period, (2, 2), [module, wall +1 / wall -1]; of a chatter, only those simulated."""
+        """Number of impacts per period, (2, 2), [module, wall +1 / wall -1].
+
+        Of the infinitely many impacts of a chatter, only the simulated ones are counted.
+        """
         events = self._impacts
         return np.array([[np.sum((events["module"] == i) & (events["wall"] == w)) for w in (1, -1)] for i in (1, 2)])
 
     @cached_property
     def symmetric(self) -> bool:
-        """True if the state half a period later is the mirror image; this requires an odd number of forcing periods."""
+        """True if each state is minus the state half a period earlier; False if `periods` is even."""
         half = _state_at(self.run, self.run.tau0 + self.period / 2)
         return self.periods % 2 == 1 and bool(np.abs(half + self.run.start).max() <= SAME)
 
@@ -146,7 +150,8 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
     Raises
     ------
     ValueError
-        If an argument is malformed, if Newton's method does not converge, or if the motion repeats earlier.
+        If an argument is malformed, if Newton's method does not converge, or if the motion already repeats after fewer
+        than `periods` forcing periods.
     ArithmeticError
         If a run could not be finished.
 
@@ -191,13 +196,13 @@ def refined(system, state, periods) -> PeriodicOrbit:
             break
         run = nearer
     if any(size <= least and _gap(run) <= closed for least, closed in _CONVERGED):
-        tau = run.cycles * system.period  # the end of the last period; tau = 0 is before the run
+        tau = run.cycles * system.period  # same forcing phase as tau = 0, which is before the run starts
         at_zero = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
         return PeriodicOrbit(system, periods, at_zero[-1].copy() if len(at_zero) else _state_at(run, tau), run)
     grazes = "; a ball grazes a wall" if _grazes(given) or _grazes(run) else ""
     raise ValueError(
         f"state: Newton's method found no motion with periods={periods} near this state; where it stopped, the states "
-        f"at the start and the end still differ by {_gap(run):.2g}{grazes}"
+        f"at the start and at the end of the motion still differ by {_gap(run):.2g}{grazes}"
     )
 
 
@@ -213,7 +218,10 @@ def _determined(run):
 
 
 def _nearer(run, step):
-    """Move the start of a run by a step, or a fraction of it, to reduce `_gap`; return the new run, or None."""
+    """Move the start of a run by `step`, halved until `_gap` decreases, and return the new run.
+
+    None is returned if `_gap` does not decrease in _HALVINGS trials.
+    """
     for _ in range(_HALVINGS):
         x = run.start + step
         if within_walls(x[None])[0]:
@@ -225,7 +233,7 @@ def _nearer(run, step):
 
 
 def _with_free_balls_at_rest(system, x, periods, begin):
-    """Return the run from x with neutral balls (`_determined`) at rest, since otherwise they drift away."""
+    """Return the run from state `x`; neutral balls (`_determined`) start with velocity 0, so that they do not drift."""
     run = simulate(system, x, periods, begin)
     free = _BALL_VELOCITIES & ~_determined(run)
     return simulate(system, np.where(free, 0.0, x), periods, begin) if x[free].any() else run
