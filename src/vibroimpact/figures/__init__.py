@@ -1,4 +1,4 @@
-"""Figures of the chapter: compute(...) -> tables, draw(tables) -> Figure."""
+"""Figures. In the module of a figure, `compute` returns its tables, and `draw` draws the figure from the tables."""
 
 from vibroimpact.system.extras import need
 

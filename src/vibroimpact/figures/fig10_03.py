@@ -65,7 +65,7 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(amplitude: float, theta: float, tau0_max: float) -> str:
-    """Return a sentence in Markdown on the saw-tooth in the exact system; arguments as in `compute`."""
+    """Return a text in Markdown on the shape of Z in exact motions of the system; arguments as in `compute`."""
     return (
         f"{EXACTLY} between its impacts a ball flies freely, so that $Z = W - U = -(1 + \\varepsilon)Y$ consists of "
         "straight lines there, too. Its corners are half a period apart only in symmetric motions."

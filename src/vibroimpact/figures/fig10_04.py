@@ -58,7 +58,7 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(kappa: float, C_max: float) -> str:
-    """Return a sentence in Markdown on the exact impact map at the border of (10.26); arguments as in `compute`."""
+    """Return a text in Markdown on the exact impact map at the stability limit (10.26); arguments as in `compute`."""
     border, low, high = printed_limit(rho(kappa)), lower_limit(kappa), upper_limit(kappa)
     growth = abs(impact_multipliers(border, kappa)).max()
     return (
@@ -71,7 +71,7 @@ def exact(kappa: float, C_max: float) -> str:
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute`: stable branch bold solid, unstable branch dashed, B_min and C_min dotted.
 
-    The inset shows the stable piece of the left arm, from the border of (10.26) to the fold.
+    The inset shows the stable piece of the left arm, from the stability limit (10.26) to the fold.
     """
     figure = new_figure(SINGLE_COLUMN, 66.0)
     axes = figure.add_subplot()

@@ -47,7 +47,7 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
     limit = printed_limit(rho(kappa))
     if not (lowest < limit.min() and limit.max() < highest):
         ends = f"from {limit.min()} to {limit.max()}"
-        raise ValueError(f"C_range: {C_range} does not contain the border of (10.26), which is {ends}")
+        raise ValueError(f"C_range: {C_range} does not contain all limits C of (10.26), which range {ends}")
     around = np.append(kappa, [1.0, 0.0])
     return join(
         [
@@ -59,7 +59,7 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """Return, for six evenly spaced kappa, the border of stability, C_min, and the distance in C between them."""
+    """Return one row for each of six evenly spaced kappa: the limit (10.26) of C, C_min, and C_min minus this limit."""
     fold = select(table, "regions", "C_min")["C"].to_numpy()
     border = select(table, "regions", "stable").iloc[: len(fold)]
     rows = np.linspace(0, len(fold) - 1, 6).astype(int)
@@ -68,7 +68,7 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(C_range: tuple[float, float]) -> str:
-    """Return a sentence in Markdown on the exact impact map at the border of (10.26); arguments as in `compute`."""
+    """Return a text in Markdown on the exact impact map at the stability limit (10.26); arguments as in `compute`."""
     kappa = np.linspace(0.0, 1.0, 201)
     growth = max(abs(impact_multipliers(printed_limit(rho(k)), k)).max() for k in kappa)
     return (

@@ -82,10 +82,10 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
         The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
     model : str, default 'slow_flow'
         slow_flow or exact_orbit. With exact_orbit, P_i and S_i are computed from the exact orbit next to the fixed
-        point; a fixed point without such an orbit is left out.
+        point. Fixed points without an exact orbit next to them are left out.
     C_max
-        The manifold is shown for 0 <= C_i <= C_max. One number, or one per module; increased if a fixed point lies
-        beyond.
+        Largest C_i of the planes: one number, or one per module. If a fixed point has C_i > C_max / 1.1, the planes of
+        module i end at 1.1 times the largest C_i of a fixed point.
 
     Returns columns panel (label and module: "a1", "a2", ...), series ("SIM stable", "SIM unstable", "P_i", "S_i", and
     "S_i beyond" for singular points with C_i > C_max), C, B. Without fixed points the planes show the manifold alone.
@@ -100,7 +100,7 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
 
 
 def planes(system, points, C_max) -> list[pd.DataFrame]:
-    """Return the curves in both planes for each labelled point; see `compute`."""
+    """Return a table for each curve and each set of points in both planes of each fixed point; see `compute`."""
     ends = np.fmax.reduce([np.broadcast_to(C_max, 2), *(1.1 * point.C for point in points)])
     if not points:
         return [branch for i in MODULES for branch in branches(str(i), system.kappa, ends[i - 1])]
@@ -129,7 +129,8 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
     Parameters
     ----------
     chapter : dict, optional
-        Verdicts of the chapter by label; the headings show the verdicts that differ from (10.26).
+        Verdicts of the chapter by label. The heading of a fixed point shows the chapter's verdict if the verdict of
+        (10.26) is different.
     """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + MARGINS)
@@ -170,7 +171,10 @@ def verdict(table: pd.DataFrame, label: str) -> str:
 
 
 def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
-    """Return C_i of the singular points outside the frame of a panel, "no S_i" if there are none at all, or ""."""
+    """Return a text on the singular points outside the frame of a panel.
+
+    The text gives C_i of these points. It is "no S_i" if the panel has no singular points, and "" if all are inside.
+    """
     name = f"S_{panel[-1]}"
     beyond = select(table, panel, f"{name} beyond")["C"]
     if len(beyond):
@@ -179,7 +183,7 @@ def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
-    """Draw the plane (C_i, B_i) of one panel; return, for each axes, pairs of name and lines for `name_curves`."""
+    """Draw the plane (C_i, B_i) of one panel; return entries for the argument `panels` of `name_curves`."""
     module = panel[-1]
     stable = select(table, panel, "SIM stable")
     end, top = stable.iloc[-1], max(stable["B"].iloc[-1], select(table, panel, "SIM unstable")["B"].iloc[0])

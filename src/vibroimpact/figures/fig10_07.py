@@ -100,7 +100,7 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def draw_response(axes, table: pd.DataFrame, module: int) -> dict:
-    """Draw the coordinates of one module over tau, and its walls; return names and lines for `name_curves`."""
+    """Draw coordinates and walls of one module over tau; return entries for the argument `panels` of `name_curves`."""
     lines = {name: select(table, f"module {module}", f"{name}_{module}") for name in COORDINATES}
     time_plot(axes, [(line["tau"], line["value"], COORDINATES[name]) for name, line in lines.items()])
     axes.set_ylabel(f"box $X_{module}$, ball $Y_{module}$")

@@ -115,8 +115,8 @@ def _simulations(module, system, settings, models, seconds):
     """Return, for each model of a simulated motion: its name, what it is compared with, its error, its cost [s].
 
     The runs in float64 and in arbitrary precision both start where the transient in float64 ends, since the transient
-    takes a minute in arbitrary precision. The run time of the transient in arbitrary precision is estimated from that
-    of a window with few samples, in proportion to the number of periods, and added to the cost.
+    takes a minute in arbitrary precision. The cost in arbitrary precision includes an estimate for the transient: the
+    run time of a window with few samples, multiplied by the ratio of the numbers of periods.
     """
     whole = window(system, settings | {"model": "float64"})
     part = settings | {"initial_state": whole.samples[list(NAMES)].iloc[0].tolist(), "transient_cycles": 0}
@@ -138,10 +138,10 @@ def _simulations(module, system, settings, models, seconds):
 
 
 def largest_error(table, reference) -> float:
-    """Return the largest difference between two tables of a figure [percent of the range of the axis].
+    """Return the largest difference between the points P_i, or the curves, of two tables of a figure [percent].
 
-    Points P_i in the planes (C_i, B_i) are compared, or curves at the times that both tables have. The result is inf if
-    a table is None, or if the tables show different points.
+    A difference in a column is divided by the range of the column in the same panel of `reference`. Curves are compared
+    at the times that are in both tables. The result is inf if a table is None, or if the tables show different points.
     """
     if table is None or reference is None:
         return np.inf
@@ -163,10 +163,10 @@ def _plotted(table, column):
 
 
 def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
-    """Return statistics of the bursts [percent]: share of time in bursts of ball 2, and amplitudes of X_2.
+    """Return four statistics of a run with bursts of resonance (`modulation.bursts`) [percent].
 
-    X_2 has one amplitude in each forcing period. The smallest, the mean and the largest of these amplitudes are given
-    in percent of the range of X_2 in `reference`.
+    The first is the share of the time that is in bursts of ball 2. The others are the smallest, the mean and the
+    largest amplitude of X_2, relative to the range of X_2 in `reference`; each forcing period has one amplitude.
     """
     impacts = run.events[(run.events["module"] == 2) & (run.events["kind"] == "impact")]
     bursts = modulation.bursts(impacts["tau"], impacts["wall"], system.period)

@@ -1,7 +1,7 @@
 """Provide the motion that a notebook shows: simulate it, or read it from files of a build.
 
-The argument `inputs` gives the paths of the files. If they were computed with parameters that differ from those of the
-notebook, an error is raised.
+The argument `inputs` gives the paths of the files. An error is raised if the files were computed with parameters other
+than those of the notebook.
 """
 
 import json
@@ -23,7 +23,7 @@ AS_ASYMMETRIC = "as in no motion of the chapter's theory"
 
 
 def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Return the samples and events of the window of a case, read from the files in `inputs` if any, else simulated.
+    """Return samples and events of the motion of a case, read from the files in `inputs` or, without files, simulated.
 
     Parameters
     ----------
@@ -87,7 +87,11 @@ def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, floa
 
 
 def repetition(displacements, per_cycle: int) -> str:
-    """Return a phrase on how many periods a motion takes to repeat, with the largest change of a displacement."""
+    """Return a phrase on how many periods a motion takes to repeat.
+
+    The phrase also gives the largest change of a displacement over this number of periods, or over one period if the
+    motion does not repeat.
+    """
     longest = max(1, (len(displacements) - 1) // (2 * per_cycle))
     changes = {lag: distance_after(displacements, per_cycle, lag) for lag in range(1, longest + 1)}
     settled, near = (next((n for n in changes if changes[n] <= limit), None) for limit in (SETTLED, NEAR))

@@ -1,7 +1,7 @@
 """Provide the fixed points that a notebook shows: compute them, or read them from files of a build.
 
-The argument `inputs` gives the paths of the files. If they were computed with parameters that differ from those of the
-notebook, an error is raised.
+The argument `inputs` gives the paths of the files. An error is raised if the files were computed with parameters other
+than those of the notebook.
 """
 
 import numpy as np

@@ -14,7 +14,7 @@ BRANCHES = {"SIM unstable": UNSTABLE, "SIM stable": STABLE}
 def branches(panel: str, kappa: float, C_max: float) -> list[pd.DataFrame]:
     """Return both branches of B(C), (10.16), for 0 <= C <= C_max, divided at the limit of (10.26); columns C, B.
 
-    Both branches contain the point where they meet, and the points include the fold C_min of (10.25).
+    Both branches contain the point where they meet. The stable branch contains the fold C_min of (10.25).
 
     Raises
     ------

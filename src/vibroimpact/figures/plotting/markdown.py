@@ -32,7 +32,11 @@ WORDS = {"None": "–", "nan": "–", "inf": "∞", "True": "yes", "False": "no"
 
 
 def digits(value, number: int = 3) -> str:
-    """Return a number with `number` significant digits, as a power of ten if tiny or huge; other values as text."""
+    """Return a value as text; numbers have `number` significant digits.
+
+    Nonzero numbers of modulus below 1e-4, or of 1e6 and above, are written with a power of ten. None, NaN, infinity,
+    True and False are replaced by the texts in WORDS.
+    """
     try:
         value = float(value) if isinstance(value, str) else value
     except ValueError:

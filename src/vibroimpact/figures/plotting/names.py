@@ -25,7 +25,8 @@ which curve the name belongs. OVERLAPS: the name covers something."""
 def name_curves(figure, panels: dict, **style) -> None:
     """Write the name of each curve next to it, in its colour, where it covers no line, marker, text or inset.
 
-    Call this last, since the places are found for the present limits and layout. A halo separates names from shading.
+    Call `name_curves` after all other drawing, since it finds the places for the axes limits and layout at the time of
+    the call. A halo separates names from shading.
 
     Parameters
     ----------
@@ -77,8 +78,9 @@ class _Names:
     def _place(self, half, own, others):
         """Return the place of a name near its curve, and both ends of the leader line.
 
-        The place is the nearest without a defect or, if none is near enough, one with a defect. The name fills a box of
-        half-size `half`. `own` and `others` are the discs of its curve and of the other curves.
+        The nearest place without a defect (UNCLEAR or OVERLAPS) is chosen. If there is no such place near the curve, a
+        place with a defect is chosen. The name fills a box of half-size `half`. `own` are the discs (`_outline`) that
+        cover the curve of the name, `others` those of all other named curves.
         """
         frame, margin = self.axes.get_window_extent(), half + GAP * self.point
         x = np.arange(frame.x0 + margin[0], frame.x1 - margin[0], STEP * self.point)

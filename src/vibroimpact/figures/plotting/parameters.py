@@ -22,7 +22,7 @@ def refuse_unknown(shell, known) -> None:
     Raises
     ------
     ValueError
-        If another name is assigned.
+        If an assigned name is neither in `known` nor a parameter that all notebooks have.
     """
     cells = shell.user_ns["In"]
     last = max(number for number, source in enumerate(cells) if source.startswith(FIRST))

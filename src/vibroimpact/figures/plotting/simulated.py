@@ -47,8 +47,9 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
     """Return statistics of the amplitude of each box: half its peak-to-peak displacement in each forcing period.
 
     Returns columns displacement ("X1", "X2"), smallest amplitude, largest amplitude, amplitude variation (standard
-    deviation divided by mean), modulation periods (number of distances between swells), mean length in cycles (mean of
-    these distances; blank if there are none); see `exact.measures.modulation`.
+    deviation divided by mean), modulation periods (their number), mean length in cycles (mean length of the modulation
+    periods; NaN if there are none). A modulation period is the time from one swell of the amplitude to the next
+    (`exact.measures.modulation.swells`).
     """
     per_cycle = samples_per_cycle(samples["tau"].to_numpy(), system.period)
     amplitudes = {name: modulation.cycle_amplitudes(samples[name], per_cycle) for name in ("X1", "X2")}

@@ -94,9 +94,10 @@ def save(figure: Figure, outputs: dict) -> None:
 
 
 def draw_tables(figure, read: dict) -> Figure:
-    """Draw a figure from its tables, keyed by name; `figure` is its Python module.
+    """Draw a figure from the dict `read` of its tables by name; `figure` is the Python module of the figure.
 
-    `figure.draw` gets a single plotted table without its name, and no argument if there are no tables.
+    The dict is the argument of `figure.draw`. If a figure has only the table "csv", the argument is this table. If a
+    figure has no tables, `figure.draw` is called without an argument.
     """
     if not read:
         return figure.draw()
@@ -131,7 +132,8 @@ def shown(figure, inputs: dict, *args, **settings) -> tuple:
     figure
         Python module of the figure.
     inputs : dict
-        Paths of its tables and "png" in a build. If empty, the figure is computed and drawn.
+        Paths of the files of a build: of each table under its name, and of the picture under "png". If `inputs` is
+        empty, the figure is computed and drawn.
     args, settings
         Arguments of `compute`.
     """
