@@ -6,9 +6,9 @@ All laws have the form K p^n + D p^m p'. In the phase plane of p and V = p', wit
 of the relative motion, V dV/dp = -(K p^n + D p^m V) / mu.
 
 If m = (n - 1) / 2, the substitution u = p^((n + 1) / 2) gives V dV/du = -2 (K u + D V) / ((n + 1) mu). This is a linear
-oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact lasts half a period of this oscillator,
-which multiplies every speed by exp(-pi zeta / sqrt(1 - zeta^2)) (Antypov and Elliott 2011, for n = 3/2). So the
-restitution coefficient is the same at every speed.
+oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact lasts half a period of this oscillator.
+Therefore the restitution coefficient is exp(-pi zeta / sqrt(1 - zeta^2)) at every speed (Antypov and Elliott 2011, for
+n = 3/2).
 
 If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. A contact begins with speed V at p = 0 and
 ends with speed -kappa V at p = 0, so that the integral of the right-hand side is zero. The left-hand side then gives
@@ -62,10 +62,11 @@ def stiffness_of(law: Law, mass: float, duration: float) -> float:
 def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float) -> float:
     """Return the stiffness K of a law without walls for which a ball with speed 1 at W = 0 turns at W = 1.
 
-    For another speed at W = 0, K is multiplied by the square of that speed.
+    For a ball with speed V at W = 0, the stiffness must be K V^2.
     """
     zeta = damping_ratio(kappa)
-    # `deepest` is the largest u at speed 1, times the frequency sqrt(2 K / ((n + 1) mu)) of the undamped oscillator.
+    # `deepest` is the largest u = |W|^((n + 1) / 2) of a ball with speed 1 at W = 0, multiplied by the frequency
+    # sqrt(2 K / ((n + 1) mu)) of the undamped oscillator.
     deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))
     return 0.5 * (law.stiffness + 1.0) * mass * deepest**2
 
@@ -91,7 +92,7 @@ def hunt_crossley_number(kappa: float) -> float:
     if 1.0 - kappa < NEARLY_ELASTIC:
         return 1.5 * (1.0 - kappa)
 
-    def number(x):  # x = -log(1 - kappa d) is the unknown, since d is 1 / kappa up to rounding if kappa is small
+    def number(x):  # d for given x = -log(1 - kappa d); for small kappa, rounding turns d into 1 / kappa, but not x
         return -math.expm1(-x) / kappa
 
     def excess(x):

@@ -24,7 +24,7 @@ class Engine(Method):
 
 
 class CertifiedEngine(Engine):
-    """The engine, timed together with the certificate of the run; the other methods have no certificate."""
+    """The engine, with the computation of the error certificate (`Run.certificate`) included in the run time."""
 
     name = "this engine, certified"
 

@@ -2,10 +2,10 @@
 
 This is the fastest way found to use heyoka here. Sine and cosine of the forcing phase are two further states, so that
 the recursion contains no transcendental functions. There is one directed event per wall, and heyoka's compact mode is
-off. Each contact state of the balls has its own integrator for each tolerance, which is compiled once, since all
-parameters are set at run time. After an event heyoka ignores the same event during a cooldown, in which a short flight
-could end undetected. So a ball whose rebound is slower than sqrt(tolerance) or SLOWEST, whichever is larger, sticks if
-the box presses it against the wall.
+off. One integrator is compiled for each combination of contact state and tolerance; all other parameters are set at run
+time. After an event heyoka ignores the same event during a cooldown, in which a short flight could end undetected. So a
+ball whose rebound is slower than sqrt(tolerance) or SLOWEST, whichever is larger, sticks if the box presses it against
+the wall.
 """
 
 from functools import lru_cache

@@ -1,8 +1,8 @@
 """Ivanov's transformation, extended to two walls: coordinates in which impacts are continuous.
 
 The box is unfolded (Zhuravlev 1976) into a row of boxes n = 0, +-1, +-2, ... on a line s: W = T(s), where T is a
-triangular wave of slope +1 or -1 with walls at odd s. On this line the ball passes through the walls, and the unit of
-its speed changes there (Ivanov 1994): W' = T'(s) R v with
+triangular wave of slope +1 or -1 with walls at odd s. On this line the ball passes through the walls. The coordinate v
+for the speed of the ball has a factor R that jumps at the walls (Ivanov 1994): W' = T'(s) R v with
 
     R = 1 + k sgn(v) p,   k = (1 - kappa) / (1 + kappa),   p = s - 2n in [-1, 1] in box n,   T = (-1)^n p,
 
@@ -138,7 +138,8 @@ def _impact(tau, i, box, direction, speed, k):
 def _march_across_jumps(q, k, z, tau0, h, count):
     """Take `count` steps across jumps, without locating them.
 
-    Return coordinates and boxes at the end, impacts, number of steps, and nan, since endless chatter is not detected.
+    Return coordinates and boxes at the end, impacts, number of steps, and nan as the time of an endless chatter, which
+    is not detected here.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, signs = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)

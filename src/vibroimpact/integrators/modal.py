@@ -1,7 +1,7 @@
-"""Compute flights exactly as sums of modes of the boxes; find impacts from samples of 1 - |W| by Newton's method.
+"""Compute flights exactly, as sums of modes of the boxes; find impacts from samples of 1 - |W| by Newton's method.
 
-This is the best simple method. In flight it is as exact as the engine, but it has no proof that no event occurs between
-two samples. The code is compiled.
+In flight this method is as exact as the engine. Unlike the engine, it does not prove that no event occurs between two
+samples. The code is compiled.
 """
 
 import math
@@ -54,9 +54,12 @@ class Modal(Method):
 def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
     """Return tables of the modes in the four contact states, and the largest condition number of the eigenvectors.
 
-    Tables: number of modes, (4,), the last of which is the forced response; rates of the modes, (4, 2, 5); mode
-    shapes in [X1, X2, X1', X2'], doubled for a conjugate pair, (4, 2, 4, 5); matrix from the free motion of the boxes
-    to the amplitudes of the free modes, (4, 2, 4, 4). Axes of length 2 hold real and imaginary parts.
+    The first axis of each table is the contact state. Axes of length 2 hold real and imaginary parts. The tables are:
+
+    - the number of modes, (4,); the last mode is the forced response,
+    - the rates (eigenvalues) of the modes, (4, 2, 5),
+    - the mode shapes in [X1, X2, X1', X2'], (4, 2, 4, 5); one mode of doubled shape represents a conjugate pair,
+    - the matrix from the free motion of the boxes to the amplitudes of the free modes, (4, 2, 4, 4).
     """
     counts, worst = np.zeros(4, np.intp), 0.0
     rates, shapes, inverses = (np.zeros((4, *shape), complex) for shape in ((5,), (4, 5), (4, 4)))

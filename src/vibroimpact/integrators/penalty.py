@@ -87,7 +87,7 @@ class PowerLaw(Penalty):
 
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
     """Return [n, m, K, D at speed 1, power of 1 / V in D, |W| at p = 0, |W| at which contact begins]."""
-    # For the same kappa at every speed V, D must be proportional to this power of 1 / V.
+    # If D is proportional to (1 / V)**power, kappa is the same at every speed V.
     power = (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
     return np.array([law.stiffness, law.damping, stiffness, damping, power, float(law.walls), contact])
 
