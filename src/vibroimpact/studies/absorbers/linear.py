@@ -24,7 +24,7 @@ class Linear:
     force : ndarray
         Amplitudes F, (n,).
     scale : callable
-        Function of an array of frequencies Omega; it returns the factors by which `force` is multiplied there.
+        Function that returns the factors by which `force` is multiplied at an array of frequencies Omega.
     """
 
     mass: np.ndarray
@@ -67,7 +67,7 @@ class Linear:
         return self._highest(self.amplitudes, band)
 
     def stroke(self, band: tuple[float, float]) -> float:
-        """Return the larger of the strokes of both absorbers in a band; inf if it contains an undamped resonance.
+        """Return the largest stroke of an absorber in a band; inf if the band contains an undamped resonance.
 
         The stroke, the amplitude of X_i - Y_i, is the room that an absorber needs on each side.
         """

@@ -1,8 +1,8 @@
 """Compute the peak displacement of boxes with balls in a band of frequencies; one cycle in a hundred exceeds the peak.
 
-The largest displacement of a chaotic motion grows with the length of the run. The peak is therefore a quantile of the
-largest displacements in single cycles, which does not grow. The lowest of many measured peaks is still too low, since
-its random error is likely to be negative. Therefore callers measure the lowest peaks again, from other initial states.
+The largest displacement of a chaotic motion grows with the length of the run. A quantile of the largest displacements
+in single cycles does not grow, and is therefore used as the peak. If many peaks are measured, the random error of the
+lowest one is likely to be negative. Therefore callers measure the lowest peaks again, from other initial states.
 """
 
 from collections.abc import Sequence
@@ -22,10 +22,11 @@ QUANTILE = 0.99
 
 @dataclass(frozen=True)
 class CycleMaxima:
-    """Maxima of runs of m systems, each from n initial states, in each observed cycle.
+    """Maxima over the observed cycles of runs of m systems, each from n initial states.
 
-    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: largest root
-    mean square of X_1 or X_2 over the observed cycles of a finished run. unfinished: number of unfinished runs.
+    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: root mean
+    square of X_1 or X_2 over all observed cycles of a run, the largest value of all finished runs. unfinished: number
+    of unfinished runs.
     """
 
     largest: np.ndarray

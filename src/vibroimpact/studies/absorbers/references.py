@@ -148,7 +148,7 @@ def _attached(matrix, links):
 def _levels(logarithms, system, frequencies, scale):
     """Return the logarithms of the amplitudes of both boxes at all `frequencies`, as one array.
 
-    logarithms: those of the frequencies and damping ratios of both absorbers, (4,). An amplitude below 1e-12 times the
+    logarithms: logarithms of `Tuning.frequency` and `Tuning.damping`, (4,). An amplitude below 1e-12 times the
     largest one is replaced by this bound, since a box may be at rest.
     """
     amplitudes = tuned(system, _tuning(logarithms), scale).amplitudes(frequencies)
