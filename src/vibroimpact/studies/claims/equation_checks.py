@@ -101,7 +101,7 @@ def equations_in_U_and_W(evidence):
 
 
 def _errors_of_jumps(system):
-    """Return the largest errors at random impacts of the printed jumps, 0 for U' and -(1 + kappa) W' for W'."""
+    """Return the largest errors of the two printed jumps, 0 in U' and -(1 + kappa) W' in W', at random impacts."""
     box, ball = np.random.default_rng(2).uniform(-1, 1, (2, 100))
     X, Y = after_impact(system.epsilon, system.kappa, box, ball)
     U = np.abs(X + system.epsilon * Y - box - system.epsilon * ball).max()
@@ -122,7 +122,7 @@ def leading_order_solution(evidence):
 
 
 def _vanish(found, **others):
-    """Return the Finding with a part for each name, which holds if the largest residual of this name is below ROUNDING.
+    """Return a Finding with one part per name; a part holds if the largest residual of its name is below ROUNDING.
 
     found: a list of dictionaries name -> residuals, each with the same names. others: further residuals by name.
     """

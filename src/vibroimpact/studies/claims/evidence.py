@@ -57,9 +57,9 @@ class Evidence:
         return orbits[orbits["admissible"].astype(bool)]
 
     def measured(self, case: str, start: str, quantity: str) -> pd.DataFrame:
-        """Return the rows of `modulation` for one quantity and the start "spread" or "rest"."""
+        """Return the rows of `modulation` for one case, kind of initial states ("spread" or "rest") and quantity."""
         return self.modulation.query("case == @case and start == @start and quantity == @quantity")
 
     def shares(self, case: str) -> pd.Series:
-        """Return the share of the spread starts that end in each regime, indexed by regime."""
+        """Return the share of the evenly spread initial states whose motion ends in each regime, indexed by regime."""
         return self.measured(case, "spread", "share of starts").set_index("regime")["mean"]

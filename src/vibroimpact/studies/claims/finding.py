@@ -32,9 +32,10 @@ class Finding:
 
     @property
     def verdict(self) -> str:
-        """One of VERDICTS: HOLDS if all parts hold, REFUTED if none does, else IN_PART; OPEN if any part is None.
+        """One of VERDICTS, by the first of these conditions that is met.
 
-        MISPRINT if the statement does not hold as printed, but holds as corrected.
+        OPEN if any part is None; HOLDS if all parts hold; MISPRINT if the statement holds as corrected; IN_PART if any
+        part holds; else REFUTED.
         """
         found = list(self.parts.values())
         if None in found:

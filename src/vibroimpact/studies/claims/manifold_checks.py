@@ -25,14 +25,14 @@ def fold_of_the_manifold(evidence):
         found = minimize_scalar(lambda C, r=r: B_of_C(C, r) ** 2, bracket=(0.0, 0.8, 2.0), tol=1e-10)
         place = max(place, abs(found.x - C_min(r)))
         level = max(level, abs(np.sqrt(found.fun) - B_min(r)))
-    # A minimisation finds the minimum with an error of the size of rounding, but its position only to the square root
-    # of rounding.
+    # The minimisation finds the value of the minimum up to rounding errors, but the position of the minimum only up to
+    # the square root of rounding errors.
     numbers = {"largest error of C_min": place, "of B_min": level}
     return Finding({"C_min": place < 1e-6, "B_min": level < 1e-12}, numbers)
 
 
 def no_penetration(evidence):
-    """Check by samples of a cycle that |W_0| exceeds 1 for C < 0, but neither at the fixed points nor for C >= 0."""
+    """Check on samples of a cycle that max |W_0| > 1 for C < 0, and |W_0| <= 1 at the fixed points and for C >= 0."""
     kappa = evidence.system.kappa
     points = evidence.fixed_points[["C1", "C2"]].to_numpy()
     end = largest_C(kappa)
@@ -99,8 +99,8 @@ def _limits_of_the_captions(evidence):
     below the limit at each other point. All limits in the interval are also below the fold of the manifold, so that a
     part of the left arm is stable.
 
-    For any limit, the stable points of a case are those with the largest min(C_1, C_2). If the captions named the
-    points of a case in another order, the interval would therefore be either the same or empty.
+    For any limit, the stable points of a case are those with the largest min(C_1, C_2). Therefore only the number of
+    stable points matters: with the labels of a case in another order, the interval would be the same or empty.
     """
     smallest = {True: [], False: []}
     for case, captions in CAPTIONS.items():
@@ -157,8 +157,8 @@ def left_arm_has_a_stable_piece(evidence):
 def stability_regions(evidence):
     """Check the shaded (stable) and the white (unstable) region of Fig. 10.5 against the impact map.
 
-    On a grid with C from 0.5 to 1.1 and kappa in KAPPAS, the share of each region is measured in which the stability is
-    as drawn. The border between both regions, (10.26), must lie below the curve C_min(kappa) for every kappa.
+    The check uses a grid with C from 0.5 to 1.1 and kappa in KAPPAS. In each region, all grid points must have the
+    stability that is drawn. The border between the regions, (10.26), must lie below C_min(kappa) for every kappa.
     """
     kappa, C = (values.ravel() for values in np.meshgrid(KAPPAS, np.linspace(0.5, 1.1, 61)))
     border, stable = printed_limit(rho(kappa)), _stable(C, kappa)
