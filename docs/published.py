@@ -7,7 +7,7 @@ import vibroimpact as vi
 
 
 def wall(F, omega, c, kappa):
-    """Return an oscillator with mass and stiffness 1 and, as wall, a ball of mass 1e12; the unit of length is 50."""
+    """Return an oscillator with mass and stiffness 1; its wall is a ball of mass 1e12. Lengths are divided by 50."""
     return vi.PhysicalSystem.single(M=1, m=1e12, k=1, c=c, F=F, L=50, kappa=kappa, omega=omega).dimensionless()
 
 
@@ -17,7 +17,7 @@ def speeds(orbit):
 
 
 def sector(r, clearance=0.3):
-    """Return one sector of the chain, uncoupled, since the coupling has no effect if all sectors move in phase."""
+    """Return one sector of the chain of Weidemann et al. (2025), without coupling, since all sectors move in phase."""
     given = dict(M=0.98, m=0.02, k=1, c=0.002, F=0.002, kappa=0.8)
     return vi.PhysicalSystem.single(**given, L=clearance, omega=r).dimensionless()
 
@@ -28,7 +28,7 @@ def resonant(system):
 
 
 def flight(stiffness, x, V):
-    """Return time and box displacement at the next impact, given box displacement x and ball speed V at the last."""
+    """Return time and box displacement at an impact, given box displacement x and ball speed V at the impact before."""
     cell = vi.PhysicalSystem.single(M=1, m=0.3, k=stiffness, c=0, F=0, kappa=1 - 1e-12).dimensionless()
     v = V / stiffness**0.5  # the unit of time follows from the frequency of the box
     impact = vi.simulate(cell, [x, x - 1, 0, 0, -0.3 * v, v, 0, 0], 9).events[0]
@@ -36,7 +36,7 @@ def flight(stiffness, x, V):
 
 
 def half_period(stiffness, V, low, high):
-    """Return half the period of a symmetric free motion; at impact, the box position is between `low` and `high`."""
+    """Return half the period of the symmetric free motion that has its impact at a box position in [low, high]."""
     x = brentq(lambda x: flight(stiffness, x, V)[1] + x, low, high)
     return flight(stiffness, x, V)[0]
 
@@ -109,6 +109,6 @@ def masri():
 
 def chatter():
     spring = vi.PhysicalSystem.single(M=1e-3, m=1e12, k=100, c=0, F=0, kappa=0.9).dimensionless()
-    run = vi.simulate(spring, [1 + 9.81e-5, 1 + 9.81e-5, 0, 0, 0, 0, 0, 0], 44)  # at rest 9.81e-5 below the floor
+    run = vi.simulate(spring, [1 + 9.81e-5, 1 + 9.81e-5, 0, 0, 0, 0, 0, 0], 44)  # equilibrium 9.81e-5 below the floor
     times = run.events["tau"] / 1e5**0.5
     return [*times[[0, 1, 9, 49, 99, 149]], times[-1]]

@@ -1,4 +1,4 @@
-"""Print the largest displacements of two coupled 10 kg machines: without balls, with absorbers, and with balls."""
+"""Print the largest displacements of two coupled 10 kg machines without balls, with linear absorbers and with balls."""
 
 import numpy as np
 
