@@ -1,4 +1,4 @@
-"""Measure the time per impact: of every method on one motion, and of ensembles and single runs on sets of motions."""
+"""Measure the time per impact of every method on one motion, and of ensembles and single runs on sets of motions."""
 
 from functools import partial
 
@@ -48,7 +48,10 @@ def methods_table(seconds: float) -> list[dict]:
 
 
 def scenes() -> dict[str, tuple]:
-    """Return sets of n motions (scenes) by description, each as systems, initial states (n, 8) and number of cycles."""
+    """Return the scenes, which are sets of n motions, by their descriptions.
+
+    Each scene is a tuple (one system or n systems, initial states (n, 8), number of cycles).
+    """
     equal, weak = (System(**PARAMETERS, **CASES[case]) for case in ("equal", "weak"))
     sweep = [
         equal.with_(sigma_e_hat=detuning, f10_hat=force, f20_hat=force)
@@ -67,13 +70,14 @@ def scenes() -> dict[str, tuple]:
 def scenes_table(seconds: float) -> list[dict]:
     """Return two rows per scene of `scenes`, for `ensemble` and for single runs: time per impact [us] on one core.
 
-    The error of an ensemble is the median, over SINGLE_RUNS runs, of the largest difference of a coordinate between the
-    final states of the ensemble and of the single run after SHORT cycles.
+    For the error of an ensemble, SINGLE_RUNS motions of the scene are computed over SHORT cycles, both in an ensemble
+    and by single runs. The error is the median, over these motions, of the largest difference of a coordinate between
+    the two final states.
 
     Parameters
     ----------
     seconds : float
-        Time [s] for which the ensemble is repeated, and likewise the single runs.
+        Time [s] for which the ensemble is repeated. The single runs are repeated for the same time.
     """
     with at_most(1):
         return [row for name, scene in scenes().items() for row in _compared(name, *scene, seconds)]
@@ -110,7 +114,7 @@ def _random(count):
 
 
 def _around(count, distance):
-    """Return `count` random states, each coordinate of which differs from that of PROBLEM by at most `distance`."""
+    """Return `count` random states whose coordinates differ from those of PROBLEM.state by at most `distance`."""
     states = np.array(PROBLEM.state) + np.random.default_rng(1).uniform(-distance, distance, (count, 8))
     boxes = states[:, BOXES[:2]]
     states[:, BALLS[:2]] = np.clip(states[:, BALLS[:2]], boxes - 0.99, boxes + 0.99)

@@ -14,12 +14,19 @@ OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDL
 
 
 def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per method, in the order of `work_precision`: relative cost, and counts of stress tests.
+    """Return one row per method, in the order of `work_precision`: relative cost, and numbers of stress tests.
 
-    A problem is solved if a run has an error of at most 1e-6 and no missed or spurious impacts. Columns: method;
-    family; problems (number of solved problems); times (cost relative to the first method in the table, as the largest
-    ratio of the shortest times of runs that solve a problem; blank unless all problems are solved); and the numbers of
-    stress tests: right, wrong (no error or doubt reported), stopped (by an error, or not finished), tests (all).
+    A run solves a problem if it has an error of at most 1e-6 and no missed or spurious impacts. The cost of a method is
+    the shortest time per cycle of its runs that solve the problem. Columns:
+
+    - method, family;
+    - problems: number of solved problems;
+    - times: largest ratio, over all problems, of the cost to the cost of the first method; blank unless the method
+      solves all problems;
+    - right: number of stress tests with a right result;
+    - wrong: number of stress tests with a wrong result for which the method reports no error or doubt;
+    - stopped: number of stress tests that end with an error or do not finish;
+    - tests: number of all stress tests.
 
     Parameters
     ----------
@@ -42,10 +49,9 @@ def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> p
 def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
     """Return the two cheapest methods for each problem and each allowed error in GOALS.
 
-    `compared` is the result of `methods_table`; methods without stress tests in this table are left out. Columns:
-    problem, error (largest allowed error of the final state), choice (1 or 2), method, setting, seconds_per_cycle,
-    wrong (number of stress tests with a wrong result, but no error or doubt reported), tests (number of all stress
-    tests).
+    `compared` is the result of `methods_table`. Methods without stress tests in `compared` are left out. Columns:
+    problem, error (largest allowed error of the final state), choice (1 or 2), method, setting, seconds_per_cycle, and
+    the columns wrong and tests of `compared`.
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]

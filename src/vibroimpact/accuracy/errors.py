@@ -14,7 +14,7 @@ WINDOW = 0.05
 
 
 class Errors(NamedTuple):
-    """Errors of a run against a reference, named like the columns of tables.
+    """Errors of a run against a reference run.
 
     error_state: largest difference of a coordinate of the final state. error_time: largest time difference [tau]
     between matching impacts (0 if no impacts match). Both are inf if the run has no final state. missed: number of

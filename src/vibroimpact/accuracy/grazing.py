@@ -24,7 +24,8 @@ def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float
     Parameters
     ----------
     boxes
-        Initial X_1, X_2, X_1', X_2', as decimals. Ball 2 starts in the middle of its box, with the velocity of the box.
+        Initial X_1, X_2, X_1', X_2' as decimal strings. Ball 2 starts in the middle of its box, with the velocity of
+        the box.
     ball_velocity
         Initial velocity of ball 1.
     guess

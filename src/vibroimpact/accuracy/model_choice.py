@@ -62,7 +62,7 @@ class Motion:
 def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
     """Return the motion that a model gives for each fixed point of a system.
 
-    With exact_orbit, fixed points without an exact orbit next to them are left out.
+    The result of the model exact_orbit omits the fixed points without an exact orbit next to them.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def _second_term(system, point) -> Motion:
 
 
 def _motion(system, point, C, impacts, U) -> Motion:
-    """Return the motion composed of U, a function of tau, and of the saw-tooth with amplitudes C.
+    """Return the motion with the given function U(tau) and the given saw-tooth: amplitudes C and impact times.
 
     B and psi are computed from the first harmonic of U.
     """

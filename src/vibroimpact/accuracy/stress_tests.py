@@ -30,8 +30,8 @@ class StressTest:
     """A test problem: group (kind of difficulty), name, system, initial state (8,) at tau = 0, forcing cycles.
 
     faint: impacts with at most this rebound speed need not be found (0: all impacts must be found). reference_cycles:
-    number of cycles of the reference run, fewer than `cycles`, for a motion that settles by then; None for all cycles.
-    quick: True if the test also belongs to the reduced set.
+    number of cycles of a shorter reference run, at the end of which the motion must have settled; None if the reference
+    run has `cycles` cycles. quick: True if the test also belongs to the reduced set.
     """
 
     group: str
@@ -47,8 +47,8 @@ class StressTest:
 REST = (0.0,) * 8
 SETTLED = (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869)
 MODULATED = (0.0647, 0.5421, -0.1898, 0.0, -0.2101, -0.6997, 0.0459, 0.0)
-PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 just before a soft impact on box 1, which pushes it
-RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 at rest on a wall of box 1, which pushes it
+PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 just before a slow impact; the wall pushes the ball
+RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 rests on a wall of box 1; the wall pushes the ball
 TOGETHER = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)  # both modules move in the same way
 MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # module 2 mirrors module 1
 FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # on the manifold at C = C_min, (10.25)
@@ -94,7 +94,7 @@ def reference_of(test: StressTest):
     Raises
     ------
     ArithmeticError
-        If the test has reference_cycles but the motion has not settled by then.
+        If the motion has not settled after `test.reference_cycles` cycles.
     """
     if test.reference_cycles is None:
         return proven_run(test.system, test.state, test.cycles, exact_floats=False).run

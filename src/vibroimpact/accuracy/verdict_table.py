@@ -42,7 +42,9 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.DataFrame:
     """Return one row per fixed point, sorted by label, with the verdict of each criterion.
 
-    The verdict `exact` is the Floquet verdict on the exact orbit next to the fixed point.
+    Columns: case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
+    orbit next to the point, see `partners`; "" if there is none), and one column per criterion. The verdict in the
+    column `exact` is the Floquet verdict on the exact orbit next to the fixed point.
 
     Parameters
     ----------
@@ -50,9 +52,6 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
         Fixed points of the system, with their labels.
     orbits : DataFrame
         `orbit_rows` of the same case.
-
-    Columns: case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
-    orbit next to the point, see `partners`; "" if there is none), and one column per criterion.
     """
     points = sorted(points, key=lambda point: point.label)
     symmetric = orbits[orbits["symmetric"].astype(bool)]  # in an empty table this column is not boolean

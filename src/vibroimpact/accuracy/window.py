@@ -22,9 +22,10 @@ DIGITS = 40
 class Window:
     """Window of a simulation.
 
-    samples: columns tau and the state, at evenly spaced times, both ends included. events: columns tau, module, wall,
-    kind and the state just after the event. strobe: columns as in samples, at the start of every forcing cycle of the
-    whole run and at its end. trust: how far the run can be trusted: method, and certificate or agreement of two runs.
+    samples: columns tau and the state, at evenly spaced times, both ends of the window included. events: columns tau,
+    module, wall, kind and the state just after the event. strobe: columns as in samples, at the start of every forcing
+    cycle of the whole run and at the end of the run. trust: method of the simulation, with the certificate of the run
+    (float64) or the digits and the agreement of two runs (reference).
     """
 
     samples: pd.DataFrame
@@ -41,8 +42,9 @@ def window(system: System, settings: dict) -> Window:
     system : System
         Dimensionless parameters.
     settings : dict
-        Keys initial_state (8,); transient_cycles, before the window; window_cycles; samples_per_cycle; model, "float64"
-        or "reference". The reference uses `digits` decimal digits, by default DIGITS, doubled until two runs agree.
+        Keys: initial_state (8,); transient_cycles, before the window; window_cycles; samples_per_cycle; model,
+        "float64" or "reference"; and digits, the decimal digits of the first reference run (default DIGITS). The
+        digits are doubled until two successive reference runs agree.
 
     Raises
     ------

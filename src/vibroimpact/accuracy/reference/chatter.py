@@ -7,7 +7,7 @@ from vibroimpact.accuracy.reference.taylor_models import to_ball
 
 
 class Chatter:
-    """Consecutive impacts of the same balls on the same walls, and the limit of the states after them.
+    """Chatter: consecutive impacts of the same balls on the same walls, and the limit of the states after the impacts.
 
     The map from one impact to the next is analytic in the rebound speed. States with a rebound speed of 0 are fixed
     points of the map, with the eigenvalues kappa (for the speed) and 1 (for the other coordinates). In Koenigs'
@@ -35,8 +35,9 @@ class Chatter:
     def add(self, coordinates) -> bool:
         """Add the state after the next impact; return True if the limit is now more accurate.
 
-        `change` is then the largest difference of a coordinate between the new and the previous limit. In practice it
-        bounds the error of the previous limit and the much smaller error of the new limit.
+        If the limit is more accurate, the attribute `change` is set to the largest difference of a coordinate between
+        the new and the previous limit. In practice `change` bounds the error of the previous limit. The error of the
+        new limit is much smaller.
         """
         self._impacts += 1
         if (self._impacts - 1) % self._stride:

@@ -8,10 +8,11 @@ class Undecidable(ArithmeticError):
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
-    """Return an interval (arb) that contains only the first root of the series in (0, end], or None if it has none.
+    """Return an interval (arb) that contains the first root of the series in (0, end] and no other, or None.
 
-    series: arb_poly, positive at 0. Its mean-value enclosures prove that no root comes before the interval. hint (<
-    end): point at which (0, end] is first split, useful for a root much nearer to 0 than to end.
+    series: arb_poly, positive at 0. hint: point in (0, end) at which the search first splits (0, end]; this saves time
+    if the first root is much nearer to 0 than to `end`. Mean-value enclosures of the series prove that no root comes
+    before the returned interval, or that (0, end] contains no root if None is returned.
 
     Raises
     ------

@@ -58,11 +58,11 @@ class ProvenRun:
 def reference_run(
     system_parameters, state, cycles, digits, tau0=0, sample_times=None, exact_floats=None
 ) -> ReferenceRun:
-    """Simulate (10.1) over a number of forcing periods from tau0, with the given decimal digits in each flight.
+    """Simulate (10.1) over `cycles` forcing periods from the time tau0.
 
-    A ball that rests on a wall w at the start sticks if the wall pushes it, that is if the first nonzero number among
-    w X'' and its derivatives is positive, or if all are 0. Numbers below the accuracy of a flight count as 0. Otherwise
-    the ball leaves the wall at once.
+    A ball that rests on a wall w = +1 or -1 at the start sticks if the first nonzero number among w X'' and its time
+    derivatives is positive (the wall pushes the ball), or if all these numbers are 0. Otherwise the ball leaves the
+    wall at once. Numbers below the accuracy of a flight count as 0.
 
     Parameters
     ----------
@@ -71,21 +71,21 @@ def reference_run(
     state : sequence
         [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], rational numbers.
     cycles, tau0
-        Length and start of the window, rational numbers.
+        Number of forcing periods, and time tau at the start of the run, rational numbers.
     digits : int
         Decimal digits to which each flight is computed, at least 20.
     sample_times : sequence, optional
-        Ascending times in the window; floats among them have their binary value. A sample at an event is the state
-        after the event.
+        Ascending times tau within the run. A float stands for its binary value. A sample at the time of an event is the
+        state after the event.
     exact_floats : bool, optional
-        True: floats, and Omega rounded to a float, have their binary values, and a ball within rounding of a wall is
-        put on the wall, as in `simulate`. False: floats are read as their shortest decimals. The default is True for a
+        True: a float stands for its binary value, Omega is rounded to a float, and a ball within rounding of a wall is
+        put on the wall, as in `simulate`. False: a float stands for its shortest decimal. The default is True for a
         System, else False.
 
     Raises
     ------
     ValueError
-        If parameters are inadmissible, a ball starts beyond a wall, or times are outside the window.
+        If parameters are inadmissible, a ball starts beyond a wall, or sample times are outside the run.
     Undecidable
         If more digits are needed to decide, for example, whether a ball grazes or misses a wall.
     """
@@ -123,8 +123,8 @@ def proven_run(system_parameters, state, cycles, digits=None, sample_times=None,
     system_parameters, state, cycles, sample_times, exact_floats
         As in `reference_run`, with tau0 = 0.
     digits : int, optional
-        Initial number of digits. The default is 40 plus 0.33 per forcing period; the modulated case was measured to
-        lose 0.33 digits per period.
+        Number of digits of the first run. The default is 40 plus 0.33 per forcing period, because a modulated motion
+        was measured to lose 0.33 digits per period.
 
     Raises
     ------

@@ -117,7 +117,7 @@ class Flow:
         return Fraction(REACH) / self.norm
 
     def size(self, vector) -> arb:
-        """Return an upper bound of the weighted norm of `vector`, a value of s.
+        """Return an upper bound of the weighted norm of `vector`, a value of [X1, X2, X1', X2', sin, cos].
 
         The bound times `norm` is a bound of |X1''| and |X2''|.
         """
@@ -127,7 +127,7 @@ class Flow:
         return largest.upper()
 
     def series(self, vector) -> tuple[arb_poly, arb_poly]:
-        """Return X1 and X2 as power series in time; `vector` (6,) is the initial value of s."""
+        """Return X1 and X2 as power series in time; `vector` is the initial value of [X1, X2, X1', X2', sin, cos]."""
         with ctx.workprec(self.bits):
             entries = (self._table * arb_mat(6, 1, vector)).entries()
             tail = arb(0, (self._tail * self.size(vector)).upper())

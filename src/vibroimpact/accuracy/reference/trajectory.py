@@ -21,9 +21,9 @@ SEARCH_BITS = 96  # sufficient to exclude and bracket most events; otherwise the
 class _Ball:
     """Motion of one ball relative to its box: W (`gap`), W' (`rate`), and the wall that the ball touches, or 0.
 
-    order: number of leading Taylor coefficients that vanish. For a stuck ball they belong to the contact force (None:
-    the force is always zero). For a ball that leaves its wall they belong to the distance 1 - wall W (order 1 after an
-    impact, else more).
+    order: number of leading Taylor coefficients that vanish. For a stuck ball, these are coefficients of the contact
+    force; the order is None if the force is always zero. For a ball that leaves its wall, these are coefficients of the
+    distance 1 - wall W; the order is 1 after an impact and higher after a release.
     """
 
     gap: arb
@@ -77,7 +77,7 @@ class Trajectory:
 
     def _sample_queue(self):
         times = [] if self.sample_times is None else list(self.sample_times)
-        # Floats among the times are computed numbers such as k * period, so that their binary values are meant.
+        # A float stands for its binary value, because sample times such as k * period are computed as floats.
         rational = [Fraction(float(t)) if isinstance(t, float) else to_fraction("sample_times", t) for t in times]
         if any(later < earlier for earlier, later in pairwise(rational)):
             raise ValueError("sample_times: should be ascending")
@@ -177,7 +177,7 @@ class Trajectory:
     # -- the next event ----------------------------------------------------------------------------------
 
     def _next_events(self, series, search_series, longest):
-        """Return the earliest event within the time `longest`, and all events at the same time up to the tolerance."""
+        """Return the events within the time `longest` that are at most `tolerance` later than the earliest event."""
         try:
             with ctx.workprec(SEARCH_BITS):
                 found = self._bracket(search_series, longest)
@@ -189,15 +189,16 @@ class Trajectory:
         return [_Candidate(module, wall, root.mid()) for (module, wall), root in _earliest(found, self.tolerance)]
 
     def _bracket(self, series, longest):
-        """Return a list of ((module, wall), interval) for the distances whose first root may be the earliest.
+        """Return a list of ((module, wall), interval), one item for each event that may be the earliest.
 
-        Each interval (arb) contains only the first root of the distance. The distance is that of `_distance`.
+        Each interval (arb) contains the first root of the series that `_distance` returns for (module, wall), and no
+        other root of the series.
         """
         keys = []
         for module, ball in enumerate(self.balls):
             if not ball.stuck:
                 keys += [(module, 1), (module, -1)]
-            elif ball.order is not None:  # a ball without any contact force never leaves its wall
+            elif ball.order is not None:  # if None, the contact force stays zero, and the ball stays stuck
                 keys.append((module, ball.wall))
         distances = [(key, self._distance(key, series)) for key in keys]
         hints = {key: _parabola_hint(distance, longest) for key, distance in distances}
@@ -263,11 +264,11 @@ class Trajectory:
         self._note(module, STICK)
 
     def _settle(self, *modules, started=False):
-        """Release each stuck ball, in the given modules or in both, whose contact force w X'' no longer pushes it.
+        """Release each stuck ball whose contact force w X'' is negative just after the present instant.
 
-        The force just after this instant has the sign of its first nonzero Taylor coefficient, where coefficients of
-        at most `tolerance` count as zero. This rule holds after the force falls through zero, after it jumps due to an
-        impact of the other module, and at the start.
+        modules: indices of the modules to check, by default both. The sign of the force is that of its first nonzero
+        Taylor coefficient, where coefficients of at most `tolerance` count as zero. This rule is used after the
+        force falls through zero, after the force jumps due to an impact of the other module, and at the start.
         """
         for module in modules or range(2):
             ball = self.balls[module]
@@ -361,10 +362,10 @@ def _force(ball, motion):
 
 
 def _parabola_hint(distance, longest):
-    """Return twice the root of the linear part of `distance`, or None unless this time is far below `longest`.
+    """Return a time at which `first_root` should first split its search for the root of `distance`, or None.
 
-    If the search for the root of the whole series is first split at this time, one split suffices to find the end of a
-    short flight of a chatter.
+    The time is twice the root of the linear part of `distance`. With this time, one split suffices to find the end of a
+    short flight of a chatter. The result is None if the time is not positive or exceeds a quarter of `longest`.
     """
     height, slope = distance[0], distance[1]
     if not (height > 0 and slope < 0):
