@@ -1,7 +1,7 @@
 """Certificate of a run: proofs that no impact was missed, and error estimates for the states.
 
-The estimates assume a rounding error of one unit at the start and after every event, and propagate these errors by the
-variational flow.
+The estimates assume rounding errors of the size of the float64 epsilon at the start and after every event, and
+propagate these errors by the variational flow.
 """
 
 import math
@@ -42,8 +42,9 @@ class Errors(NamedTuple):
     """Estimated errors of a state, in UNIT.
 
     independent: covariance (8, 8) of independent rounding errors. repeated: sums (8, 6) of rounding errors that recur
-    with the same value, with one column for each source. Errors of the flow tables make the motion of each box grow
-    (columns 0, 2) or rotate in the phase plane (1, 3). Errors of restitution change the rebound of each ball (4, 5).
+    with the same value, one column for each source. Columns 0 and 2: errors of the flow tables that make the motion of
+    box 1 or 2 grow. Columns 1 and 3: errors of the flow tables that rotate the motion of box 1 or 2 in its phase plane.
+    Columns 4 and 5: errors of restitution that change the rebound of ball 1 or 2.
     """
 
     independent: np.ndarray
@@ -52,10 +53,11 @@ class Errors(NamedTuple):
 
 @compiled
 def errors_of(flow, flights, events, limit):
-    """Return the estimated errors at the start and end of every flight, rows (m + 1, 2), and at the end of the run.
+    """Return the estimated errors of the state at the start and end of every flight, and at the end of the run.
 
-    An error is the root of the sum, over all components of the state, of their mean square errors. If it exceeds
-    `limit` after an event or at the end of the run, the errors from there on are inf.
+    The errors of the flights have shape (m + 1, 2) for m events. An error is the square root of the sum of the mean
+    square errors of all components. If it exceeds `limit` after an event, all later errors are inf. If it exceeds
+    `limit` at the end of the run, the error at the end of the run is inf.
     """
     q = flow.coefficients
     estimates, largest = np.full((len(flights), 2), math.inf), limit / UNIT
@@ -118,7 +120,7 @@ def errors_at(flow, flights, events, times, limit):
 
 @inlined
 def _begin(q, flight, errors):
-    """Add the rounding error of the initial state to `errors`, including the velocity of a ball that touches a wall."""
+    """Add the rounding errors of the initial state to `errors`; a ball has one in its velocity only at a wall."""
     state = flight[BEFORE:AFTER]
     touching = abs(state[0] - state[4]) >= 1.0, abs(state[1] - state[5]) >= 1.0
     _add_rounding(q, errors, flight[:AFTER], state, touching)
@@ -126,9 +128,10 @@ def _begin(q, flight, errors):
 
 @inlined
 def _fly(flow, flight, errors, matrix, product):
-    """Propagate errors over a flight, in pieces, and add the rounding errors of the tables and of each piece.
+    """Propagate errors over a flight, and add the rounding errors of the flow tables.
 
-    The row of the flight is overwritten by its last piece.
+    A flight longer than `flow.longest` is cut into pieces, whose rounding errors are also added. The row `flight` is
+    overwritten and finally describes the last piece.
     """
     left = flight[LENGTH]
     while left > 0.0:
@@ -165,8 +168,8 @@ def _pass_event(q, flights, events, n, errors, matrix, product):
 def _end(q, flight, elapsed, errors, rate):
     """Add to `errors` the effects of rounding the time and the state at the end of a run or at a sample.
 
-    The end time of a run is a difference of phases; `elapsed` is then 0. A sample time is a difference of times since
-    the start of the run, so that its rounding error grows with `elapsed`.
+    elapsed: time of the sample since the start of the run, with which the rounding error of the sample time grows; 0 at
+    the end of a run, whose time is computed from the forcing phase without such growth.
     """
     late = 2.0 / q.omega + flight[LENGTH] + elapsed
     _, _, walls = start_of(flight)
@@ -236,12 +239,13 @@ def _add_table(q, state, sums):
 def _add_rounding(q, errors, flight, state, met):
     """Add a unit rounding error for a state (8,), [boxes, balls], at the end of a flight.
 
-    flight: row of the flight, of which only the start is used. met: for each module, True if its ball touches a wall.
+    flight: row of the flight; the entries for the end of the flight are not used. met: for each module, True if its
+    ball touches a wall.
 
     A state is computed as a sum, in which the force contributes F / Omega^2 to a position and F / Omega to a velocity.
-    The rounding error of this contribution remains even if the contribution cancels later. The same is true for
-    velocities due to a stiff spring. The velocity of a free ball is computed only at an impact, so that it has a
-    rounding error only there.
+    The rounding error of this contribution remains even if the contribution cancels later. Velocities due to a stiff
+    spring leave a rounding error in the same way. The velocity of a free ball is computed only at an impact, so that it
+    has a rounding error only there.
     """
     covariance, began = errors.independent, flight[BEFORE:]
     speed = q.drive / max(1.0, q.omega)
@@ -274,7 +278,7 @@ class Certificate(Representation):
     chatters : int
         Number of completed chatters (infinite sequences of impacts).
     neglected : float
-        Bound on the neglected change of the state due to completing the chatters.
+        Bound on the change of the state that is neglected when chatters are completed.
     wall_residual : float
         Largest ||W| - 1| at an impact, before the ball was moved onto the wall.
     nearest_miss : float
@@ -282,11 +286,11 @@ class Certificate(Representation):
     shallowest_hit : float
         Smallest depth beyond a wall that a ball would have reached if it had not hit the wall.
     clearance : float
-        Smallest ratio of a margin to the estimated error at the time of the margin. A margin is a distance from another
-        event sequence: nearest miss, shallowest hit, contact forces of sticking and released balls, and distances of
-        events from the start and the end of the run.
+        Smallest ratio of a margin to the estimated error of the state at the same time. A margin is the error of the
+        state that would change the sequence of events. Margins are computed for near misses, impacts, contact forces of
+        sticking and released balls, and events near the start or the end of the run.
     undecided : int
-        Number of turns and impacts where rounding decides whether the ball hits the wall.
+        Number of times at which rounding decides whether an event happens, such as whether a ball hits a wall.
     error : float
         Estimated error of the final state (root mean square), from a unit rounding error after every event, propagated
         by the variational flow; inf if the run ends beyond `horizon`.

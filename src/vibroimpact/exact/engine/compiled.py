@@ -1,22 +1,24 @@
 """Decorators that compile the inner loops with Numba, cache them on disk and release the interpreter lock.
 
-Rounding: functions that compute a step of a run round every operation as written, so that a formula gives the same bits
-for floats and for the lanes of an ensemble (`vectors`). In functions decorated by `compiled`, and in `inlined_source`
-functions within them, the compiler may fuse a product and a sum, which are then rounded only once.
+Rounding: functions that compute a step of a run round every operation as written. The same formula then gives the same
+bits for floats and for the lanes of an ensemble (`vectors`). There is one exception: in functions decorated by
+`compiled`, and in `inlined_source` functions that they call, the compiler may fuse a product and a sum into one
+operation with a single rounding.
 
-Inlining: functions that run at every event become part of the loop, because passing a motion and its Taylor polynomials
-(about 30 numbers) would cost more than the computation. Most functions with a single caller are inlined as source
-(`inlined_source`), which avoids compiling them twice. The others are compiled once and then inlined.
+Inlining: functions that run at every event are inlined into the loop. Otherwise passing a motion and its Taylor
+polynomials (about 30 numbers) would cost more than the computation. Most functions with a single caller are inlined as
+source (`inlined_source`), so that they are not compiled twice. The other functions are compiled once and then inlined.
 
-References: only `compiled` functions, and `inlined_source` functions in them, create or return arrays. All others work
-in arrays of their caller without reference counting, which would cost an atomic operation and a call per reference.
+Reference counting: only `compiled` functions, and `inlined_source` functions that they call, create or return arrays.
+All other functions write to arrays of their caller without reference counting, which would cost an atomic operation and
+a call per reference.
 
-Each decorator sets fastmath, inlining and reference counting explicitly, because Numba takes missing options from
-whichever caller is compiled first.
+Each decorator sets fastmath, inlining and reference counting explicitly, because Numba takes a missing option from the
+caller that is compiled first.
 
-The cache key covers the content of all sources that may be compiled into a function. Numba itself checks only the file
-of the function, not the files of the functions it calls. If NUMBA_CACHE_DIR is set, there is no such key, and the user
-must clear the cache after a change of the sources.
+The cache key depends on all source files that may be compiled into a function. Numba itself checks only the file of the
+function, not the files of the functions that it calls. If NUMBA_CACHE_DIR is set, only Numba's check is done, and the
+user must clear the cache after a change of the sources.
 """
 
 import hashlib

@@ -2,10 +2,10 @@
 
 The impact law is defined in `vibroimpact.system.restitution`, which lists its other implementations.
 
-Each event is a row of a table: [time since the start, module, wall, kind, state after the event, forcing phase at the
-time of recording, approach (see `record`), sine and cosine of the phase]. The stick that completes a chatter is
-recorded at the last simulated impact of the chatter. The counters of the run (`Log.counters`) contain further data for
-its certificate.
+Each event is a row of a table: [time since the start, module, wall, kind, state after the event, forcing phase,
+approach (see `record`), sine and cosine of the phase]. The phase is that of the instant at which the row is written.
+This instant is the time of the event, with one exception: the row of the stick that completes a chatter is written at
+the last simulated impact of the chatter. `Log.counters` contains further data for the certificate of the run.
 """
 
 from typing import NamedTuple
@@ -85,7 +85,7 @@ def drift_balls(balls, walls, boxes, t):
 def free_flight(flow, motion, t):
     """Return the motion a time t later, if no event happens in between.
 
-    `touching` is then (0, 0), since only sticking balls still touch a wall.
+    In the result, `touching` is (0, 0), since only sticking balls touch a wall after a flight.
     """
     boxes, sine, cosine = advance(flow, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine, t)
     return Motion(boxes, drift_balls(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
@@ -163,10 +163,10 @@ def box_accelerations(q, walls, boxes, sine):
 def _contact_push(q, jets, boxes, i, wall, sticking):
     """Return a number > 0 if the wall pushes ball i, at rest on it, and < 0 if the wall would have to pull the ball.
 
-    The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. The first
-    derivative is also returned if the wall would have to pull a sticking ball only briefly, and the ball would rise by
-    no more than rounding. Without the pull the ball would rise by 2 |force|^3 / (3 change^2), where `change` is the
-    first derivative.
+    The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. There is one
+    exception: a negative force on a sticking ball may increase so fast that the ball, if released, would rise by no
+    more than rounding. In this case the first derivative of the force, `change`, is returned. The ball would rise by
+    2 |force|^3 / (3 change^2).
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -256,10 +256,10 @@ def resolve(flow, motion, elapsed, remaining, due, log):
 
 @inlined_source
 def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
-    """Apply the impact of ball i, which flies, if the ball has reached a wall; return (motion, soon).
+    """Apply the impact of the flying ball i if the ball has reached a wall; return (motion, soon).
 
-    due: True if the impact is due now. soon: True if a chatter that begins with this impact would end within half the
-    remaining time and within half the time that one proof covers.
+    due: True if the impact is due now. soon: True if a chatter that begins with this impact would end within half of
+    `remaining` and within half of LOOKAHEAD * flow.unit, the longest time for which one proof excludes events.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
@@ -292,8 +292,9 @@ def _stick_or_release(q, motion, i, pulled, elapsed, log):
     pulled: True if the release of the sticking ball i is due now.
     """
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
-    # Use the acceleration of box and ball together for a free ball, too. The box alone accelerates 1 + epsilon times as
-    # much; if the force is zero within rounding, using both values would make the ball stick and be released endlessly.
+    # Even for a free ball, use the acceleration that the box would have with the ball stuck to it. The box alone
+    # accelerates 1 + epsilon times as much. If free and stuck balls were checked with different accelerations, a ball
+    # whose contact force is zero within rounding could stick and be released endlessly.
     together = mode_of(pair(motion.walls, i, 1))
     jets = jet(q, together, boxes, motion.sine, motion.cosine)
     if wall != 0:

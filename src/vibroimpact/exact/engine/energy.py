@@ -1,13 +1,13 @@
 """Energy balance of a run: work of the forces, dissipation in dampers and impacts, stored energy.
 
 Work and dissipation are integrals of quadratic forms along the flights. Each term is computed independently, so that
-the balance tests all terms. The stick that ends a chatter dissipates the remaining energy of the relative motion, which
-the omitted impacts would dissipate.
+the balance tests all terms. The stick that completes a chatter dissipates the remaining energy of the relative motion,
+in place of the impacts of the chatter that are not simulated.
 
 In flight, z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. With damping, a quadratic form z G z is the rate of change
 of a potential z S z + c t, where A^T S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation). The integral is then the
-difference of the potential between the ends of a flight. With very little damping, S is so large that this difference
-loses its digits. In that case Gauss's rule integrates along the Taylor polynomials.
+difference of the potential between the ends of a flight. With very little damping, S is so large that rounding makes
+this difference inaccurate. In that case Gauss's rule integrates along the Taylor polynomials.
 """
 
 import math

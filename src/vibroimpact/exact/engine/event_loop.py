@@ -7,8 +7,8 @@ the nearest time of the flow table. If no event is certain, the flight continues
 that no event is missed. Events (contact.resolve):
 
 impact    a ball meets a wall with outward relative velocity: Newton's restitution rule, momentum conserved;
-stick     the end of a chatter, infinitely many impacts in a finite time. A chatter is completed at once when this
-          changes the state by less than rounding; from then on box and ball move as one body of mass 1 + epsilon;
+stick     the end of a chatter, infinitely many impacts in a finite time. A chatter is completed at once if completing
+          it neglects less than rounding. Box and ball then move as one body of mass 1 + epsilon until the release;
 release   the contact force of a sticking ball falls to zero, or an impact in the other module makes the force negative.
 
 Time is represented by the forcing phase, which is reduced to one turn without loss (flow.reduced), so that long
@@ -42,10 +42,10 @@ STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 
 @inlined_source
 def fly(flow, motion, remaining, most_proofs, counters):
-    """Fly to the next event or to the end of the run or of the flow table; return (time, module, boxes, balls).
+    """Fly to the next event, or to the end of the run or of the flow table; return (time, module, boxes, balls).
 
-    module: index of the module in which an event is due, or -1. In its place, STUCK_IN_TIME is returned if time does
-    not advance, and OUT_OF_PROOFS if the run needs more than `most_proofs` proofs that no event happens.
+    module: index of the module in which an event is due; -1 if no event is due; STUCK_IN_TIME if the time does not
+    advance; OUT_OF_PROOFS if the run needs more than `most_proofs` proofs that no event happens.
     """
     q = flow.coefficients
     mode = mode_of(motion.walls)
@@ -80,9 +80,10 @@ def fly(flow, motion, remaining, most_proofs, counters):
 
 @inlined_source
 def _first_event(q, motion, jets, bound, horizon, short):
-    """Return (module, time, width, safe, doubt) for the first event, at time +- width; before `safe` no event happens.
+    """Return (module, time, width, safe, doubt) for the first event of the two modules.
 
-    The module is -1 if no event is certainly the first. doubt: `undecided` from `module_time` for the first event.
+    The event happens in `module` at `time` +- `width`. No event happens in either module before `safe`. The module is
+    -1 if no event is certainly the first. doubt: `undecided` from `module_time` for the first event.
     """
     # check first the module whose ball would be first at the wall ahead of it, at constant relative velocity
     (x1, x2, v1, v2), (y1, y2, u1, u2) = motion.boxes, motion.balls
@@ -91,7 +92,7 @@ def _first_event(q, motion, jets, bound, horizon, short):
     two = 1 - one
     t1, w1, doubt1 = module_time(q, motion, one, jets, bound, horizon, short)
     w, s1 = _bounds(t1, w1, short)
-    # check the other module for a little longer, so that none of its events precedes the first event unnoticed
+    # check module `two` until slightly after t1, so that none of its events before t1 is missed
     t2, w2, doubt2 = module_time(q, motion, two, jets, bound, min(t1 + w + short, horizon), short)
     v, s2 = _bounds(t2, w2, short)
     if w1 < math.inf and t1 + w <= s2:
@@ -174,14 +175,15 @@ class Progress(NamedTuple):
 def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """Continue a run to its end or to a pause; return the status.
 
-    numbers, series, rotations: from `flow.tables_of`. times (n,): ascending sample times on the clock of the run.
-    samples (n, 8): filled with the states at these times, at the time of an event with the state after the event. run,
-    rows, counters: as from `memory`; updated, so that run[:8] is the state reached.
+    numbers, series, rotations: from `flow.tables_of`. run, rows, counters: from `memory`; they are updated, and run[:8]
+    is the state reached. times (n,): ascending sample times, on the clock of run[CLOCK]. samples (n, 8): filled with
+    the states at these times; a sample at the time of an event is the state after the event.
 
-    The status is PAUSED if the rows may be too few for the events of the next instant, or after INTERRUPT_INTERVAL
-    exclusions, so that the interpreter can handle an interrupt. To continue, call the function again. If the rows were
-    too few, first replace them by new rows and add the number of their events to run[EARLIER_EVENTS]. Only a number is
-    returned, because an interrupt during the conversion of a tuple would leave the tuple incomplete.
+    The status is PAUSED if `rows` may be too short for the events of the next instant. It is also PAUSED after
+    INTERRUPT_INTERVAL exclusions, so that the interpreter can handle an interrupt. To continue, call the function
+    again. If `rows` was too short, first replace it by new rows, add the number of its events to run[EARLIER_EVENTS],
+    and set counters[EVENTS] to 0. Only a number is returned, because an interrupt during the conversion of a tuple
+    would leave the tuple incomplete.
     """
     boxes, balls = (run[0], run[2], run[4], run[6]), (run[1], run[3], run[5], run[7])
     motion = Motion(boxes, balls, (int(run[8]), int(run[9])), (int(run[10]), int(run[11])), 0.0, 1.0)
@@ -200,8 +202,8 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
 def memory(state, phase, tail, cycles, clock):
     """Return new arrays for a run over `cycles` cycles: (array of the run, rows of events, counters).
 
-    state (8,): initial state in public order. phase, tail: forcing phase in [0, 2 pi) and its remainder. clock: time on
-    the clock of the samples at the start.
+    state (8,): initial state in public order. phase, tail: initial forcing phase in [0, 2 pi) and its rounding
+    remainder. clock: time at the start of the run, on the same clock as the sample times.
     """
     run, room = np.zeros(RUN_LENGTH), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     run[:8], run[12:15], run[SPAN:] = state, (-1.0, phase, tail), (phase, tail, cycles, clock)
@@ -212,11 +214,11 @@ def memory(state, phase, tail, cycles, clock):
 def run_until(flow, progress, span, sampling, log, earlier, interval):
     """Continue a run to its end or to a pause; return (progress, status).
 
-    The run pauses if `log.rows` may be too few for the next instant, or after more than `interval` exclusions.
+    The run pauses if `log.rows` may be too short for the next instant, or after more than `interval` exclusions.
 
-    span: forcing phase at the start of the run with its rounding remainder, and number of forcing cycles. sampling:
-    time on the clock of the samples at the start of the run, ascending sample times (n,) on this clock, and array
-    (n, 8) for the sampled states. earlier: number of events in earlier rows.
+    span: (forcing phase at the start of the run, its rounding remainder, number of forcing cycles). sampling: (time at
+    the start of the run, ascending sample times (n,) on the same clock, array (n, 8) to which the sampled states are
+    written). earlier: number of events that were written to earlier arrays of rows.
     """
     q = flow.coefficients
     (first, first_tail, cycles), (start, sample_times, samples) = span, sampling

@@ -17,7 +17,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import inlined, inlined_source
 from vibroimpact.exact.engine.flow import half_curvature, jet, mode_of, slope, value
 
-SHORTEST_TIME = 1e-300  # shortest time that is tried
+SHORTEST_TIME = 1e-300  # `safe_time` returns 0 if not even this time is proved
 
 
 @inlined
@@ -81,11 +81,14 @@ CONVERGING = 1e-8  # after a Newton step shorter than this, the error is below r
 
 @inlined
 def crossing(c, remainder, margin, horizon, short):
-    """Return (certain, time, width): True if a decreasing constraint certainly reaches zero, at `time` +- `width`.
+    """Return (certain, time, width) for the first zero of a decreasing constraint.
+
+    There are three results. The constraint certainly reaches zero at `time` +- `width`: `certain` is True, and a time
+    no longer than `short` is exact to rounding. It certainly does not reach zero up to the horizon: `certain` is True,
+    `time` is the horizon and `width` is inf. Neither is proved: `certain` is False.
 
     c: Taylor polynomial (8,) of the constraint, c1 < 0; remainder: bound on |seventh derivative| / 5040; margin:
-    rounding error of c0. If `certain` is True and `width` is inf, the constraint does not reach zero before `time`,
-    which is the horizon. A time no longer than `short` is exact to rounding.
+    rounding error of c0.
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)
@@ -139,7 +142,7 @@ def return_time(c, remainder, horizon):
 
 @inlined
 def spread(c, remainder, t):
-    """Return a bound on the mean rate of change over [0, t] of half the second derivative of a constraint."""
+    """Return a bound on |h(t) - h(0)| / t, where h is half the second derivative of a constraint."""
     high = 15.0 * abs(c[6]) + t * 21.0 * remainder
     return 3.0 * abs(c[3]) + t * (6.0 * abs(c[4]) + t * (10.0 * abs(c[5]) + t * high))
 
@@ -228,10 +231,10 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
 
 @inlined
 def _safe_time(c, bound, margin, horizon):
-    """Return (time over which a constraint certainly holds, True if an event is due at once).
+    """Return (time, due): a time over which a constraint is certainly satisfied, and True if an event is due at once.
 
-    An event is due at once if the constraint is zero within rounding and decreases. If it is zero within rounding but
-    does not decrease, it holds for the time from `_time_from_zero`.
+    An event is due at once if the constraint is zero within rounding and decreases. If the constraint is zero within
+    rounding but does not decrease, the time is that of `_time_from_zero`.
     """
     if c[0] > ZERO_FACTOR * margin:
         return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
@@ -243,10 +246,11 @@ def _safe_time(c, bound, margin, horizon):
 
 @inlined
 def _time_from_zero(c, bound, margin, horizon, rises):
-    """Return a time over which a constraint that is initially zero within rounding certainly holds.
+    """Return a time over which a constraint that is initially zero within rounding is certainly satisfied.
 
-    If the constraint rises, its polynomial is divided by t to remove the zero at the start. If it does not rise, or if
-    only the remainder bound makes the proved time short, the constraint may fall to -margin within the returned time.
+    If the constraint rises, its polynomial is divided by t to remove the zero at the start. In two cases, the
+    constraint is only proved to stay above -margin over the returned time: if the constraint does not rise, or if the
+    time from the divided polynomial is short only because of the remainder bound.
     """
     time = 0.0
     if rises:
@@ -258,10 +262,10 @@ def _time_from_zero(c, bound, margin, horizon, rises):
 
 @inlined_source
 def _hop_time(c, bound, margin, horizon, short):
-    """Return (time, True if the ball is back at the wall that it touches now) for a hop from this wall.
+    """Return (time, back) for a hop of a ball from the wall that it touches now.
 
-    c[1] >= 0 is the relative velocity away from the wall. If the hop ends within `short`, the time is its end.
-    Otherwise the hop certainly does not end before the time.
+    If the hop ends within `short`, `time` is the end of the hop and `back` is True. Otherwise the hop certainly does
+    not end before `time`, and `back` is False. c[1] >= 0 is the initial relative velocity away from the wall.
     """
     if c[1] == 0.0:
         rise = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
@@ -274,13 +278,15 @@ def _hop_time(c, bound, margin, horizon, short):
 
 @inlined
 def module_time(q, motion, i, jets, bound, horizon, short):
-    """Return (time, width, undecided): a time without events in module i, or the time of its next event.
+    """Return (time, width, undecided) for the next event in module i.
 
-    If `width` is inf, the module has no event before `time`. If not, its next event is certainly at `time` +- `width`.
-    A width of 0 means that the time is exact to rounding. The time is slightly negative if the event was just passed.
-    undecided: True if rounding decides whether the constraint reaches zero (tangential contact). jets: Taylor
-    polynomials of both boxes; bound: `remainder` up to the horizon; short: longest time over which a jet is exact to
-    rounding.
+    If `width` is finite, the next event is certainly at `time` +- `width`; a width of 0 means that the time is exact to
+    rounding. If `width` is inf, the module certainly has no event before `time`. `time` is slightly negative if the
+    event has just been passed. `undecided` is True if rounding decides whether the constraint reaches zero (tangential
+    contact).
+
+    jets: Taylor polynomials of both boxes; bound: `remainder` up to the horizon; short: longest time over which a jet
+    is exact to rounding.
     """
     if motion.walls[i] != 0:
         return _sticking_time(q, motion, i, jets, horizon, short)
@@ -298,7 +304,7 @@ def module_time(q, motion, i, jets, bound, horizon, short):
 def _sticking_time(q, motion, i, jets, horizon, short):
     """Return the result of `module_time` for a sticking ball; the constraint is that the wall pushes the ball."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
-    # the second term, rounding of the force that can develop up to the horizon, matters if the box is still at rest
+    # the second term bounds the rounding error of the growing force up to the horizon; needed if the box is at rest now
     margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + ZERO_FORCE_MARGIN
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)

@@ -36,10 +36,10 @@ _GUARD_BITS = 192
 class Coefficients(NamedTuple):
     """Scalars of (10.2) used by the compiled loops.
 
-    ground: stiffness between box 2 and the ground (1 for box 1). drive: |(f1, f2)|. growth: amplitude of the sixth
-    derivative of the force, drive omega^6. shift: bound on the displacement of a box, initially at rest, due to the
-    force within a period. mass: mass of box and ball together. impulse, impulse_rest: (1 + kappa) / (1 + epsilon), as
-    the nearest float and the remainder.
+    ground: stiffness of the spring between box 2 and the ground (that of box 1 is 1). drive: amplitude of the force
+    vector, |(f1, f2)|. growth: amplitude of its sixth derivative, drive omega^6. shift: bound on the displacement that
+    the force causes in a period, for a box initially at rest. mass: mass of box and ball together. impulse,
+    impulse_rest: (1 + kappa) / (1 + epsilon), as the nearest float and the remainder.
     """
 
     k11: float
@@ -66,9 +66,10 @@ class Coefficients(NamedTuple):
 class Flow(NamedTuple):
     """Coefficients and flow tables of one system.
 
-    series (4, n, 6, 16), rotations (n, 2): from `tables`. spacing, density, longest: time step of the tables, its
-    inverse, and the last time. unit: time over which the system changes little, the inverse of its fastest rate. rate:
-    bound on the rate of change of the boxes in free flight, in the energy norm.
+    series (4, n, 6, 16), rotations (n, 2): tables of the motion and of the forcing phase, from `flow_tables.tables`.
+    spacing: time step of the tables. density: 1 / spacing. longest: last time of the tables. unit: inverse of the
+    fastest rate of the system, a time over which its state changes little. rate: bound on the rate of change of the
+    boxes in free flight, in the energy norm.
     """
 
     coefficients: Coefficients
@@ -96,8 +97,8 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
 
     `count` is the number of times in the tables.
 
-    The scalar `shift` bounds the displacement of a box due to the force within a period, because the square root of
-    twice the energy grows by at most the time integral of the force.
+    The scalar `shift` is a bound on the displacement of a box that the force causes in a period. It follows from a
+    bound on the energy: sqrt(2 energy) grows by at most the time integral of the force.
     """
     parameters = np.array([[getattr(system, name) for name in PARAMETERS] for system in systems])
     rates, impulses, fastest = exact_rates(parameters)
@@ -304,9 +305,9 @@ def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
 
 
 def _digits(value):
-    """Return how many bits of 2 pi are needed for _GUARD_BITS accurate bits in value x 2 pi.
+    """Return the number of bits of 2 pi after the binary point that are needed to compute value x 2 pi.
 
-    Both numbers count the bits after the binary point.
+    The product is then accurate to _GUARD_BITS bits after the binary point.
     """
     return _GUARD_BITS + math.ceil(abs(value)).bit_length()
 
@@ -345,7 +346,7 @@ def sine_and_cosine(phase, tail):
 
 @inlined
 def sine_and_cosine_near(x, y):
-    """Return sine and cosine of the angle x + y, |x| up to an eighth of a turn, where y is the remainder of x."""
+    """Return sine and cosine of x + y, where |x| is at most an eighth of a turn and y is the rounding error of x."""
     z = x * x
     half = 0.5 * z
     one = 1.0 - half
