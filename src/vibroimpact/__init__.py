@@ -3,7 +3,7 @@
 - `System`, `PhysicalSystem`: the parameters, dimensionless or in SI units.
 - `fixed_points`: the motions that the chapter's theory predicts.
 - `orbits`, `prove`: exact periodic motions with Floquet multipliers; proof of such a motion in interval arithmetic.
-- `periodic_orbit`: a periodic motion of any period and any impacts, refined from a state near it.
+- `periodic_orbit`: a periodic motion of any period with any sequence of impacts, refined from a nearby state.
 - `simulate`, `simulate_many`, `ensemble`: one exact run; many exact runs; summary statistics of many runs.
 - `largest_lyapunov`, `lyapunov_spectrum`: Lyapunov exponents with error estimates.
 - `attractors`, `basins`: the attractors of a system; their basins on a plane of initial states.
@@ -13,8 +13,8 @@
 - `design`: choice of the ball for a machine.
 - `to_frame`, `to_dataset`: results as tables.
 
-Verdicts on stability have the same names everywhere: `fast` (stability of the impacts), `slow` (of the amplitudes),
-`theory` (`fast` and `slow` together) and `exact` (of the exact orbit).
+Verdicts on stability have the same names everywhere: `fast` (stability of the impacts), `slow` (stability of the
+amplitudes), `theory` (`fast` and `slow` together) and `exact` (stability of the exact orbit).
 """
 
 from importlib import import_module

@@ -65,7 +65,7 @@ class Command(NamedTuple):
 
 
 def add_system_options(parser) -> None:
-    """Add an option for every parameter to a parser, and one for the forces of a case."""
+    """Add an option for every dimensionless parameter to a parser, and --case for the forces of the chapter's case."""
     group = parser.add_argument_group(
         "system", "dimensionless parameters of (10.4)-(10.6); the defaults are those of section 10.4"
     )
