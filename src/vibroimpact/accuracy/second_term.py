@@ -64,7 +64,7 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 
 
 def offsets(system, point, roots) -> np.ndarray:
-    """Subtract a fixed point from roots (..., 4) as in `near`; return differences in C and phase [rad], (..., 2, 2).
+    """Return roots (..., 4), ordered as in `near`, minus a fixed point: differences in C and phase [rad], (..., 2, 2).
 
     Entries of an inactive module are NaN.
     """

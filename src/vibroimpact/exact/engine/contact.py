@@ -72,7 +72,10 @@ def with_contacts(motion, i, wall, touching):
 
 @inlined
 def drift_balls(balls, walls, boxes, t):
-    """Return the balls a time t after the start of a flight, from `balls` at the start and `boxes` at t."""
+    """Return the positions and velocities of the balls a time t after the start of a flight.
+
+    balls: at the start of the flight. boxes: at the time t, for balls that stick to a box. walls: as in `Motion`.
+    """
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
         y1, v1 = boxes[0] - walls[0], boxes[2]
@@ -193,8 +196,8 @@ def _end_of_chatter(flow, motion, i, counters):
     """Return the time until the chatter of ball i ends, or -1 if the chatter may not be completed now.
 
     With u and a from `_hop`, each hop is shorter than the one before by the factor kappa, so that the chatter ends
-    after T = 2 u / (a (1 - kappa)). Completing the chatter at once conserves the momentum of box and ball, but neglects
-    the spring force due to the ball's distance from the wall during the hops. The neglected effect is of the order
+    after T = 2 u / (a (1 - kappa)). Completing the chatter at once conserves the momentum of box and ball. It neglects
+    that ball and wall move apart during the hops, which changes the spring forces. The neglected effect is of the order
     u^3 / a^2.
     """
     q, boxes, balls, wall = flow.coefficients, motion.boxes, motion.balls, motion.touching[i]

@@ -6,8 +6,8 @@ c (8,). This polynomial is positive on [0, T] if its coefficients in the Bernste
 Repeated steps of such lengths T converge to the first zero of g and never pass it (conservative advancement). If the
 rate of g certainly keeps its sign, there is at most one zero, which can be approached from either side.
 
-The tests use floating-point arithmetic, and callers lower c0 by a margin for the rounding errors of g. "Certain" means
-proved by these tests with that margin.
+The proofs use floating-point arithmetic, and callers lower c0 by a margin for the rounding errors of g. In this file,
+"certain" means proved in this way, with the margin.
 """
 
 import math
@@ -52,9 +52,9 @@ def positive(c, t):
 def safe_time(c, horizon):
     """Return a time in [0, horizon] up to which the polynomial c (8,) is certainly positive; 0 if not c[0] > 0.
 
-    The time is close to the first zero if this zero is simple. It is always at least half of the longest time for which
-    the Bernstein coefficients are positive. The coefficients are positive for a time t if no real or complex zero is in
-    the disc with diameter [0, t].
+    The time is close to the first zero if this zero is simple. In every case, the time is at least half of the longest
+    time for which the Bernstein coefficients are positive. These coefficients are positive for a time t if no real or
+    complex zero is in the disc with diameter [0, t].
     """
     if not c[0] > 0.0:
         return 0.0
@@ -164,9 +164,10 @@ def remainder(q, mode, jets, growth):
 
     growth: bound on the time integral of the sixth derivative of the force.
 
-    The sixth derivative of the boxes obeys the equations of the boxes under the sixth derivative of the force. The
-    square root of twice the energy in these equations bounds the velocity, which is the seventh derivative. This root
-    grows by no more than the time integral of the sixth derivative of the force, since damping only removes energy.
+    The sixth derivative of the box displacements obeys the equations of motion with the sixth derivative of the force.
+    In these equations, the velocity is the seventh derivative, and it is bounded by the square root of twice the
+    energy. This root grows by no more than the time integral of the sixth derivative of the force, since damping only
+    removes energy.
     """
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
@@ -208,7 +209,10 @@ def gap_rounding(q, boxes, balls, i):
 
 @inlined
 def gap(p, position, velocity, w):
-    """Return the Taylor polynomial (8,) of the gap between a free ball and wall w, from the jet p (8,) of the box."""
+    """Return the Taylor polynomial (8,) of the gap between a free ball and wall w, from the jet p (8,) of the box.
+
+    position, velocity: of the ball, at the origin of the jet.
+    """
     near, approach = 1.0 - w * (p[0] - position), -w * (p[1] - velocity)
     return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
 
@@ -217,8 +221,8 @@ def gap(p, position, velocity, w):
 def push(q, mode, jets, i, wall, sine, cosine, horizon):
     """Return (Taylor polynomial (8,), bound on its remainder) of the wall's force on a sticking ball, per ball mass.
 
-    Up to the sign of the wall, this force is the acceleration of the box. The accelerations obey the equations of the
-    boxes under the second derivative of the forcing.
+    Up to the sign of the wall, this force is the acceleration of the box. The accelerations of the boxes obey the
+    equations of motion with the second derivative of the forcing.
     """
     one, two = jets
     fall = -wall * q.omega * q.omega
