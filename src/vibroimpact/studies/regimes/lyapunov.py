@@ -2,12 +2,13 @@
 
 The Jacobian of every cycle, saltation matrices included (Müller 1995), propagates a frame of perturbations, which is
 orthonormalised by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990). The logarithms of the diagonal of R
-are the growth in the cycle. The initial time is not perturbed. With the time as another coordinate, the flow has one
-more exponent, 0, and the dimension of its attractor is larger by one.
+are the growth in the cycle. The initial time is not perturbed. If the time were a further coordinate of the state,
+there would be one more exponent, 0, and the dimension of the attractor would be larger by one.
 
-If a ball sticks, two directions are lost. If both balls stick at the same time, four directions are lost. If such
-double sticks have a positive frequency, almost every point of the attractor has one in its past. Four exponents are
-then -inf, and the dimension is at most 4. `Spectrum.without_double_sticks` excludes the cycles with double sticks.
+When a ball sticks, perturbations in two directions of the state space vanish. When both balls stick at the same time
+(a double stick), perturbations in four directions vanish. If double sticks occur with a positive frequency, four
+exponents are -inf, and the dimension of the attractor is at most 4. `Spectrum.without_double_sticks` excludes the
+cycles with double sticks.
 """
 
 from dataclasses import dataclass
@@ -26,7 +27,8 @@ from vibroimpact.system.state import active_mask, inactive_at_rest
 BOTH = 2
 CYCLES_PER_RUN = 1000
 """Number of forcing cycles that are simulated in one run."""
-# All vectors except the first are random, since a regular frame may miss a direction.
+# Initial perturbations. All vectors except the first are random, since vectors with a regular pattern may have no
+# component in the direction of an exponent.
 _VECTORS = np.column_stack([np.ones(8), np.random.default_rng(1).normal(size=(8, 7))])
 _MOST = 10_000_000
 _RESAMPLES = 200  # number of draws of the bootstrap
@@ -35,10 +37,10 @@ _RESAMPLES = 200  # number of draws of the bootstrap
 class Exponent(NamedTuple):
     """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
-    The error is the root of the sum of squares of two errors: the standard error from block means, and ln(t1 / t0) /
-    (t1 - t0), where the blocks last from the time t0 to t1. The second error is the mean growth rate, over the blocks,
-    of a perturbation that grows linearly in time, as that of a ball at rest does. The exponent of such a perturbation
-    is 0.
+    The error is sqrt(a^2 + b^2). Here a is the standard error of the mean over blocks of cycles, and b is ln(t1 / t0) /
+    (t1 - t0), where t0 and t1 are the start and the end of the averaging in forcing periods. The exponent of a
+    perturbation that grows in proportion to time is 0, but its mean growth rate from t0 to t1 is b. Such a perturbation
+    is, for example, a small velocity of a ball that is otherwise at rest.
     """
 
     mean: float
@@ -46,7 +48,7 @@ class Exponent(NamedTuple):
 
 
 class Measured(Exponent):
-    """An exponent with its `scatter`, the standard error from block means alone."""
+    """An `Exponent` with its `scatter`, the standard error of the mean over blocks of cycles."""
 
     scatter: float
 
@@ -65,22 +67,23 @@ def largest_lyapunov(
     system : System
         Dimensionless parameters.
     state : array_like
-        Initial state at tau = 0, shape (8,); from rest a ball may stay idle forever.
+        Initial state at tau = 0, shape (8,). If a ball starts at rest, its walls may never hit it.
     cycles : int, default 2000
         Forcing periods to average over, a multiple of `blocks`.
     settle : int, default 1000
         Forcing periods of the transient. Increase it for slow transients. If there are several attractors, the
         initial state selects one (`basins`).
     blocks : int, default 20
-        Number of blocks into which `cycles` are divided, at least 2; their scatter gives the error.
+        Number of blocks into which `cycles` are divided, at least 2.
     discarded : int, default 10
-        Number of blocks to discard before `cycles`, in which the perturbation turns to the direction of largest growth.
+        Number of blocks between `settle` and `cycles` that are discarded. During these blocks the perturbation turns to
+        the direction of largest growth.
 
     Returns
     -------
     Measured
-        .mean, .error and .scatter. The error includes the mean growth rate, over `cycles`, of a perturbation that grows
-        linearly in time, as that of a ball at rest does, although the exponent of such a perturbation is 0.
+        .mean, the exponent; .scatter, its standard error over the blocks; .error, which also allows for perturbations
+        that grow in proportion to time (see `Exponent`).
 
     Raises
     ------
@@ -106,7 +109,7 @@ def largest_lyapunov(
     block, state = cycles // blocks, _settled(system, state, settle)
     factors = np.array([grown.factors for grown in _frame_growth(system, state, [block] * (discarded + blocks), 1)])
     if not factors.all():
-        raise ArithmeticError("the perturbation of the motion vanishes, so that it has no finite Lyapunov exponent")
+        raise ArithmeticError("the motion has no finite Lyapunov exponent, since its perturbation vanishes")
     rates = np.log(factors[discarded:]).mean(axis=(1, 2))
     mean, scatter = rates.mean(), rates.std(ddof=1) / np.sqrt(blocks)
     first, last = max(discarded * block, 1), discarded * block + cycles
@@ -124,8 +127,8 @@ class Spectrum:
     ----------
     growth : ndarray
         Logarithm of the growth in eight directions in each of n cycles, (n, 8), or (n, 4) if one module is active. If a
-        ball sticks in a cycle, its motion afterwards does not depend on how it came to its wall: two values of the
-        cycle are -inf, or four if both balls stick at the same time.
+        ball sticks in a cycle, perturbations of the ball before the stick do not affect the later motion. Two values of
+        this cycle are then -inf, or four if both balls stick at the same time.
     contraction : ndarray
         Logarithm of the contraction of volume in each cycle, in closed form, (n,); equal to the sum of `growth` over
         the directions.
@@ -145,8 +148,9 @@ class Spectrum:
     def without_double_sticks(self) -> "Spectrum":
         """Return the spectrum over the cycles in which the balls do not stick at the same time.
 
-        After each excluded cycle, four directions of the frame of perturbations start again and align within about ten
-        cycles. These ten cycles are included; excluding them, too, would change the result little.
+        After each excluded cycle, four vectors of the frame of perturbations start in arbitrary directions and need
+        about ten cycles to align with the directions of their exponents. These ten cycles are included, since excluding
+        them would change the result little.
         """
         others = self.stuck < BOTH
         return Spectrum(_largest_first(self.growth[others]), self.contraction[others], self.stuck[others])
@@ -158,14 +162,14 @@ class Spectrum:
 
     @property
     def dimension(self) -> float:
-        """Kaplan-Yorke dimension of the attractor in the section at whole cycles, see `kaplan_yorke`."""
+        """Kaplan-Yorke dimension of the attractor of the map from one forcing cycle to the next, see `kaplan_yorke`."""
         return kaplan_yorke(self.exponents)
 
     def errors(self, block: int) -> tuple[np.ndarray, float]:
         """Return the standard errors of the exponents (nan for an exponent of -inf) and of the dimension.
 
-        The circular block bootstrap (Politis and Romano 1992) resamples the n cycles in n / block stretches of `block`
-        cycles, which preserve the correlation of successive cycles.
+        The spectrum has n cycles. The circular block bootstrap (Politis and Romano 1992) draws n / block stretches of
+        `block` successive cycles. The stretches preserve the correlation of successive cycles.
 
         Parameters
         ----------
@@ -192,10 +196,13 @@ class Spectrum:
 def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000, discarded: int = 100) -> Spectrum:
     """Return all Lyapunov exponents of the motion reached from an initial state, in nats per period.
 
-    The exponents are those of the map from one forcing period to the next; the exponent 0 of a shift in time is not
-    included. If a ball sticks, two directions are lost, whose exponents are -inf. A perturbation that grows linearly in
-    time t, as that of a ball at rest does, has the exponent 0, but its computed exponent is about ln(t) / t. The errors
-    do not include this difference.
+    The exponents are those of the map from one forcing period to the next. Therefore the exponent 0 of a perturbation
+    along the flow is not included. If a ball sticks, two exponents are -inf, or four if both balls stick at the same
+    time.
+
+    A perturbation that grows in proportion to the time t has the exponent 0, but its computed exponent is about
+    ln(t) / t. An example is a small velocity of a ball that is otherwise at rest. The computed errors of the exponents
+    do not include the deviation ln(t) / t.
 
     Parameters
     ----------
@@ -204,7 +211,8 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     state, cycles, settle
         As for `largest_lyapunov`.
     discarded : int, default 100
-        Forcing periods to discard before `cycles`, in which each perturbation turns to the direction of its exponent.
+        Forcing periods between `settle` and `cycles` that are discarded. During these periods each perturbation turns
+        to the direction of its exponent.
 
     Returns
     -------
@@ -232,7 +240,7 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
         rates = np.log(factors)
-    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # computed factors are not 0 but of rounding size
+    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # these factors are 0 except for rounding
     return Spectrum(_largest_first(rates), contraction(system, impacts, stuck), stuck)
 
 
@@ -245,10 +253,11 @@ def contraction(system, impacts, stuck) -> np.ndarray:
 
     impacts, stuck: number of impacts, and largest number of balls that stick at the same time, in each cycle.
 
-    A flight of time t contracts volume by exp(-tr(D) t), with the damping matrix D of the active modules. An impact
-    contracts volume by kappa^2: if the coordinates of its module are W, W' and the motion of the centre of mass, the
-    saltation matrix is triangular, with -kappa for W and -kappa for W'. In a cycle in which a ball sticks, no volume is
-    left, and the result is -inf.
+    In a flight of time t, the volume shrinks by the factor exp(-tr(D) t), with the damping matrix D of the active
+    modules. In an impact, the volume shrinks by the factor kappa^2. To see this, describe the module by W, W' and the
+    position and velocity of its centre of mass. The saltation matrix is then triangular; its diagonal is -kappa for W
+    and W', and 1 for the centre of mass. In a cycle in which a ball sticks, the volume shrinks to 0, so that the result
+    is -inf.
     """
     damping = np.diag(damping_matrix(system))[active_mask(system)[[0, 2]]].sum()
     volume = 2 * np.asarray(impacts) * np.log(system.kappa) - damping * system.period

@@ -31,9 +31,9 @@ def predicted(path, values) -> np.ndarray:
 
 
 def observed(values, p, names) -> np.ndarray:
-    """Return True for each of `values`, (n,), at which an initial state ends in a modulated or chaotic response.
+    """Return True for each of `values`, (n,), at which any initial state ends in a modulated or chaotic response.
 
-    p, names: for each initial state, the value at which it was simulated, and the regime in which it ends.
+    p: value of the parameter of the path in the run from each initial state. names: regime at the end of each run.
     """
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
@@ -49,18 +49,19 @@ def longest_range(values, flags) -> tuple[float, float]:
 
 
 def onsets(path, values, p, names) -> list[tuple]:
-    """Return the range of modulated responses along a path, by slow flow and by simulation, and the agreement of both.
+    """Return, by the slow flow and by simulation, the range of values of a path at which the response is modulated.
 
     Parameters
     ----------
     path, values
         As for `predicted`; the values are evenly spaced.
     p, names
-        For each initial state, the value at which it was simulated, and the regime in which it ends.
+        As for `observed`.
 
-    Returns two rows, one for each source, with COLUMNS: names of the parameters of the path, source, both ends of the
-    longest range, spacing of the values, and the share of the values at which both sources agree. The list is empty if
-    parameters other than forces vary along the path.
+    Returns one row for SLOW_FLOW and one for SIMULATION, with the columns COLUMNS. A row contains the names of the
+    parameters of the path, the source, and the first and last value of the longest range with modulated responses. Then
+    follow the spacing of the values, and the share of the values at which slow flow and simulation agree. The list is
+    empty if parameters other than forces vary along the path.
     """
     if not set(path.names) <= FORCES:
         return []

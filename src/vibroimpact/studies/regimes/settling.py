@@ -29,16 +29,16 @@ MOST_WITNESSES = 5
 
 @dataclass(frozen=True)
 class Observation:
-    """Settings of an observation: lengths of runs and tolerance.
+    """Settings of the search for the regime of a motion: lengths of runs and a tolerance.
 
     Parameters
     ----------
     cycles, rounds : int
         Each initial state runs for up to `rounds` times `cycles` forcing periods, until the motion repeats.
     window : int
-        Forcing periods in which a repetition is searched, see `classify_after`.
+        Number of forcing periods that are searched for a repetition of the motion, see `classify_after`.
     nearness : float
-        Largest difference of displacements in a repetition, see `classify_after`.
+        Largest difference between the displacements of a motion and of its repetition, see `classify_after`.
     blocks, block : int
         Number of blocks and forcing periods per block for the Lyapunov exponent of a motion that does not repeat.
     retest : int
@@ -74,11 +74,13 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     Motions that cannot be classified after the last round (see `Observation`) are continued for `retest` more cycles
     and classified again.
 
-    Motions that do not repeat are tested regime by regime. One of the motions in a regime, the witness, runs for
-    `retest` more cycles. If any initial state ends in a periodic motion, there are up to MOST_WITNESSES witnesses,
-    since the regime may then be a chaotic transient towards that motion. If all witnesses stay in the regime (all kinds
-    of chaos count as one), the other motions of the regime get the name of the last witness. If not, the other motions
-    also run for `retest` more cycles, and all motions that are still in the regime are named unsettled.
+    The regimes of motions that do not repeat are then tested one after another. To test a regime, one of its motions,
+    the witness, runs for `retest` more cycles. There are up to MOST_WITNESSES witnesses if any initial state ends in a
+    periodic motion, since the motions of the regime may then be chaotic transients towards the periodic motion.
+
+    If all witnesses stay in the regime, the other motions of the regime are named as the last witness after its run.
+    In this test all kinds of chaos count as one regime. If any witness leaves the regime, the other motions also run
+    for `retest` more cycles. All motions that do not leave the regime are then named unsettled.
 
     Parameters
     ----------
@@ -92,7 +94,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        # Motions that the test of one kind of chaos renamed to another kind are not tested again.
+        # A motion whose test changes its regime to another kind of chaos is not tested again as the other kind.
         now = first if name in CHAOS else regimes
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:

@@ -39,11 +39,12 @@ def spectra_of(system, states, cycles: int, block: int) -> list[MotionSpectrum]:
 
 
 def rows(key: dict, found) -> list[dict]:
-    """Return the rows of the table for motions of one regime.
+    """Return the rows of the table for motions of one regime, one row per quantity.
 
-    Each row has the mean of a quantity over the motions, the standard error of this mean, and the mean of the bootstrap
-    errors of single motions. The sum of the exponents and the contraction are means over the cycles in which no ball
-    sticks. The rate of double sticks is that of all motions together.
+    A row contains the mean of the quantity over the motions, the standard error of this mean, and the mean of the
+    bootstrap errors of the motions. For each motion, the sum of the exponents and the contraction are means over the
+    cycles in which no ball sticks. The rate of double sticks is the number of double sticks in all motions, divided by
+    the number of cycles of all motions.
 
     key: columns that all rows share. found: the MotionSpectrum of each motion.
     """
@@ -58,10 +59,9 @@ def rows(key: dict, found) -> list[dict]:
 
 
 def _rate(count, others):
-    """Return the rate per OF_CYCLES cycles of an event that occurs in `count` cycles but not in `others`.
+    """Return the rate per OF_CYCLES cycles of an event; `count` cycles have the event, and `others` cycles do not.
 
-    The standard error of the rate assumes Poisson statistics. If the event does not occur, the standard error is that
-    for a single event.
+    The standard error of the rate assumes Poisson statistics. For count = 0, the standard error is that for count = 1.
     """
     scale = OF_CYCLES / (count + others)
     return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}
