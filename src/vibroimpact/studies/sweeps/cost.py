@@ -1,4 +1,4 @@
-"""Predict the cost of a sweep and its number of tiles."""
+"""Predict the computing time of a sweep, and the number of jobs (tiles) into which to divide the sweep."""
 
 import math
 from collections.abc import Mapping

@@ -16,7 +16,11 @@ SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
 
 @dataclass(frozen=True)
 class Axis:
-    """Parameters of System that vary together; each of `values` is one number for all, or a tuple with one for each."""
+    """Axis of a sweep, along which one or more parameters of System vary together.
+
+    along: names of the parameters. values: for each point, one number that all these parameters get, or a tuple with
+    one number per parameter.
+    """
 
     along: tuple[str, ...]
     values: tuple[float | tuple[float, ...], ...]
@@ -33,15 +37,24 @@ def axis(
 ) -> Axis:
     """Return the axis of one parameter, or of several that vary together.
 
-    An axis has `values` points of a range, ends included, or the midpoints of `cells` equal cells of the range, or the
-    points in `listed`. With `tuples`, each point has one value per parameter.
+    Give the points by `range` and `values`, by `range` and `cells`, by `listed`, or by `tuples`.
 
     Parameters
     ----------
     along : sequence of str
-        Names of parameters of System.
+        Names of the parameters of System.
+    range : (float, float), optional
+        Lower and upper end.
+    values : int, optional
+        Number of points from the lower to the upper end, both included.
     scale : str, default LINEAR
-        Spacing of `values` points, a key of SPACED.
+        Spacing of the `values` points, a key of SPACED.
+    listed : sequence of float, optional
+        One number per point; all parameters get this number.
+    cells : int, optional
+        Number of equal cells of the range; the points are the midpoints of the cells.
+    tuples : sequence of sequences of float, optional
+        For each point, one number per parameter.
     """
     if tuples is not None:
         return Axis(tuple(along), tuple(tuple(map(float, values)) for values in tuples))

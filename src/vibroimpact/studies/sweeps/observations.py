@@ -1,4 +1,7 @@
-"""Compute the observations of a sweep at a point; each one is a function that returns the values of its columns."""
+"""Compute the observations of a sweep at one point of its grid.
+
+OBSERVATIONS lists the columns of each observation, and the function that returns their values.
+"""
 
 import numpy as np
 
@@ -32,7 +35,7 @@ def observed(system, spec: Spec) -> dict:
 
 
 def _regimes(system, states, spec):
-    """Return the share of the initial states from which the motion ends in each regime, and the regime from rest."""
+    """Return the share of initial states that end in each regime, and the regime in which the start at rest ends."""
     names = [regime.name for regime in settle(system, states, Observation(**spec.observation))]
     return *(names.count(name) / len(names) for name in REGIMES), names[0]
 
@@ -51,9 +54,9 @@ def _amplitudes(system, states, spec):
 
 
 def _peaks(system, states, spec):
-    """Return the highest peak along the band, over all starts (`absorbers.peaks`), and three other values.
+    """Return the highest peak (see `absorbers.peaks`) for the parameter values in `spec.band`, and three more values.
 
-    The three others are the largest root mean square of X_1 or X_2, the value of the first parameter in `spec.band` at
+    The three values are the largest root mean square of X_1 or X_2, the value of the first parameter in `spec.band` at
     the highest peak, and the number of unfinished runs.
     """
     band = Grid(system, [axis(**spec.band)])
@@ -67,9 +70,10 @@ def _peaks(system, states, spec):
 
 
 def _energy(system, states, spec):
-    """Return the energy that impacts dissipate over the work of the forces, and the number of runs without impacts.
+    """Return the ratio of the energy dissipated by impacts to the work of the forces, and the runs without impacts.
 
-    Energy and work are summed over all finished runs with impacts. Unfinished runs are not counted.
+    Energy and work are summed over all finished runs with impacts. The second value is the number of finished runs
+    without impacts.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]

@@ -1,4 +1,7 @@
-"""Settings of a sweep, also as plain data (a request); importing this module does not load the engine."""
+"""Settings of a sweep, and their conversion from plain data (a request).
+
+Importing this module does not load the simulation engine.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,9 +17,10 @@ POINT, FAILED = "point", "failed"
 class Spec:
     """Observations at every point of a sweep, and their settings.
 
-    observe: names of observations. starts, seed: `count` and `seed` of `regimes.classification.starts`. cycles, settle:
-    forcing periods of a run, and of the transient at its start, which is left out. band: arguments of `grid.axis` for
-    the parameters along which peaks are searched. observation: arguments of `regimes.settling.Observation`.
+    observe: names of the observations. starts, seed: number of initial states, and the seed from which they are drawn,
+    see `regimes.classification.starts`. cycles: forcing periods of a run. settle: forcing periods at the start of a run
+    that are not observed. band: arguments of `grid.axis`, which give the parameter values at which the observation
+    "peaks" looks for the highest peak. observation: arguments of `regimes.settling.Observation`.
     """
 
     observe: tuple[str, ...]
