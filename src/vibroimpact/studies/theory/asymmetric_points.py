@@ -1,12 +1,13 @@
 """Find all fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
 
-The balance is linear in w_i = u_i / beta_i, with coefficients that depend on the chart parameters x_i alone
-(docs/derivation.md, section 11). By Cramer's rule w_i = m_i / Delta; the numerators m_1, m_2 are n1, n2 in the code.
-Since |u_i| = 1, the conditions are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2 on the square |x_i| <= 1.
-`completeness.points` proves that no fixed point is missed.
+The unknowns are the parameters x_1, x_2 of both modules in their charts (`branch`), with |x_i| <= 1. The balance of the
+slow flow is linear in w_i = u_i / beta_i, with coefficients that depend on x_1 and x_2 alone (docs/derivation.md,
+section 11). By Cramer's rule w_i = m_i / Delta; the numerators m_1, m_2 are n1, n2 in the code. Since |u_i| = 1, the
+conditions for a fixed point are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2. For a given system, `completeness.points`
+can prove that no fixed point is missed.
 
-Points with v^2 < 0 are kept too. They are not motions at leading order, but continue the branch beyond symmetry
-breaking. A motion close to such a point exists if terms of order epsilon raise v^2 above 0.
+Fixed points with v^2 < 0 are not motions at leading order. They are kept, since they continue the asymmetric branch
+beyond its start at v = 0. If terms of order epsilon raise v^2 above 0, a motion exists close to such a point.
 """
 
 import itertools
@@ -29,7 +30,7 @@ from vibroimpact.theory.manifold import stays_within_walls
 from vibroimpact.theory.slow_flow import descending, impedances, pencil
 
 PAIRS = [pair for pair in itertools.product((SMALL, LARGE, ASYMMETRIC), repeat=2) if ASYMMETRIC in pair]
-_STARTS = 20  # number of starts along each edge of the square
+_STARTS = 20  # number of starts along each side of the square |x_1| <= 1, |x_2| <= 1
 _REACH = 0.25
 _SAME = 1e-7
 _ROUNDING = 1e-10  # rounding error of an eigenvalue, relative to the largest eigenvalue
@@ -37,9 +38,10 @@ _ROUNDING = 1e-10  # rounding error of an eigenvalue, relative to the largest ei
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AsymmetricPoint(Representation):
-    """A fixed point with unequal flights in one or both modules; it also represents its mirror images.
+    """A fixed point of the slow flow with unequal flights in one or both modules.
 
-    For a single machine, squared, C, B, psi and middle of the inactive module are NaN.
+    The point also represents its mirror images, in which the long and the short flight of a module are exchanged. For a
+    single machine, the entries of the inactive module in `squared`, `C`, `B`, `psi` and `middle` are NaN.
 
     Attributes
     ----------
@@ -50,8 +52,8 @@ class AsymmetricPoint(Representation):
     asymmetric : ndarray
         True for a module on the asymmetric branch, shape (2,).
     squared : ndarray
-        v^2 of each module, shape (2,), where v is the difference of both flight times divided by the period; 0 for a
-        module on the symmetric branch.
+        v^2 of each module, shape (2,), where v is the difference between the times of the two flights of a cycle,
+        divided by the period; 0 for a module on the symmetric branch.
     C, B, psi, slow_eigenvalues : ndarray
         As for a FixedPoint.
     middle : ndarray
@@ -106,7 +108,7 @@ class AsymmetricPoint(Representation):
 
     @property
     def real(self) -> bool:
-        """True if the point is a motion at leading order, that is without a negative v^2."""
+        """True if the point is a motion at leading order, which means that v^2 is not negative in any module."""
         return not (self.squared < 0).any()
 
     def _shown(self):
@@ -115,7 +117,10 @@ class AsymmetricPoint(Representation):
 
 
 class Balance:
-    """The two conditions that (x_1, x_2) is a fixed point in one pair of charts; x_i = 0 for an inactive module i."""
+    """The two conditions that the chart parameters (x_1, x_2) of a fixed point satisfy, for one pair of charts.
+
+    For an inactive module i, condition i is x_i = 0.
+    """
 
     def __init__(self, system: System, pair: tuple[str, str]):
         one, two = (charts(system.kappa)[name] for name in pair)
@@ -147,9 +152,10 @@ class Balance:
 
 
 def _product(one, other):
-    """Return the product of two functions of (x_1, x_2), each given as an array (3, n).
+    """Return the product of two functions of (x_1, x_2).
 
-    The rows of all three arrays are the values at n places and the derivatives with respect to x_1 and to x_2.
+    `one`, `other` and the product are arrays (3, n). Their rows are the values of the function at n places, the
+    derivatives with respect to x_1, and the derivatives with respect to x_2.
     """
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
 
@@ -170,7 +176,7 @@ def fixed_points(system: System) -> list[AsymmetricPoint]:
     Raises
     ------
     ValueError
-        If system is not a System, or as for `symmetric_points.search`.
+        If system is not a System, or if its fixed points need not be isolated (see `symmetric_points.search`).
     """
     return [point for point in search(system) if not (point.C < 0).any()]
 

@@ -1,18 +1,19 @@
 """The manifold of symmetric and asymmetric motions in three charts: polynomials of a real parameter x in [-1, 1].
 
-A module's complex amplitude is b = z u / beta with |u| = 1, and the first harmonic of its saw-tooth is n u / beta. So
-the describing function of the ball is N = n / z. The amplitude of the saw-tooth is C = path / beta. In the table,
-c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v) are entire functions of v^2 (docs/derivation.md, section 11):
+The table gives the polynomials z, n, beta and path of each chart. A module's complex amplitude is b = z u / beta with
+|u| = 1, and the first harmonic of its saw-tooth is n u / beta. So the describing function of the ball is N = n / z. The
+amplitude of the saw-tooth is C = path / beta. In the table, c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v); these
+are entire functions of v^2 and are replaced by their power series (docs/derivation.md, section 11):
 
     chart         x      z                          n          beta                            path
     small C       C      1 - (1 + i rho) x          mu x       1                               x
     large C       1 / C  x - (1 + i rho)            mu         x                               1
     asymmetric    v^2    -(4 c / pi^2 + i rho s)    mu c^2 s   ((1 - x) s - 4 c / pi^2) c      (1 - x) s c
 
-On the asymmetric branch the flight from wall +1 takes the fraction (1 - v) / 2 of the cycle, and the flight back the
-fraction (1 + v) / 2, so that v is the difference of both fractions. All quantities except the impact phases are
-functions of v^2, since a motion and its mirror image have opposite v. Stability on the asymmetric branch means
-stability of the impacts at constant amplitude B and phase phi of U.
+On the asymmetric branch the flight from wall +1 takes the fraction (1 - v) / 2 of the cycle, and the flight back takes
+the fraction (1 + v) / 2. A motion and its mirror image have opposite values of v. Therefore all quantities except the
+impact phases are functions of v^2. A motion on the asymmetric branch is called stable if its impacts are stable at
+constant amplitude B and phase phi of U.
 """
 
 import functools

@@ -21,7 +21,7 @@ RETURN = 1.0
 """Amplitude B of a box at which its walls reach a ball that rests in the middle of the box."""
 _PER_CYCLE = 24
 _NODES = 2000
-_LARGEST_SQUARED = 0.9  # largest v^2 in the tables
+_LARGEST_SQUARED = 0.9  # largest v^2 in the tables of `describing_function`
 _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 
 
@@ -60,7 +60,8 @@ def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Re
     start : default (1.0, 1.0)
         Initial complex amplitudes b_i = B_i exp(-i psi_i) of both modules; both balls start in resonance.
     forces : optional
-        Forces (f10_hat, f20_hat), (..., 2), in place of those of the system; all are followed together.
+        Pairs of forces (f10_hat, f20_hat), shape (..., 2), that replace the forces of the system. Each pair gives its
+        own oscillation.
     """
     e, K = impedances(system)
     forces = np.array([system.f10_hat, system.f20_hat] if forces is None else forces)
