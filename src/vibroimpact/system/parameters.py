@@ -183,8 +183,8 @@ class System:
     def _resonates(self) -> bool:
         """Return True if a force drives the undamped boxes at a resonance."""
         stiffness = dynamic_stiffness(self)
-        # Rounding is measured against the sum of the terms of the dynamic stiffness, not against its entries: at a
-        # resonance the terms cancel (and all entries vanish if both boxes resonate uncoupled).
+        # The bound on rounding errors is proportional to the sum of the terms of the dynamic stiffness. The entries of
+        # the matrix give no bound: at a resonance their terms cancel, and without coupling all entries can vanish.
         springs = 1.0 + self.stiffness2 + 2.0 * self.alpha12
         dampers = self.gamma1 + self.gamma2 + 2.0 * self.gamma12
         rounding = 1e-12 * (springs + self.Omega * (dampers + 2.0 * self.Omega))
