@@ -64,9 +64,9 @@ def of_orbit(orbit) -> dict[str, str]:
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
     """Return (psi, C) of an exact orbit, each (2,).
 
-    C_i is the saw-tooth amplitude; psi_i follows from the impact phase by (10.17). The impact phase is the mean of the
-    phase at wall +1 and the phase at wall -1 shifted by half a period. These two phases differ only if the orbit is
-    asymmetric.
+    C_i is the saw-tooth amplitude; psi_i follows from the impact phase by (10.17). The impact phase is the mean of two
+    phases: the phase at wall +1, and the phase half a period after the impact at wall -1. These two phases differ only
+    if the orbit is asymmetric.
     """
     around = np.exp(2j * np.pi * orbit.impact_phases)
     phase = impact_phase(orbit.C, rho(orbit.system.kappa))

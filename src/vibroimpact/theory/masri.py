@@ -70,7 +70,9 @@ def upper_limit(kappa):
 
 
 def stable(C: float, kappa: float, error: float = 0.0) -> str:
-    """Return "stable" if C is between `lower_limit` and `upper_limit`, "unstable" if C is outside, or "undecided".
+    """Return "stable" if C is between `lower_limit` and `upper_limit`, and "unstable" if C is outside.
+
+    The verdict is "undecided" if the distance between C and the nearest limit is not larger than the error of C.
 
     Parameters
     ----------
@@ -79,7 +81,7 @@ def stable(C: float, kappa: float, error: float = 0.0) -> str:
     kappa : float
         Restitution coefficient.
     error : float, default 0.0
-        Bound on the error of C, to which rounding is added. If C is that close to a limit, the verdict is "undecided".
+        Bound on the error of C; a bound on rounding errors is added.
     """
     margin = min(C - lower_limit(kappa), upper_limit(kappa) - C)
     return verdict(margin, error + ROUNDING * max(1.0, abs(C)))

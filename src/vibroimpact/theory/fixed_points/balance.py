@@ -1,4 +1,6 @@
-"""Write the fixed-point conditions (10.23) as polynomials in C_1 and C_2; these have the roots of (10.24) but no poles.
+"""Write the fixed-point conditions (10.23) as two polynomials, with the roots of (10.24) but without its poles.
+
+The variables of the polynomials are the saw-tooth amplitudes C_1 and C_2.
 
 On the manifold b_i = B_i exp(-i psi_i) = z_i u_i with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. The conditions (10.23)
 are therefore linear in the phasors u_i, with coefficients that are linear in C_i (docs/derivation.md, section 5):
@@ -51,7 +53,7 @@ class Balance:
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
 
     def phases(self, C) -> np.ndarray:
-        """Return the phases psi (2,) of the fixed point at C (2,), a common zero of both `polynomials`."""
+        """Return the phases psi (2,) of the fixed point with amplitudes C (2,), at which both `polynomials` vanish."""
         numerators, denominator = self.solve(C)
         return -np.angle(self.at(C)[0] * numerators / denominator)
 
@@ -74,12 +76,12 @@ class Balance:
         return C, -np.angle((self.z[0] + self.z[1] * C) * f / (q0 + q1 * C)), bool(multiple)
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return two polynomials equivalent to (10.24), and the sums of moduli in their coefficients, each (2, 3, 3).
+        """Return the coefficients of two polynomials equivalent to (10.24), and their magnitudes, each (2, 3, 3).
 
         The polynomials are |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2. They vanish where |u_1| = |u_2| = 1, since u_i =
         n_i / Delta (`solve`). n_1 depends on C_2 alone and n_2 on C_1 alone. Entry [:, j, k] is the coefficient of
-        C_1^j C_2^k. The sums are computed like the coefficients, but with the modulus of every term. They are the scale
-        of rounding errors.
+        C_1^j C_2^k. A coefficient is a sum of terms, and its magnitude is the sum of the moduli of these terms. The
+        magnitudes are the scale of rounding errors.
         """
         # The first polynomial is proportional to the square of the forces. It is computed for forces of order one,
         # since squares of tiny forces underflow. Scaling by a power of 2 causes no rounding error.
@@ -111,11 +113,12 @@ def _modulus_squared(polynomial):
 def determinant(system, C) -> float:
     """Return the common denominator of h_1 and h_2 in (10.24), Im(p_1 p_2 conj(z_1 z_2 K^2)) with p_i = q_i + K z_i.
 
-    z_i, q_i and K are those of `Balance`. Constant factors, powers of B_i and the square in h_1 are left out. The
-    equation sin^2 + cos^2 = 1 for psi_1 and for psi_2 gives two equations that are linear in cosine and sine of the
-    phase difference. The determinant of these two equations is four times the returned value. This value vanishes for
-    all C only if the modules are uncoupled: as a quadratic in C_1 it vanishes identically only for p_2 = 0, which is
-    impossible since the ball dissipates energy.
+    z_i, q_i and K are those of `Balance`. Constant factors, powers of B_i and the square in h_1 are left out.
+
+    The denominator is a determinant. The equation sin^2 + cos^2 = 1, for psi_1 and for psi_2, gives two equations that
+    are linear in cosine and sine of the phase difference. The determinant of these two equations is four times the
+    returned value. For coupled modules, the returned value does not vanish for all C. As a function of C_1, it is a
+    quadratic polynomial that vanishes identically only if p_2 = 0, which dissipation in the impacts excludes.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)
@@ -164,6 +167,6 @@ def _real_roots(coefficients):
         discriminant = 0.0
     if discriminant < 0:
         return np.empty(0)
-    # Of b +- root, the value of larger magnitude is free of cancellation; the product c / a gives the second root.
+    # The square root has the sign of b, so that no digits cancel. The roots of the polynomial are q / a and c / q.
     q = -(b + np.copysign(np.sqrt(discriminant), b)) / 2
     return np.array([top / bottom for top, bottom in ((q, a), (c, q)) if bottom != 0])

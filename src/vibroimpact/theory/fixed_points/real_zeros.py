@@ -86,8 +86,8 @@ def _starts(pair, size):
 def _resultant(one, other, sign=-1):
     """Return the coefficients (9,) of the resultant of two polynomials, which eliminates y.
 
-    one, other: coefficients (3, 3) with the power of y on the first axis. sign: 1 if `one` and `other` are
-    moduli of coefficients, to get the sums of the moduli of all terms.
+    one, other: coefficients (3, 3) with the power of y on the first axis. sign: -1 for the resultant. If `one` and
+    `other` are the moduli of the coefficients, sign = 1 gives the sums of the moduli of the terms of the resultant.
     """
 
     def minor(j, k):
@@ -151,8 +151,9 @@ def _adjugate(matrix):
 def _contract(pair, size, points):
     """Return a mask (n,) of the points that are simple zeros: Newton's method contracts in a box about the point.
 
-    The condition follows Kantorovich's theorem. The shift of the zero due to rounding, plus the change of the Newton
-    step over the box (from twice the second derivatives), must be smaller than the half-width of the box.
+    The condition follows Kantorovich's theorem: the sum of two bounds must be smaller than the half-width of the box.
+    One bound is on the shift of the zero due to rounding. The other bound is on the change of the Newton step within
+    the box; it is computed from twice the sum of the moduli of the second derivatives.
     """
     _, gradient, noise = _expanded(pair, size, points)
     by_x, by_y = _derivatives(pair)

@@ -23,10 +23,10 @@ from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, equations, slow_eigenvalues
 
 _STEPS = 30
-_SETTLED = 1e-12  # after so small a Newton step the fixed point is exact to rounding
+_SETTLED = 1e-12  # largest relative Newton step after which the fixed point is exact within rounding
 _SAME = 1e-9
-_NEAR = 1e-3  # if Newton's method moves a zero of the polynomials farther, it has reached another fixed point
-_TRIANGLE_GAP = 1e-3  # `_may_close`: largest excess of the longest side over the sum of the others, per perimeter
+_NEAR = 1e-3  # largest relative change of C in `_refined`; a larger change leads to another fixed point
+_TRIANGLE_GAP = 1e-3  # largest (longest side - sum of the other sides) / perimeter of a triangle in `_may_close`
 _REGULAR = 1e5  # largest condition number of the Jacobian at a fixed point that counts as simple
 _AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
 COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
@@ -130,8 +130,9 @@ def search(system: System) -> list[FixedPoint]:
     Raises
     ------
     ValueError
-        If system is not a System, or if its undamped slow flow without balls is at a resonance that the forces do not
-        excite. Free motions of any phase may then touch the walls, so that fixed points need not be isolated.
+        If system is not a System, or if the boxes, in the slow flow without balls, have an undamped resonance that the
+        forces do not excite. The boxes can then vibrate freely with any phase, so that the fixed points need not be
+        isolated.
     """
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
@@ -212,11 +213,12 @@ def _solutions(system, balance, zeros, multiple):
 
 
 def _mirrored_pair(system, balance, C):
-    """Return (C, psi) for the two simple fixed points with amplitudes close to C, or [] if there are not two.
+    """Return (C, psi) for the two simple fixed points with amplitudes close to C, or [] unless there are exactly two.
 
     C: a multiple zero of the polynomials, known at best to the square root of rounding. With z_i, q_i, K and f_i of
-    `Balance` and p_i = q_i + K z_i, the balance p_1 u_1 - K z_2 u_2 = f_1 is a triangle in the complex plane. Newton's
-    method starts from the phases of the two triangles with sides of these lengths.
+    `Balance` and p_i = q_i + K z_i, the balance p_1 u_1 - K z_2 u_2 = f_1 is a triangle in the complex plane. The side
+    lengths |p_1|, |K z_2| and |f_1| determine two triangles, which are mirror images. Newton's method starts once from
+    the phases u_1, u_2 of each triangle.
     """
     z, q = balance.at(C)
     p, k, f = q[0] + balance.K * z[0], balance.K * z[1], balance.forcing[0]
@@ -231,11 +233,12 @@ def _mirrored_pair(system, balance, C):
 
 
 def _may_close(balance, C):
-    """Return False if no phases balance the forces near C, a zero of `Balance.polynomials` that is then spurious.
+    """Return False if a zero C of `Balance.polynomials` is spurious, since no phases balance the forces near C.
 
-    Without dissipation, Delta, n_1 and n_2 of `Balance.solve` can vanish at the same C, which is then a spurious zero.
-    Phases exist only if f_i = p_i u_i - K z_j u_j with p_i = q_i + K z_i for both modules i, where j is the other
-    module. The lengths |f_i|, |p_i| and |K z_j| must therefore be the sides of a triangle.
+    Without dissipation, Delta, n_1 and n_2 of `Balance.solve` can vanish at the same C. Both polynomials then vanish at
+    C, but C need not belong to a fixed point. At a fixed point, module i satisfies f_i = p_i u_i - K z_j u_j, where
+    p_i = q_i + K z_i and j is the other module. The lengths |f_i|, |p_i| and |K z_j| must therefore be the sides of a
+    triangle.
     """
     z, q = balance.at(C)
     sides = np.abs([balance.forcing, q + balance.K * z, balance.K * z[::-1]])
