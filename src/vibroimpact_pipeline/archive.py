@@ -44,7 +44,10 @@ def _job(record):
 
 
 def differences(one, other, place: str = "") -> Iterator[tuple]:
-    """For each difference of two nested mappings, yield the key path and both values; a missing value is None."""
+    """Yield (key path, value in `one`, value in `other`) for each difference between two nested mappings.
+
+    A missing value is None. `place` is the key path of the two mappings, "" at the top.
+    """
     if isinstance(one, dict) and isinstance(other, dict):
         for name in one | other:
             yield from differences(one.get(name), other.get(name), f"{place}.{name}".removeprefix("."))

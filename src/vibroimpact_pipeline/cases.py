@@ -11,10 +11,12 @@ COLLECTIONS = ("accuracy.problems", "sweeps")
 def with_cases(config: dict) -> dict:
     """Return a copy of a config in which every entry that needs a case names its case.
 
-    An entry without a case gets `default_case`, or the first case if the config sets no default. The chapter's figures
-    must name their case. If the config omits a case of the chapter (`CASES`), figures with this case are removed, as
-    is an entry `regimes.epsilon.mixed` with this case. Other entries with this case get the default case. Malformed
-    entries are left unchanged; validation reports them.
+    An entry without a case gets the default case: `default_case`, or the first case if the config has no
+    `default_case`. The chapter's figures (fig10_...) get no default case, since they must name their case.
+
+    The config may omit a case of the chapter (`CASES`). Figures with an omitted case are removed, and so is
+    `regimes.epsilon.mixed` if its case is omitted. All other entries with an omitted case get the default case.
+    Malformed entries are left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")

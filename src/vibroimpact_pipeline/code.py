@@ -43,10 +43,10 @@ def code_files(*roots: str) -> list[Path]:
 
 
 def fingerprint(*roots: str) -> str:
-    """Return the fingerprint of the files of `code_files`.
+    """Return the fingerprint of the files that `code_files` returns.
 
-    It covers the parsed code of Python files, and every byte of other files and of all files in folders among the
-    roots.
+    The fingerprint covers the parsed code of Python files, and every byte of other files. If a root is a folder, the
+    fingerprint covers every byte of all files in the folder, Python files included.
     """
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
     for path in code_files(*roots):
@@ -75,7 +75,7 @@ def _paths(root: str) -> list[Path]:
 
 
 def is_source(path: Path) -> bool:
-    """Return True if no part of a path, relative to a source folder, is hidden or the name of a bytecode folder."""
+    """Return True unless a part of `path`, relative to a source folder, starts with a dot or is __pycache__."""
     return not any(name.startswith(".") or name == "__pycache__" for name in path.parts)
 
 
@@ -93,7 +93,10 @@ def modules() -> dict[str, Path]:
 
 @cache
 def module_files(name: str) -> list[Path]:
-    """Return the files of a module, its parent packages and data in its folder; none if it is not of this project."""
+    """Return the files of a module and its parent packages, and the data files in the folder of the module.
+
+    The list is empty if the module is not part of this project.
+    """
     if name not in modules():
         return []
     parts = name.split(".")
@@ -129,5 +132,5 @@ def changed(code: dict) -> bool:
 
 
 def code_of(*roots: str) -> dict:
-    """Return the roots (see `code_files`) and their `fingerprint`, the value of `params.code` of a rule."""
+    """Return the value of `params.code` of a rule: the roots (see `code_files`) and their `fingerprint`."""
     return {"of": sorted(roots), "fingerprint": fingerprint(*roots)}

@@ -51,7 +51,10 @@ def span(kind, about: str = "Lower and upper end"):
 
 
 def named(kind, least: int, most: int, name: str = NAME):
-    """Return the type of a mapping whose keys are free names; the value null removes an entry of an earlier file."""
+    """Return the type of a mapping whose keys are names that the user chooses, matching the pattern `name`.
+
+    A value is of the type `kind`, or null to remove the entry that an earlier config file sets.
+    """
     free = Annotated[str, Field(pattern=name)]
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]
 
