@@ -1,4 +1,4 @@
-"""Tabulate measures of modulated and other regimes, with uncertainties over initial states, and Lyapunov spectra."""
+"""Tabulate measures of the modulation and Lyapunov spectra of the motions in each regime, with uncertainties."""
 
 import numpy as np
 import pandas as pd
@@ -25,29 +25,35 @@ WINDOW_MOTIONS = 4
 def modulation_tables(
     systems: dict, starts: int, seed: int, cycles: int, blocks: int, block: int, windows: list[int], observation: dict
 ) -> dict:
-    """Return the measures of each regime in each case; the motion from rest has separate rows.
+    """Return measures of the modulation and Lyapunov exponents for each case and regime.
+
+    The start from rest has rows of its own. The spread starts of a case that end in the same regime share their rows.
 
     Parameters
     ----------
     systems : dict
         Case -> system.
     starts : int
-        Number of spread starts in addition to the one from rest.
+        Number of spread starts (evenly spread initial states), in addition to the start from rest.
     cycles : int
-        Length of the window for the measures, in forcing cycles.
+        Length of the runs from which the measures are computed, in forcing cycles.
     blocks, block : int
-        Number of blocks, and cycles per block, for the Lyapunov exponents of spread starts that end in a regime of
-        CHAOS. The exponents of all other starts come from the window.
+        Number of blocks, and forcing cycles per block, of the runs from which the Lyapunov exponents are computed. All
+        starts use `block`. Only spread starts that end in a regime of CHAOS use `blocks`; the runs of all other starts
+        have the length `cycles`.
     windows : list of int
         Lengths of windows, in cycles, for which measures of the envelope are compared.
     observation : dict
         Arguments of `regimes.settling.Observation`.
 
-    Returns three tables. "measures": columns case, start ("rest" or "spread"), regime, starts, quantity, module (0 for
-    both modules), mean, uncertainty. The uncertainty is the standard error over starts, binomial for the share of
-    starts. For a single start, the uncertainty of the exponent comes from blocks, and all other uncertainties are
-    blank. "windows", for strongly modulated spread starts: columns case, module, cycles, quantity, mean, uncertainty.
-    "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see `spectra.rows`).
+    Returns three tables:
+
+    - "measures": columns case, start ("rest" or "spread"), regime, starts (their number), quantity, module (0 for both
+      modules), mean, uncertainty. The uncertainty is the standard error over starts, or the binomial standard error for
+      the share of starts. For a single start, the uncertainty of the Lyapunov exponent comes from the blocks of the
+      run, and all other uncertainties are blank.
+    - "windows", for strongly modulated spread starts: columns case, module, cycles, quantity, mean, uncertainty.
+    - "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see `spectra.rows`).
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)

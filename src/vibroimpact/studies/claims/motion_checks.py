@@ -1,4 +1,4 @@
-"""Checks of sections 10.4 and 10.5 on motions: simulated responses, modulation, accuracy of the theory."""
+"""Check claims of sections 10.4 and 10.5 about simulated responses, modulation, and the accuracy of the theory."""
 
 import numpy as np
 import pandas as pd
@@ -61,7 +61,7 @@ def numerical_results_are_similar(evidence, case, label):
 
 
 def transients_are_long(evidence, case):
-    """Check that the slowest perturbation of all stable orbits needs more than 10 cycles to shrink to a tenth."""
+    """Check that perturbations of at least one stable orbit need more than 10 cycles to shrink to a tenth."""
     motions = evidence.motions(case)
     stable = motions[motions["exact"] == STABLE]
     cycles = (np.log(0.1) / np.log(stable["modulus_1"])).max()
@@ -121,7 +121,10 @@ def resonant_intervals(evidence, case):
 
 
 def beating(evidence, case):
-    """Check that the amplitude of each box varies more than that of a beat, BEAT_VARIATION, by two uncertainties."""
+    """Check that the amplitude variation of each box exceeds BEAT_VARIATION by more than two uncertainties.
+
+    BEAT_VARIATION is the amplitude variation of a beat.
+    """
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
     found = rows["mean"].loc[[1, 2]]
     parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > BEAT_VARIATION for i in (1, 2)}
@@ -153,10 +156,11 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
 
 
 def unstable_means_modulated(evidence, case):
-    """Check that all fixed points of a case have unstable exact orbits and all spread starts end strongly modulated.
+    """Check that all fixed points of a case are unstable, and that all of its motions end strongly modulated.
 
-    The chapter claims this for `case`. `numbers` contains the share of spread starts that end strongly modulated, for
-    `case` and for every case whose fixed points all have unstable exact orbits.
+    A fixed point is unstable if its exact orbit is unstable. The motions start from evenly spread initial states.
+    `numbers` contains the share of motions that end strongly modulated, for `case` and for every other case in which
+    all fixed points are unstable.
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
@@ -235,13 +239,14 @@ def assesses_stability(evidence):
 
 
 def restitution_far_from_unity(evidence, kappas, forces):
-    """Compare fixed points with exact orbits at restitution coefficients `kappas`, from small to large.
+    """Compare fixed points with exact orbits at each restitution coefficient of `kappas` and each force of `forces`.
 
-    Both forces are equal, to each value of `forces` in turn. The balls must stay between the walls.
+    The same force acts on both modules. Each fixed point must have a symmetric orbit, and the distance between the two
+    must be proportional to epsilon. Every symmetric orbit must belong to a fixed point. At each fixed point, the balls
+    must stay between the walls.
 
-    Each fixed point must have a symmetric orbit at a distance proportional to epsilon, and every symmetric orbit must
-    belong to a fixed point. Forces without a fixed point are skipped, but each restitution coefficient needs a fixed
-    point at one or more of the forces.
+    A force without a fixed point is skipped, but each restitution coefficient needs at least one force with a fixed
+    point.
     """
     parts, numbers = {}, {}
     for kappa in kappas:

@@ -1,4 +1,4 @@
-"""Checks of section 10.4 on fixed points: number, position, stability, change with the forces, singular points."""
+"""Check claims of section 10.4 about fixed points: number, position, stability, dependence on forces, singularity."""
 
 from itertools import permutations
 
@@ -61,8 +61,9 @@ def label_of_a_point(evidence, case, label, says):
 def stable_points(evidence, case, number):
     """Count the stable fixed points of a case by each criterion of the theory, and by their exact orbits.
 
-    By "stable" the chapter means the fast criterion: stability of the impacts at constant B and phase. This criterion,
-    as derived and not as printed in (10.26), is also compared with the captions.
+    The chapter calls a fixed point stable by the fast criterion: the impacts are stable at constant B and phase. The
+    verdicts of the fast criterion are also compared with the captions. They are computed from the derived condition,
+    which differs from the printed one, (10.26).
     """
     points = evidence.points(case)
     counts = {
@@ -89,9 +90,10 @@ def on_the_left_arm(evidence, case, label, modules):
 
 
 def points_move_left(evidence, before, after):
-    """Check that each C_i of each fixed point falls from the case `before` to the case `after`, label by label.
+    """Check that each C_i of each fixed point is smaller in the case `after` than in the case `before`.
 
-    `numbers` also contains the largest number of C_i that fall, over all ways to pair the points of both cases.
+    Fixed points with the same label are compared. There are also other ways to pair the fixed points of the two cases;
+    `numbers` contains the number of smaller C_i for the pairing in which this number is largest.
     """
     first, last = (evidence.points(case)[NAMES] for case in (before, after))
     parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
