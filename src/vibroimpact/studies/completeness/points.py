@@ -1,11 +1,14 @@
 """Prove in interval arithmetic (python-flint's arb) that the lists of fixed points are complete.
 
-The conditions are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2 on each pair of charts (docs/derivation.md, section 11;
-in the code, the numerators m_1 and m_2 are n1 and n2). Together, the squares |x_i| <= 1 of all pairs cover every real
-C_i, and v^2 from -1 to 1. Each square is quartered until every box is decided or has the smallest width. A box is
-decided if the interval of |Delta|^2 - |beta_i m_i|^2 excludes 0 for an i, or if a contraction (Krawczyk's test,
-Neumaier 1990) proves that there is no zero in the box, or exactly one in the box of twice the width. Boxes that are
-undecided at the smallest width are reported.
+Each module i has a chart with a parameter x_i, which is C_i, 1 / C_i or v_i^2, where v_i is the flight asymmetry. On
+each pair of charts, the fixed points are the zeros of |Delta|^2 - |beta_i m_i|^2 for i = 1, 2 (docs/derivation.md,
+section 11; in the code, the numerators m_1 and m_2 are n1 and n2). Together, the squares |x_i| <= 1 of all pairs of
+charts cover every real C_i, and v_i^2 from -1 to 1.
+
+Each square is quartered until every box is decided or has the smallest width. A box is decided if the interval of
+|Delta|^2 - |beta_i m_i|^2 excludes 0 for an i, or if a contraction (Krawczyk's test, Neumaier 1990) proves that there
+is no zero in the box, or exactly one in the box of twice the width. Boxes that are undecided at the smallest width are
+reported.
 
 The functions of a chart are computed from the parameters in interval arithmetic and expanded to second order about the
 centre of a box, with a remainder that holds in the box of twice the width. Where the interval of Delta excludes 0, the
@@ -36,7 +39,8 @@ _NARROWEST = 2.0**-24
 _ISOLATED_WIDTH = 2.0**-20  # half-width to which the box of a zero is narrowed, before it is compared with other zeros
 _MOST = 20_000  # number of boxes in a pair of charts after which undecided boxes are reported instead of quartered
 _TERMS = 30
-_TAIL = arb(0, 2.0**-150)  # for |v^2| <= 2: the omitted terms and their derivatives are below 5^30 100^2 / 60!
+# Remainder of the series in v^2 for |v^2| <= 2: the omitted terms and their derivatives are below 5^30 100^2 / 60!.
+_TAIL = arb(0, 2.0**-150)
 _ORDERS = 3
 _REAL, _IMAGINARY = (np.frompyfunc(lambda z, part=part: getattr(z, part), 1, 1) for part in ("real", "imag"))
 
@@ -47,14 +51,14 @@ Box = tuple[tuple[float, float], ...]
 class Proof:
     """Result of the proof for the fixed points of a system, whose float64 hatted parameters are taken as exact.
 
-    isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point; for asymmetric
-        points, tuples (pair of charts, box of the chart parameters) instead. For a single machine a box has one
-        interval, and one chart takes the place of a pair.
-    undecided: boxes in which nothing is proved, in the form of `isolated`. Outside the isolated and undecided boxes, no
-        fixed point exists for any real C_i and v^2 in [-1, 1].
-    motions: number of isolated points that are motions at leading order: C_i > 0 for each symmetric module, v_i^2 > 0
-        for each asymmetric one (whose C_i is always positive). A point is not counted if its box contains 0.
-    complete: True if nothing is undecided, and the search lists exactly one point in each isolated box.
+    isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point. For asymmetric
+        fixed points, each entry is (pair of charts, box of the chart parameters) instead. For a single machine, there
+        is only one interval, and only one chart.
+    undecided: boxes in which nothing is proved, in the same format. Outside the isolated and undecided boxes, no fixed
+        point exists for any real C_i and v_i^2 in [-1, 1].
+    motions: number of isolated fixed points that are motions at leading order: C_i > 0 for each symmetric module, and
+        v_i^2 > 0 for each asymmetric module. A fixed point is not counted if an interval of its box contains 0.
+    complete: True if nothing is undecided, and the numerical search finds exactly one fixed point in each isolated box.
     """
 
     isolated: list
@@ -66,8 +70,8 @@ class Proof:
 def certify(system) -> Proof:
     """Prove the number of fixed points of a system, with C_i of either sign.
 
-    A system without forces has no fixed point. The balls dissipate mu rho C_i^2, so that only a free motion with zero
-    C_i could remain, and the search raises an error for a system with such a free motion.
+    A system without forces has no fixed point: impacts dissipate mu rho C_i^2, which no force compensates. Only a free
+    motion with C_i = 0 could persist; `symmetric_points.search` raises ValueError for systems with such a free motion.
 
     Raises
     ------
@@ -173,7 +177,7 @@ def _subdivide(conditions):
     distinct = []
     for zero in sorted(found):
         gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
-        if any(gap < 0.5 for gap in gaps):  # the same zero again, since a tested box contains only one
+        if any(gap < 0.5 for gap in gaps):  # a duplicate, since the tested box of a zero contains no second zero
             continue
         (undecided if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
     return [_box(*zero) for zero in distinct], [_box(*zero) for zero in undecided]
@@ -200,9 +204,10 @@ def _box(x, y, half) -> Box:
 
 
 class _Conditions:
-    """Both conditions for a fixed point in one pair of charts, as polynomials in t = (x - centre) / half on a box.
+    """The two conditions for a fixed point in one pair of charts, as polynomials in t = (x - centre) / half on a box.
 
-    A local polynomial, valid for |t| <= _REACH, is an array of intervals: entry [j, k] is the factor of t_1^j t_2^k.
+    The conditions are |Delta|^2 - |beta_i m_i|^2 = 0 for i = 1, 2. A local polynomial, valid for |t| <= _REACH, is an
+    array of intervals: entry [j, k] is the coefficient of t_1^j t_2^k.
     """
 
     def __init__(self, system, pair):
