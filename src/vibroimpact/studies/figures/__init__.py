@@ -1,4 +1,4 @@
-"""Figures beyond the chapter, built like its own: compute(...) -> tables, draw(tables) -> Figure."""
+"""Figures that are not in the chapter; each has two functions, compute(...) -> tables and draw(tables) -> Figure."""
 
 from vibroimpact.system.extras import need
 

@@ -1,6 +1,7 @@
-"""Companion: peak response with balls over a band of frequencies, compared with no balls and with tuned absorbers.
+"""Companion: peak displacement over a band of frequencies with balls, without balls and with tuned absorbers.
 
-Peaks and clearances are divided by the static deflection: X / f and 1 / f, with f = epsilon f10_hat.
+Peaks X and clearances are divided by the static deflection f = epsilon f10_hat. As X is in units of the clearance, the
+results are X / f and 1 / f.
 """
 
 from itertools import takewhile
@@ -106,17 +107,17 @@ def compute(system, response, clearance, design, band: dict, seed: int, cycles: 
     The lowest peak of a sweep is biased: the lowest of many values with random errors is too low. So the
     REMEASURED_PEAKS lowest peaks are measured again (`absorbers.peaks`), from rest and other starts, at the
     frequencies of the band and half-way between them. The lowest of the new values is reported, with its standard
-    error. It is a lower bound, since a motion that no start reaches may move the boxes further.
+    error. The reported peak is a lower bound, since the boxes may move further in a motion that no start reaches.
 
     Parameters
     ----------
     system
         System of the sweeps, for the parameters that do not vary.
     response
-        Table of a sweep over sigma_e_hat, then both forces, with regimes, amplitudes and energy.
+        Table of a sweep that varies sigma_e_hat and the pair of forces; it contains regimes, amplitudes and energy.
     clearance, design
-        Tables of two sweeps with the peaks along `band`: `clearance` over both forces, `design` over kappa and then
-        both forces.
+        Tables of two sweeps with the peaks along `band`. The sweep `clearance` varies the pair of forces; the sweep
+        `design` varies kappa and the pair of forces.
     band : dict
         Arguments of `sweeps.grid.axis`, along sigma_e_hat.
     seed : int
@@ -157,9 +158,10 @@ def _peaks(system, table):
 
 
 def _lowest_again(system, table, band, states, cycles, settle):
-    """Measure the REMEASURED_PEAKS lowest peaks of a sweep again, and return the point with the lowest result.
+    """Measure the REMEASURED_PEAKS lowest peaks of a sweep again, and return the row with the lowest new peak.
 
-    Its new entries are value and spread, both divided by the force.
+    The row has two more entries than in `table`: value (the new peak) and spread (its standard error), both divided by
+    the force.
     """
     detunings = np.sort(np.ravel(axis(**band).values))
     detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
@@ -185,7 +187,10 @@ def plateau(places):
 
 
 def _over_frequencies(system, response, band):
-    """For each pair of forces, yield two rows on all frequencies: greatest ratio, and median impact share."""
+    """For each pair of forces, yield two rows of the summary, each with a statistic over all frequencies.
+
+    The statistics are the largest ratio of the response with balls to that without balls, and the median impact share.
+    """
     for pair, rows in response.groupby(FORCES, sort=False):
         without, place = linear_systems(system, pair, band)["without balls"], dict(zip(FORCES, pair, strict=True))
         greatest = (rows["ratio"] / ratios(system, without, rows["sigma_e_hat"])).max()

@@ -1,4 +1,4 @@
-"""Companion: the manifold with its asymmetric branch, and exact pairs of mirror images followed to small epsilon."""
+"""Companion: the manifold with its asymmetric branch, and exact asymmetric orbits as epsilon tends to 0."""
 
 from itertools import cycle, pairwise, product
 
@@ -115,7 +115,9 @@ JUDGED = ["real", "admissible", "impact_map", "slow_flow", "modulus", "lost_at",
 
 
 def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_max: float) -> dict:
-    """Return the manifold, all asymmetric fixed points of the cases, and the exact pairs of orbits that lead to them.
+    """Return the manifold, all asymmetric fixed points of the cases, and exact asymmetric orbits as epsilon decreases.
+
+    Exact asymmetric orbits occur in pairs of mirror images; one orbit of each pair is followed.
 
     Parameters
     ----------
@@ -126,14 +128,17 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_
     kappa
         Restitution coefficient of the manifold; cases with another kappa are left out.
     epsilon, values
-        Range and number of values of epsilon, evenly on a log scale. Pairs are followed to the
-        values below the epsilon of their case.
+        Range and number of values of epsilon, evenly on a log scale. An orbit is followed from the epsilon of its case
+        to all values that are smaller.
     C_max : float
         Largest C of the symmetric branch.
 
-    Returns "csv", the manifold and the modules of fixed points on its asymmetric branch: columns series, C, B; "pairs":
-    case, label, exact, epsilon, asymmetry (the larger abs(v)), from the orbit of the case to the fixed point at epsilon
-    0 or the symmetric orbit to which the pair leads; and "points", a row per fixed point.
+    Returns three tables:
+
+    - "csv", the manifold, and each module of a fixed point that is on the asymmetric branch: columns series, C, B.
+    - "pairs", a row per orbit and epsilon: columns case, label, exact, epsilon, asymmetry (the larger abs(v)). The last
+      row of an orbit is its limit, if known: a fixed point at epsilon = 0, or a symmetric orbit.
+    - "points", a row per fixed point.
     """
     pairs, rows, places = [], [], []
     for case, system in systems.items():
@@ -236,7 +241,7 @@ def _draw_manifold(axes, table):
 
 
 def _draw_pairs(axes, pairs):
-    """Draw the asymmetry of each pair against epsilon; return the lines by the way in which they end."""
+    """Draw the asymmetry of each pair of orbits against epsilon; return the lines, grouped by their end (see ENDS)."""
     last, named = pairs.drop_duplicates(["case", "label"], keep="last"), {}
     meets = last.round({"asymmetry": 1}).duplicated(["case", "epsilon", "asymmetry"], keep=False)
     ends = pd.Series(np.select([last["epsilon"] == 0, last["asymmetry"] == 0, meets], ENDS, ""), last.index)

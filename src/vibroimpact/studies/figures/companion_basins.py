@@ -57,8 +57,8 @@ _MARK = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "marke
 def compute(system, case: str, points: int, observation: dict) -> dict:
     """Return the regimes of starts that differ in the positions of the balls only.
 
-    Boxes and velocities are those of the stable asymmetric orbit at tau = 0, or at rest if there is no stable
-    asymmetric orbit.
+    The positions of the boxes and all velocities are those of the stable asymmetric orbit at tau = 0. Without such an
+    orbit, they are 0.
 
     Parameters
     ----------

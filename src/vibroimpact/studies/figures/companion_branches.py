@@ -230,7 +230,10 @@ def _cases(theory, exact, cases):
 
 
 def _branches(axes, nodes):
-    """Draw all pieces of branches; return names of long branches, each with its stable lines or, if none, with all."""
+    """Draw all pieces of branches; return (name, lines) of each long branch.
+
+    lines: the stable lines of the branch, or all of its lines if none is stable.
+    """
     named, spans = {}, nodes.groupby(["series", "branch"])["p"].agg(np.ptp)
     # Successive pieces of the same stability are one line: dashes that start again at each piece would look solid.
     begins = nodes[["series", "stable", "branch"]].ne(nodes[["series", "stable", "branch"]].shift()).any(axis=1)

@@ -1,4 +1,4 @@
-"""Companion: errors of the method and missing motions from weak to strong coupling; patterns of asymmetric flights."""
+"""Companion: errors of the theory, predicted motions that do not exist, and asymmetric flights, over the coupling."""
 
 import numpy as np
 import pandas as pd
@@ -69,8 +69,8 @@ def compute(systems: dict) -> dict:
     Parameters
     ----------
     systems : dict
-        Case -> system. Errors are computed for the cases in STRONG and for WEAK, as far as they are present. Patterns
-        are computed for the case "equal" with its modules tuned ALIKE.
+        Case -> system. Errors are computed for those cases that are named in the constants STRONG and WEAK. Patterns
+        are computed for the case "equal", with some of its parameters replaced by those in the constant ALIKE.
 
     Returns "csv", a row per fixed point with the columns case, coupling and those of `errors`, and "summary".
     """
@@ -97,13 +97,15 @@ def compute(systems: dict) -> dict:
 
 
 def errors(system) -> list[dict]:
-    """Return a row per fixed point: relative error of C, verdicts of the theory and of the exact orbit.
+    """Return a row per fixed point: relative errors of C, and stability by the theory and of the exact orbit.
 
-    error: larger difference in C_1 or C_2 between the point and its exact orbit, divided by the larger C_i of the
-    orbit. own_error: larger relative difference, where the difference in C_i is divided by C_i of the orbit. Both
-    errors are nan if the point has no exact orbit, or if this orbit is not a motion of the system. predicted: True if
-    the theory calls the point stable on both time scales. stable: True if the orbit is a motion whose multipliers are
-    all inside the unit circle.
+    error: larger difference in C_1 or C_2 between the fixed point and its exact orbit, divided by the larger C_i of
+        the orbit.
+    own_error: larger relative error of C_1 or C_2, where each difference is divided by the same C_i of the orbit.
+    predicted: True if the fixed point is stable by the theory on both time scales.
+    stable: True if the exact orbit is admissible and all of its multipliers are inside the unit circle.
+
+    Both errors are nan if the fixed point has no admissible exact orbit.
     """
     points, rows = fixed_points(system), []
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))
@@ -133,7 +135,7 @@ def _of_errors(table):
 
 
 def _of_patterns(system):
-    """Return the ends of each stable range of a pattern."""
+    """Return the smallest and the largest coupling of each range in which a pattern of flights is stable, by name."""
     return {
         f"{name}, from {start:g}: stable {end}": found[i][0]
         for name, start, found, _ in stable_ranges(system, LIMITS)
@@ -143,7 +145,7 @@ def _of_patterns(system):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table "csv" of `compute`: errors and missing motions over the coupling."""
+    """Draw the table "csv" of `compute`: errors, and predicted motions that do not exist, over the coupling."""
     table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 78.0)
     left, right = figure.subplots(1, 2)

@@ -119,9 +119,9 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
 
 
 def _two_terms(system, point, found):
-    """Return the distance between orbit and fixed point, with the first-order term added to the fixed point.
+    """Return distances between orbits and a fixed point, with the first-order term added to the fixed point.
 
-    found: the comparisons for which to return it. The distances are nan if no orbit gives the first-order term.
+    found: one `Comparison` for each distance. All distances are nan if no orbit gives the first-order term.
     """
     added = np.nan
     with suppress(NoOrbit):
@@ -152,7 +152,7 @@ def draw(tables: dict) -> Figure:
 def _slope(axes, epsilon, error, slope, times):
     """Draw a triangle with the given slope next to the last point (epsilon, error) of a curve.
 
-    times: factor by which the sloping side of the triangle, extended, passes above this point.
+    times: The sloping side of the triangle is on the line through the point (epsilon, times * error).
     """
     x = epsilon * np.array([0.05, 0.5])
     y = error * times * (x / epsilon) ** slope

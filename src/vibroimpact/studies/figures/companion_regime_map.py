@@ -81,10 +81,12 @@ TICKS = 4
 
 
 def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
-    """Return the map for the table of a sweep over f10_hat, then f20_hat, both evenly spaced.
+    """Return the regimes, the fixed points and the marked cases of the map, from the table of a sweep.
 
     Parameters
     ----------
+    table : DataFrame
+        Table of a sweep that varies f10_hat and f20_hat, both evenly spaced.
     system
         System of the sweep.
     systems : dict
@@ -92,10 +94,13 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
     starts : int
         Number of starts at each point; the first one is from rest.
 
-    Returns "csv", a row per cell: label (regime from rest), f10_hat, f20_hat, regime (of most other starts), coexisting
-    (number of regimes in which other starts end, "unsettled" not counted), a share per regime, fixed_points,
-    stable_points; "cases": case, f10_hat, f20_hat; "borders", where the number of fixed points changes: series, piece,
-    f10_hat, f20_hat.
+    Returns three tables:
+
+    - "csv", a row per cell: label (regime from rest), f10_hat, f20_hat, regime (in which most of the other starts end),
+      coexisting (number of regimes in which the other starts end, without "unsettled"), a column with the share of each
+      regime, fixed_points and stable_points (their numbers).
+    - "cases": case, f10_hat, f20_hat.
+    - "borders", where the number of fixed points changes: series, piece, f10_hat, f20_hat.
     """
     cells = table.rename(columns={FROM_REST: "label"})
     cells["regime"], cells[COEXISTING] = _dominant(cells, starts)
@@ -110,9 +115,9 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
 
 def _dominant(cells, starts):
-    """For each cell, return the regime of most starts, and the number of their regimes without "unsettled".
+    """For each cell, return the regime in which most starts end, and the number of regimes in which starts end.
 
-    The start from rest is left out of both unless it is the only one.
+    The number does not include "unsettled". The start from rest is ignored unless it is the only start.
     """
     counts = cells[[*REGIMES]].to_numpy(float) * starts
     if starts > 1:

@@ -90,9 +90,9 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
     system
         System of the sweeps, for the parameters that do not vary.
     frequency : DataFrame
-        Table of a sweep over sigma_e_hat, then both forces.
+        Table of a sweep that varies sigma_e_hat and the pair of forces, with columns of regimes and amplitudes.
     force : DataFrame
-        Table of a sweep over two equal forces. Both tables have regimes and amplitudes.
+        Table of a sweep that varies the amplitude of two equal forces, with columns of regimes and amplitudes.
     band : dict
         Arguments of `sweeps.grid.axis`, along sigma_e_hat, for the band in which the best absorbers are tuned.
 
@@ -128,7 +128,7 @@ def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def linear_systems(system, pair, band: dict) -> dict:
-    """Return the linear systems for comparison, by name, under the forces `pair` divided by the larger of both."""
+    """Return the linear systems for comparison, by name, under the forces `pair` / max(`pair`)."""
     f10, f20 = (float(value / max(pair)) for value in pair)
     return _compared(system.with_(f10_hat=f10, f20_hat=f20), frequencies(system, band))
 

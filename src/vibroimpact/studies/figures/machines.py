@@ -99,11 +99,14 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
     shown : dict
         `L` [m], `frequency` [Hz] and `cycles` of the motion.
 
-    Returns "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz],
-    swing [mm]; "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (True at an impact); "summary", a row
-    per clearance: L [m]; frequency [Hz] of the largest swing; at this frequency, power [W] of the forces, share
-    (fraction of this power that impacts dissipate) and swing [mm]; force [N], the F10 for which L is the best of the
-    clearances. This force is proportional to L, since only the ratio L / F10 matters.
+    Returns three tables, in which swing is the largest displacement of the boxes:
+
+    - "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz], swing
+      [mm].
+    - "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (True at an impact).
+    - "summary", a row per clearance: L [m]; frequency [Hz] of the largest swing; at this frequency, power [W] of the
+      forces, share (fraction of this power that impacts dissipate) and swing [mm]; force [N], the F10 for which L would
+      be the best clearance. The best clearance is proportional to F10, since only the ratio L / F10 matters.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]

@@ -1,4 +1,4 @@
-"""Perturb an exact periodic motion by a millionth: growth of the distance, and the motion in which it ends."""
+"""Perturb an exact periodic motion by a millionth of the clearance, and simulate how the perturbation grows."""
 
 import io
 
@@ -41,13 +41,20 @@ COLUMNS = {
 
 
 def compute(system) -> dict:
-    """Perturb the most unstable of the exact orbits whose fixed points (10.26) calls stable, and simulate the motion.
+    """Perturb an unstable exact orbit whose fixed point is stable by (10.26), and simulate the motion.
 
-    Returns tables by name; times t are in forcing periods. "motion": columns t, X1, Y1, X2, Y2, with a row per sample
-    and event, so that straight lines between rows keep the corners at impacts; "impacts": columns t, module, wall;
-    "distance": columns t, distance (Euclidean, between state and orbit, once a period); "flights": columns t (end of a
-    flight of ball 2), length; "orbit": label, multiplier (largest modulus). If none of these orbits is unstable, the
-    tables have no rows.
+    If there are several such orbits, the most unstable one is perturbed. Without such an orbit, the tables have no
+    rows.
+
+    Returns tables by name, with times t in forcing periods:
+
+    - "motion": columns t, X1, Y1, X2, Y2, with a row for each sample and each event, so that a plot with straight lines
+      has corners at the impacts.
+    - "impacts": columns t, module, wall.
+    - "distance": columns t, distance (Euclidean distance between the states of the motion and of the orbit, once a
+      period).
+    - "flights": columns t (end of a flight of ball 2), length.
+    - "orbit": label (of the fixed point), multiplier (largest modulus).
     """
     label, orbit = _called_stable(system)
     if orbit is None:
@@ -97,9 +104,9 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
 
 
 def _called_stable(system):
-    """Return (label, orbit) of the most unstable exact orbit at the fixed points that (10.26) calls stable.
+    """Return the most unstable exact orbit whose fixed point is stable by (10.26), as (label of the point, orbit).
 
-    label: that of the fixed point. The result is (None, None) if none of these orbits is an unstable motion.
+    The result is (None, None) if no admissible orbit of such a fixed point is unstable.
     """
     points = fixed_points(system)
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))

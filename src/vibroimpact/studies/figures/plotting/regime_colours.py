@@ -1,4 +1,4 @@
-"""Colours and marks of the regimes in all figures; regimes next to each other in a map also differ in grey."""
+"""Colours and marks of the regimes in all figures; neighbouring regimes in a map remain distinct in greyscale."""
 
 import numpy as np
 import pandas as pd
