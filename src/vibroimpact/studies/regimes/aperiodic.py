@@ -31,7 +31,9 @@ CHAOTIC_REGIMES = {AT_TIMES: STRONGLY_MODULATED, ALWAYS: CHAOTIC, NEVER: HOPPING
 
 
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
-    """Return the regime of a motion that does not repeat, from `run` over whole cycles and from longer runs after it.
+    """Return the regime of the motion in `run`, which covers whole forcing cycles and does not repeat.
+
+    The Lyapunov exponent is estimated from one or two longer runs, which start from the final state of `run`.
 
     Parameters
     ----------
@@ -66,7 +68,8 @@ def sign(exponent: Measured) -> str:
 def resonance(shares) -> str:
     """Return NEVER, AT_TIMES or ALWAYS, from the share of time that each module is in resonance, shape (2,).
 
-    The result is AT_TIMES if a module enters and leaves resonance, else ALWAYS if a module stays in resonance.
+    The result is AT_TIMES if a module enters and leaves resonance. Otherwise it is ALWAYS if a module stays in
+    resonance, and NEVER if no module is in resonance.
     """
     low, high = RESONANT
     shares = np.asarray(shares)

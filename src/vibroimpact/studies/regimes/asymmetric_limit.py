@@ -72,11 +72,11 @@ def leads_to(stations, points):
 
 
 def onset(stations) -> float:
-    """Return the epsilon at which the asymmetric orbit emanates from a symmetric one, or 0 if it is computed below 0.
+    """Return the epsilon at which the asymmetric orbit emanates from a symmetric one; a negative result is set to 0.
 
-    The polynomial epsilon(v^2) through the last stations (at most `_MOST_NODES`) is evaluated at v^2 = 0, where
-    the orbit is symmetric. A line through the last two stations instead would give only three correct digits if their
-    epsilons differ by a fifth.
+    The polynomial epsilon(v^2) through the last stations (at most `_MOST_NODES`) is evaluated at v^2 = 0, where the
+    orbit is symmetric. A straight line through the last two stations would give only three correct digits if epsilon
+    differs by 20 % between these stations.
     """
     last = stations[-_MOST_NODES:]
     epsilon = np.array([station.system.epsilon for station in last])

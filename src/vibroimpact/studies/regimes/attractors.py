@@ -68,7 +68,9 @@ class Basins:
     axes: dict[str, np.ndarray]
 
     def rows(self, number: int = 0) -> list[dict]:
-        """Return one row per initial state: varied coordinates (or number in the list), label and regime.
+        """Return one row per initial state: varied coordinates, label and regime.
+
+        For a list of initial states, the position of the state in the list takes the place of the coordinates.
 
         Parameters
         ----------
@@ -102,9 +104,9 @@ def attractors(system: System, states, observation: Observation | None = None, p
     states : array_like
         Initial states at tau = 0, shape (n, 8). An inactive module (as in `PhysicalSystem.single`) is put at rest.
     observation : Observation, optional
-        Length of the runs, see `Observation`: up to `rounds` times `cycles` forcing periods, until a motion repeats. At
-        equal forces most motions still change after 400 cycles, none after 2000. A ball that starts at rest may never
-        reach a wall (docs/howto.md).
+        Length of the runs, see `Observation`. Each run lasts until the motion repeats, but at most `rounds` times
+        `cycles` forcing periods. At equal forces, most motions still change after 400 forcing periods, none after 2000
+        (docs/howto.md). A ball that starts at rest may never reach a wall.
     progress : bool, default True
         Show on standard error, if it is a terminal, how many initial states are done.
 

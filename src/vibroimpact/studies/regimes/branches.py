@@ -59,12 +59,12 @@ class Node:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch(Representation):
-    """A piece of a solution curve, with its nodes in order along the curve.
+    """A part of a solution curve, with its nodes in order along the curve.
 
     If the curve is closed, the first node is also the last.
 
-    places: points of the curve with their tangents; one for each node that is not special, and at most one more at each
-    end of the curve.
+    places: points of the curve with their tangents. Each node that is not a special point has a place. There may be one
+    more place at each end of the curve.
     """
 
     family: object
@@ -84,9 +84,10 @@ class Branch(Representation):
         return [node for node in self.nodes if node.kind]
 
     def pieces(self) -> list[tuple[Node, list[Node]]]:
-        """Return the pieces between special points, each as (inner node, list of all its nodes with both ends).
+        """Return the pieces of the branch between special points, each as (inner node, list of all nodes of the piece).
 
-        The inner node is one that is not special; its stability is that of the piece.
+        The list includes the nodes at both ends of the piece. The inner node is a node that is not a special point; the
+        whole piece has the stability of this node.
         """
         cuts = [k for k, node in enumerate(self.nodes) if node.kind]
         found, inner = [], None
@@ -111,12 +112,12 @@ class Branch(Representation):
 def branches(
     family, path: Path, interval, seeds: Iterable[float], longest: float, symmetric: Iterable[Branch] = ()
 ) -> list[Branch]:
-    """Return the branches of a family that pass a seed (a value of p), and those that emanate from them.
+    """Return the branches of a family that pass a seed (a value of p), and the branches that emanate from these.
 
-    A branch ends at the ends of the interval, where a ball speed vanishes, or where the continuation loses it. A branch
-    of asymmetric motions also ends at a symmetric motion, where it meets its mirror image. Of two mirror images, only
-    one is followed. A branch that neither passes a seed nor emanates from another branch is missed. A seed at which the
-    search for roots fails is skipped with a warning.
+    A branch ends at an end of the interval, where a ball speed vanishes, or where the continuation finds no further
+    point. A branch of asymmetric motions also ends at a symmetric motion, where the branch meets its mirror image. Of
+    two mirror images, only one is followed. A branch that neither passes a seed nor emanates from another branch is
+    missed. A seed at which the search for roots fails is skipped with a warning.
 
     Parameters
     ----------
@@ -154,7 +155,7 @@ def branches(
         if new and not any(curve.passes(branch.places, z) for branch in found):
             try:
                 nodes, places = curve.both_ways(z, half)
-            except Lost as error:  # for example, if a module is inactive here but active close by
+            except Lost as error:  # for example, if a module is inactive at this p, but active at nearby p
                 at = f"{' = '.join(path.names)} = {z[-1]:.6g}"
                 warnings.warn(f"{family.name}: skipped the branch through {at}: {error}", stacklevel=3)
                 continue
@@ -224,7 +225,7 @@ def _half(family, path, interval, curve, longest, start):
 
 
 def _crossing(family, system, z):
-    """Return the kind of special point of a branch point z: SYMMETRY_BREAKING where asymmetric motions begin."""
+    """Return SYMMETRY_BREAKING for a branch point z where asymmetric orbits become symmetric, else BRANCH_POINT."""
     merging = family is AsymmetricOrbits and family.is_symmetric(system, z[:-1])
     return SYMMETRY_BREAKING if merging else BRANCH_POINT
 

@@ -108,12 +108,12 @@ def _attracting(system, state, cycles, reach):
 
 
 def _approaches(run, motion, repeats, multiplier):
-    """Return True if a run has reached an attracting periodic motion, or approaches it when it is continued.
+    """Return True if a run has reached an attracting periodic motion, or approaches the periodic motion.
 
-    A chaotic run can pass a periodic motion and repeat there, with differences up to `nearness`, without being in the
-    basin of this motion. So the run is continued for the time in which, as the largest multiplier predicts, its
-    distance from the periodic motion shrinks by the factor _SHRUNK. The distance has to shrink at half of the predicted
-    exponential rate or faster.
+    A chaotic run can stay close to a periodic motion for some cycles, and thus seem to repeat, without being in the
+    basin of this motion. So the run is continued. The largest multiplier of the periodic motion predicts the number of
+    cycles after which the distance from this motion has shrunk by the factor _SHRUNK; the run is continued for this
+    number of cycles. The distance must shrink at half of the predicted exponential rate or faster.
 
     motion: a window of the periodic motion, which repeats after `repeats` cycles. The window starts next to the
     final state of the run.
@@ -141,9 +141,10 @@ def classify(run: Run) -> tuple[str, int | None]:
 
     run: has samples every half period, both ends included.
 
-    A ball is idle if it is at rest throughout; a ball that drifts, however slowly, will hit a wall. If all balls are
-    at rest and the boxes repeat, there are no impacts. A 1:1 response repeats every cycle, with one impact at each wall
-    of each module. It is symmetric if all displacements change sign after half a period. Inactive modules are ignored.
+    A ball is idle if it is at rest in all samples; a ball that drifts, however slowly, will hit a wall. If all balls
+    are idle and the motion of the boxes repeats, the regime is NO_IMPACTS. A 1:1 response repeats every cycle, with one
+    impact at each wall of each module. A 1:1 response is symmetric if all displacements change sign after half a
+    period. Inactive modules are ignored.
     """
     displacements = run.samples[:, :4]
     repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)

@@ -2,13 +2,14 @@
 
 A step goes from a point z = (x, p) along the tangent; then Newton's method corrects x at constant p. Where the tangent
 has only a small component along p, the correction is in the plane normal to the tangent instead, so that folds in p are
-passed like any other point. A special point is where a given function changes sign along the curve. This zero is found
-by Brent's method in the arclength. Every evaluation is at a root of F accurate to rounding, so the zero is as accurate
-as the function itself.
+passed like any other point. At a special point, a given test function changes sign along the curve. Brent's method in
+the arclength finds the zero of the test function. Every evaluation is at a root of F accurate to rounding, so the zero
+is as accurate as the test function itself.
 
-Branches cross where the determinant of [[dF/dz], [tangent]] changes sign. Newton's method is ill-conditioned there, so
-a branch point is bracketed by bisection in the arclength and stepped over. The branches through it are found on a small
-circle in the plane of both null vectors: a branch crosses the circle where the component of F along the left null
+Branches cross at a branch point, where the determinant of [[dF/dz], [tangent]] changes sign. Newton's method is
+ill-conditioned there, so the branch point is bracketed by bisection in the arclength and stepped over. At the branch
+point, dF/dz has two null vectors and one left null vector. The branches are found on a small circle around the branch
+point, in the plane of the two null vectors. A branch crosses the circle where the component of F along the left null
 vector vanishes (Lyapunov and Schmidt).
 """
 
@@ -34,8 +35,10 @@ _REFINED = 1e-10
 # is costlier at a new p than at a new x.
 _STEEP = 0.2
 _TURN = 0.15  # radians by which the tangent may turn in one step
-_SHORTEST = 1e-7  # shortest step; the curve is lost where a shorter one is needed
-_RESOLVED = 1e-6  # arclength at which bisection ends; this far from a branch point Newton's method keeps 10 digits
+_SHORTEST = 1e-7  # shortest step; if this step is still too long, the continuation ends, except at a corner
+# Bisection ends when the arclength between its two points is below this value. At this distance from a branch point,
+# Newton's method still gives 10 digits.
+_RESOLVED = 1e-6
 _SINGULAR = 1e-5  # relative size up to which a singular value is 0 within rounding
 _CORNER = 1e-5  # length of a step past a corner of the curve, where dF/dz jumps
 _CIRCLE, _ANGLES = 1e-4, np.linspace(0.0, 2 * np.pi, 97)
@@ -148,15 +151,15 @@ class Curve:
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
         try:
             return self.step(place, brentq(lambda s: function(self.step(place, s)), 0.0, reach, xtol=1e-15, rtol=1e-14))
-        except (Lost, ValueError):  # steps can fail near a branch point or across a corner
+        except (Lost, ValueError):  # steps can fail near a branch point or a jump of dF/dz
             after, sign = self.place(end, place.tangent), np.sign(function(place.z))
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
         """Return the points and places of the whole curve through a root z, in order; a closed curve is traced once.
 
-        half(start) returns the points and places from the Place `start` in the direction of its tangent. The root is
-        refined first, since a multiple root is known to half of the digits only.
+        half(start) returns the points and places from the Place `start` in the direction of its tangent. The root z is
+        refined first, since only half of its digits may be correct if z is a multiple root.
         """
         for _ in range(_STEPS):
             change = np.linalg.lstsq(self._by_z(z), self.equations(z[:-1], z[-1])[0])[0]
@@ -175,14 +178,17 @@ class Curve:
         return any(self.image_on_segment(*pair, z) is not None for pair in pairwise(places))
 
     def image_on_segment(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
-        """Return that image of a root z which lies on the curve between neighbours `place` and `after`, or None."""
+        """Return the image of a root z on the curve between the neighbouring places `place` and `after`, or None.
+
+        `self.images` returns the images of z, which describe the same motion as z.
+        """
         chord = after.z - place.z
         length = np.linalg.norm(chord)
         for image in self.images(z, place.z):
             along = chord @ (image - place.z) / length
             aside = np.linalg.norm(image - place.z - along / length * chord)
             if -_RESOLVED < along < length + _RESOLVED and aside < _TURN * length + _RESOLVED:
-                # Near a branch point a long step may end on the other branch.
+                # If a long step near a branch point ends on a wrong branch, bisection finds the place.
                 found = self._place_at(place, image) or self._bisected(
                     place, after, lambda at, z=image: at.tangent @ (z - at.z) > 0
                 )
@@ -291,14 +297,14 @@ class Curve:
     def _bisected(self, place, after, before: Callable):
         """Return two places between `place` and `after`, less than _RESOLVED apart, found by bisection of the curve.
 
-        before(middle) is True for the first of the two returned places and for all places of the curve before it. If no
-        step leads on from a singular place, the bisection stops there. The result is None if the curve does not join
-        `place` and `after`.
+        The bisection finds where the function `before` changes: before(at) is True for every place `at` up to the first
+        returned place, and False from the second returned place on. The bisection ends early at a singular place from
+        which no step succeeds. The result is None if the curve does not join `place` and `after`.
         """
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
                 return None
-            # If a fraction leads to a branch point, where Newton's method fails, the next fraction is tried.
+            # If a step ends near a branch point, where Newton's method fails, a step of another length is tried.
             steps = (self._next(place, part * length) for part in (0.5, 0.4, 0.6))
             middle = next(filter(None, steps), None)
             if middle is None:

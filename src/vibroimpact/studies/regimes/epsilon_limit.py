@@ -16,10 +16,12 @@ class Comparison:
     """A fixed point and the exact orbit next to it, at one epsilon.
 
     offset: coordinates of the orbit minus those of the fixed point. For a symmetric orbit, the coordinates are C and
-    the impact phase [rad] of each module, (4,). distance: norm of the offset.
-    multipliers, predicted_multipliers: (8,) complex; those of the exact orbit, and those predicted by slow flow (first
-    four) and impact map (last four). The exact multipliers are in the order that brings them closest to the predicted.
-    rates, predicted: log(mu) / (epsilon 2 pi / Omega) of the first four multipliers mu, exact and by the slow flow.
+        the impact phase [rad] of each module, (4,).
+    predicted_multipliers: multipliers predicted by the slow flow (first four) and by the impact map (last four), (8,)
+        complex.
+    multipliers: multipliers of the exact orbit, (8,) complex. Entry k is paired with `predicted_multipliers[k]`.
+    rates: log(mu) / (epsilon 2 pi / Omega) for the first four multipliers mu of the exact orbit.
+    predicted: eigenvalues of the slow flow, which predict `rates`.
 
     For a single machine all arrays have half as many entries.
     """

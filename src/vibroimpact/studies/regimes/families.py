@@ -7,8 +7,9 @@ For a symmetric orbit mu are the multipliers over half a period followed by mirr
 A symmetric orbit cannot double its period before its symmetry breaks (Swift and Wiesenfeld 1984). Folds and branch
 points (mu = 1) are found by the continuation instead.
 
-The unknowns of an inactive module (not in `System.modules`) are held at the constants `rest`: angles at 0; sizes, C_i
-or I_i, at 1, so that a size of 0 always means a ball without speed. The amplitude of such a module is NaN.
+The unknowns of an inactive module (not in `System.modules`) have the constant values `rest`: its angles are 0, and its
+C_i or I_i is 1, so that C_i = 0 or I_i = 0 always means a ball without speed. The amplitude of an inactive module is
+NaN.
 """
 
 from itertools import combinations
@@ -55,7 +56,7 @@ class SymmetricOrbits:
 
     @classmethod
     def equations(cls, system, x):
-        """Return the residual (d,) and Jacobian (d, d) at x, (d,), of the conditions of the exact orbits.
+        """Return the residual (d,) and Jacobian (d, d) of the conditions of exact orbits, at the unknowns x, (d,).
 
         Raises
         ------
@@ -99,7 +100,10 @@ class SymmetricOrbits:
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Return True if a zero of the test `kind` is a special point; for Neimark-Sacker, the pair must be complex."""
+        """Return True if a zero of the test function `kind` is a special point.
+
+        For Neimark-Sacker, two complex conjugate multipliers must be on the unit circle.
+        """
         mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
 
@@ -127,7 +131,7 @@ class AsymmetricOrbits(SymmetricOrbits):
 
     @staticmethod
     def is_symmetric(system, x) -> bool:
-        """Return True if all flights of the motion x are equal, where a branch meets its mirror image."""
+        """Return True if all flights of the motion x take the same time, so that x is its own mirror image."""
         return bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
     @staticmethod
@@ -219,7 +223,10 @@ class FixedPoints:
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Return True if a zero of the test `kind` is a special point; for Hopf, the pair must be complex."""
+        """Return True if a zero of the test function `kind` is a special point.
+
+        For Hopf, two complex conjugate eigenvalues must be on the imaginary axis.
+        """
         values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
 
@@ -253,7 +260,7 @@ def _of_modules(system, values):
 def _require_both_modules(family, system, x):
     """Raise Lost if both modules are active, but in the response x only one of them has impacts.
 
-    The unknowns of the other module then have the values of an inactive module, `family.rest`.
+    In such an x, the unknowns of the module without impacts have the values of an inactive module, `family.rest`.
 
     Raises
     ------
