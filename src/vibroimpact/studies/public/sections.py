@@ -8,7 +8,7 @@ from vibroimpact.system.arguments import whole
 from vibroimpact.system.progress import track
 from vibroimpact.system.state import active_mask
 
-_STEP = 100  # cycles of the transient per line of progress
+_STEP = 100  # number of transient cycles in a step of the progress display
 
 
 def sections(systems, states, cycles: int, settle: int = 0, progress: bool = True) -> np.ndarray:

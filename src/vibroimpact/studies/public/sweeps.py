@@ -43,12 +43,12 @@ def sweep(
     observe : sequence of str
         Names of observations. The following ones simulate all initial states: "amplitudes" (largest |X_i|, root mean
         square, mean ball speeds), "energy" (energy that impacts dissipate, divided by the work of the forces), "peaks"
-        (displacement that one cycle in a hundred exceeds, at the worst point of a band) and "regimes" (share of the
+        (displacement that one cycle in a hundred exceeds, at its highest along `band`) and "regimes" (share of the
         initial states that end in each regime, and the regime reached from rest). "fixed_points" (number of fixed
         points of the theory, and how many of them are stable) does not simulate.
     starts : int, default 5
-        Number of initial states, evenly spread, the first at rest. A ball that starts at rest may stay idle, although
-        it moves from any other initial state.
+        Number of initial states, evenly spread, the first at rest. From rest, a ball may stay idle that would hit the
+        walls from all other initial states.
     seed : int, default 0
         Seed of the scrambling of the initial states.
     cycles : int, default 1000
