@@ -314,8 +314,8 @@ class _Measured:
 class _Study:
     """Simulations of one machine over a band, with their frequencies, numbers of cycles and initial states.
 
-    machine: the machine with the force |F|, driven at its natural frequency, with a clearance of 1 m. system: its
-    dimensionless form, whose displacements are therefore in metres.
+    machine: the machine with the force |F|, driven at its natural frequency, with a clearance of 1 m. system: the
+    dimensionless form of `machine`. Its displacements are in units of the clearance, so that they are values in metres.
     """
 
     def __init__(self, machine, band):
@@ -328,7 +328,7 @@ class _Study:
                 "one of F, base and unbalance other than 0"
             )
         natural = {"omega1": machine.omega10, "omega2": machine.omega10}
-        # Only |F| is used: with -F, the same results would need mirrored initial states.
+        # The sign of F is dropped: from the same initial states, F and -F would give slightly different results.
         self.machine = replace(machine, F10=abs(machine.F10), L=1.0, **natural)
         self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
