@@ -182,9 +182,18 @@ def test_planes_without_fixed_points_show_the_manifold_and_other_planes_contain_
     points = fixed_point_table("", EQUAL)
     empty = fig10_06.compute(EQUAL, points.iloc[:0], (2.0, 3.5))
     assert set(empty["series"]) == {"SIM stable", "SIM unstable"}
-    assert len(fig10_06.draw(empty).axes) == 2
     short = fig10_06.compute(EQUAL, points, 1.2)
     assert short[short["series"] == "SIM stable"].groupby("panel")["C"].max()["a2"] > points["C2"].max()
+
+
+@pytest.mark.parametrize("ends", [(2.0, 3.5), (3.5, 2.0)])
+def test_each_plane_has_its_own_right_end_and_shows_its_whole_manifold(ends):
+    planes = fig10_06.draw(fig10_06.compute(EQUAL, fixed_point_table("", EQUAL).iloc[:0], ends)).axes
+    assert [axes.get_xlim() for axes in planes] == [(0, end) for end in ends]
+    for axes in planes:
+        C, B = np.concatenate([line.get_xydata() for line in axes.lines]).T
+        assert C.max() == axes.get_xlim()[1]
+        assert B.max() < axes.get_ylim()[1]
 
 
 POINTS = fixed_point_table("", EQUAL)

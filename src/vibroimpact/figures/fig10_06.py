@@ -134,7 +134,7 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
     """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + MARGINS)
-    grid = figure.subplots(len(labels), len(MODULES), sharex=True, sharey=True, squeeze=False)
+    grid = figure.subplots(len(labels), len(MODULES), sharex="col", sharey=True, squeeze=False)
     names = {}
     for row, label in zip(grid, labels, strict=True):
         by_limit, printed = verdict(table, label), (chapter or {}).get(label)
@@ -185,10 +185,10 @@ def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
     """Draw the plane (C_i, B_i) of one panel; return entries for the argument `panels` of `name_curves`."""
     module = panel[-1]
-    stable = select(table, panel, "SIM stable")
-    end, top = stable.iloc[-1], max(stable["B"].iloc[-1], select(table, panel, "SIM unstable")["B"].iloc[0])
+    end = select(table, panel, "SIM stable")["C"].iloc[-1]
+    top = table["B"][table["series"].str.startswith("SIM")].max()
     # Round the limit, since a rounding error in it can change Matplotlib's ticks.
-    axes.set(xlim=(0.0, round(end["C"], 9)), ylim=(0.0, 1.08 * top), ylabel=f"$B_{module}$")
+    axes.set(xlim=(0.0, round(end, 9)), ylim=(0.0, 1.08 * top), ylabel=f"$B_{module}$")
     axes.locator_params(nbins=4, steps=[1, 2, 5, 10])
     points = [
         (kind, C, B) for kind in MARKERS for C, B in select(table, panel, f"{kind}_{module}")[["C", "B"]].to_numpy()

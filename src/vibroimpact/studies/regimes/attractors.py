@@ -105,8 +105,8 @@ def attractors(system: System, states, observation: Observation | None = None, p
         Initial states at tau = 0, shape (n, 8). An inactive module (as in `PhysicalSystem.single`) is put at rest.
     observation : Observation, optional
         Length of the runs, see `Observation`. Each run lasts until the motion repeats, but at most `rounds` times
-        `cycles` forcing periods. At equal forces, most motions still change after 400 forcing periods, none after 2000
-        (docs/howto.md). A ball that starts at rest may never reach a wall.
+        `cycles` forcing periods. Of 225 motions at equal forces, 210 still change by more than 1e-6 per forcing period
+        after 400 periods, none after 2000. A ball that starts at rest may never reach a wall.
     progress : bool, default True
         Show on standard error, if it is a terminal, how many initial states are done.
 
