@@ -1,7 +1,8 @@
-"""Tabulate Taylor polynomials of the flow at many equally spaced times, with exp(A t) rounded only once.
+"""Tabulate Taylor polynomials of the linear flow z' = A z at many equally spaced times.
 
-The computation uses double-double numbers ("pairs"): a float and its remainder (Dekker 1971). Matrices of pairs at many
-times have shape (2, 6, 6, times), so that the processor multiplies the matrices at several times at once.
+The matrices exp(A t) are computed with double-double numbers ("pairs"), each a float and its remainder (Dekker 1971).
+They are rounded to floats only at the end. Matrices in pairs have shape (2, 6, 6, times). The times are the last axis,
+so that one vector instruction computes a matrix entry at several times.
 """
 
 import math
@@ -12,7 +13,7 @@ from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.vectors import fused
 
 SIZE, BOXES = 6, 4  # length of z = [X1, X2, X1', X2', sin, cos], and number of its entries for the boxes
-TERMS = 20  # number of terms in the exponential series; over one spacing the next term is below 1e-40
+TERMS = 20  # number of terms in the series of exp(A h), h the spacing of a flow table; the next term is below 1e-40
 ORDERS = 8  # number of coefficients in a Taylor polynomial
 
 
@@ -24,8 +25,8 @@ def exact_rates(parameters):
     (n, 2, 4, 6, 6). Velocity changes: (1 + kappa) / (1 + epsilon) as pairs, (n, 2), the velocity change of a ball at an
     impact per unit of relative velocity. Fastest rates: due to stiffness and due to damping, (n, 2).
 
-    If the entries were rounded to one float each, the forces of a stiff coupling would not cancel exactly when both
-    boxes move equally. The lower natural frequency would then be shifted.
+    If the entries of the rate matrices were rounded to single floats, the forces of a stiff coupling would not cancel
+    exactly when both boxes move equally. This would shift the lower natural frequency.
     """
     n = len(parameters)
     rates, impulses, fastest = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2)), np.empty((n, 2))
@@ -76,13 +77,13 @@ def _ratio(high, low, other, other_low):
 
 
 def tables(rates, spacing, count):
-    """Return (series, rotations): tables at the times j h, j < count, for k rate matrices A, z' = A z.
+    """Return (series, rotations): tables of the flow z' = A z at the times j h, j < count, for k rate matrices A.
 
-    rates: the matrices in pairs, (2, k, 6, 6). spacing: h, a power of two. count: at least 2.
+    rates: the matrices A in pairs, (2, k, 6, 6). spacing: the time step h, a power of two. count: at least 2.
 
-    series (k, count, 6, 16): for each initial unit vector of z, the Taylor coefficients X_i^(m) / m! of both boxes at
-    index 8 i + m, i = 0, 1. The positions and velocities (m = 0, 1) are exp(A j h) to rounding. rotations (count, 2):
-    cosine and sine of the forcing phase.
+    series (k, count, 6, 16): Taylor coefficients of both boxes for each initial unit vector z. The coefficient of order
+    m is at index m for X_1 and at 8 + m for X_2. The coefficients of order 0 and 1 (positions and velocities) are the
+    entries of exp(A j h) to rounding. rotations (count, 2): cosine and sine of the forcing phase.
     """
     series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     for mode in range(rates.shape[1]):
@@ -92,7 +93,10 @@ def tables(rates, spacing, count):
 
 @compiled
 def fill_table(rates, mode, spacing, series, rotations, step, change):
-    """Write series[mode] and rotations as in `tables`; write exp(A step h) - I, as pairs, to `change` (2, 6, 6)."""
+    """Write series[mode] and rotations as in `tables`, and exp(A t) - I at t = step * spacing to `change`.
+
+    change: a matrix in pairs, (2, 6, 6).
+    """
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
@@ -145,9 +149,9 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
 
 @inlined_source
 def _fill_coefficients(rates, k, rows, power, after):
-    """Write the Taylor coefficients of both boxes for each initial unit vector of z, z' = A_k z, to `rows` (6, 16).
+    """Write the Taylor coefficients of both boxes at time 0 to `rows` (6, 16), one row for each initial unit vector z.
 
-    X_i^(m) / m! is at index 8 i + m, i = 0, 1.
+    The flow is z' = A_k z. The coefficient of order m is at index m for X_1 and at 8 + m for X_2.
 
     power, after: workspace, (2, 6, 6, 1).
     """
@@ -196,7 +200,10 @@ def _multiply(powers, last, many):
 
 @inlined
 def _entries(powers, last, many, i, j, first, end):
-    """Write entry (i, j) of the `many` new powers; only terms n with first <= n < end are nonzero."""
+    """Write entry (i, j) of the `many` new powers.
+
+    The matrix products are sums over n with first <= n < end, since all other terms are zero.
+    """
     for time in range(1, many + 1):
         high, low = 0.0, 0.0
         for n in range(first, end):

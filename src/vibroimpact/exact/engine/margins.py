@@ -1,11 +1,12 @@
 """Measure how far a run is from a different event sequence, at every event and every turn.
 
-A turn is a minimum of the gap between a ball and a wall, or of the contact force on a sticking ball. A flight is cut
-into pieces in which the rate of each constraint, or the derivative of this rate, certainly keeps its sign. Each piece
-then has at most one turn, which the signs of the rate at both ends show. The sign is proved as for the flight itself
-(exclusion): from Taylor polynomials and a bound on the seventh derivative of the boxes, in the Bernstein basis.
+The constraint of a module is the gap between ball and wall while the ball flies, and the contact force while the ball
+sticks. A turn is a minimum of a constraint. To find all turns, a flight is cut into pieces in which the rate of the
+constraint, or the derivative of this rate, certainly keeps its sign. A piece therefore has at most one turn, which is
+found from the signs of the rate at both ends. That a sign is kept is proved as in `exclusion`, from Bernstein
+coefficients of Taylor polynomials and a bound on the seventh derivative of the boxes.
 
-A margin is given as the error of the state that would change the event sequence.
+A margin is the smallest error of the state that would change the event sequence.
 """
 
 import math
@@ -27,20 +28,20 @@ from vibroimpact.exact.engine.flow import advance, advance_phase, inverse_masses
 from vibroimpact.exact.engine.variation import FORCING, LENGTH, completes_chatter, end_of, start_of
 from vibroimpact.system.state import IMPACT, RELEASE
 
-SHORTEST = 1e-9  # in units of `Flow.unit`; in a shorter piece the motion is below rounding
-TURN_TOLERANCE = 1e-10  # in units of `Flow.unit`; half the digits suffice, since a gap is stationary at its turn
-NEGLIGIBLE_DOUBT = 1e-17  # a smaller uncertainty of a constraint is below rounding
+SHORTEST = 1e-9  # shortest piece of a flight, in units of `Flow.unit`; the motion in a shorter piece is below rounding
+TURN_TOLERANCE = 1e-10  # of the time of a turn, in units of `Flow.unit`; the error of the gap is of second order
+NEGLIGIBLE_DOUBT = 1e-17  # a smaller bound on the error of a gap or contact force is below rounding
 MOST_STEPS = 60
 GAP, FORCE, DOUBTS = 0, 1, 2
 
 
 @compiled
 def turning_points(flow, flights):
-    """For each flight, return the least gap, the least force and the number of doubtful turns, rows (m + 1, 3).
+    """Return the least gap, the least force and the number of doubtful turns of each flight, shape (m + 1, 3).
 
-    A turn is a minimum of a gap or of a contact force in the flight. The result contains the least gap and the least
-    contact force (per unit of ball mass) at the turns, inf without turns. A turn is doubtful if rounding decides
-    whether the ball misses the wall (DOUBT_FACTOR).
+    A turn is a minimum of a gap or of a contact force in the flight. The least gap and the least contact force (per
+    unit of ball mass) are taken over the turns; they are inf if there is no turn. A turn is doubtful if rounding
+    decides whether the ball misses the wall (DOUBT_FACTOR).
     """
     turns = np.empty((len(flights), 3))
     for n in range(len(flights)):
@@ -58,7 +59,10 @@ def turning_points(flow, flights):
 
 @inlined_source
 def _search(flow, motion, length, least_of):
-    """Record the turns in a flight of length <= flow.longest in `least_of`; return the final boxes and balls."""
+    """Update `least_of` with the turns in a flight of length <= flow.longest; return the final boxes and balls.
+
+    least_of (3,): row of the flight in the result of `turning_points`.
+    """
     q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
     now, there, t = motion.boxes, motion.balls, 0.0
@@ -90,10 +94,11 @@ def _search(flow, motion, length, least_of):
 
 @inlined
 def _rate(q, jets, boxes, balls, walls, i, bound):
-    """Return (polynomial (8,), bounds (8,) on its error) for the rate of the constraint of module i, up to the sign.
+    """Return the Taylor polynomial (8,) of a rate in module i, and bounds (8,) on the error of its coefficients.
 
-    The constraint is the gap if the ball flies, and the acceleration of the box if the ball sticks. Just after a
-    release the rate of the gap is zero. The derivative of this rate is then set to 0 if it is zero within rounding.
+    If the ball flies, the rate is X_i' - Y_i', which is the rate of the gap up to the sign. If the ball sticks, the
+    rate is that of the acceleration X_i''. Just after a release X_i' - Y_i' is 0; its derivative is then also set to 0
+    if the derivative is 0 within rounding.
     """
     p = jets[0] if i == 0 else jets[1]
     if walls[i] != 0:
@@ -118,7 +123,10 @@ def _turns_once(rate, doubt, t):
 
 @inlined
 def _one_sign(c, e, t):
-    """Return True if all polynomials within c +- e, (8,), are certainly >= 0, or all <= 0, on [0, t]."""
+    """Return True if all polynomials with coefficients from c - e to c + e are certainly >= 0, or all <= 0, on [0, t].
+
+    c, e: coefficients and bounds on their errors, (8,).
+    """
     return least(_minus(c, e), t) >= 0.0 or least(_minus(_minus((0.0,) * 8, c), e), t) >= 0.0
 
 
@@ -134,9 +142,9 @@ def _derivative(c):
 
 @inlined_source
 def _note(flow, motion, i, times, rates, least_of):
-    """Find where the rate of module i's constraint is zero between two `times`; record a minimum in `least_of`.
+    """Find the time between `times` at which the rate of module i (`_rate`) is zero; record a minimum in `least_of`.
 
-    rates: rates of the constraint at the two times, which have opposite signs.
+    times, rates: two times, and the rates at these times, which have opposite signs.
     """
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
     (low, high), (early, late) = times, rates
@@ -170,16 +178,17 @@ def _note(flow, motion, i, times, rates, least_of):
 
 @compiled
 def margins_of(q, flights, turns, events, start_phase, duration):
-    """Return the least margins at the start and end of each flight (m + 1, 2), and the depths and doubts of impacts.
+    """Return margins at the start and the end of each flight (m + 1, 2), and depths (m,) and doubts (m,) of the events.
 
-    Each margin is the error of the state that would lead to a change: another contact state at the start of the run; an
-    additional event at a turn (turning_points); a miss instead of an event (the depth), or an event only after the end
-    of the run; a different decision whether an impact releases the sticking ball in the other module; an additional
-    event at the end.
+    A margin is the smallest error of the state that would cause one of the following changes. At the start and the end:
+    an additional event at a turn (`turning_points`). At the start of the first flight: another contact state. At the
+    start of a flight after an impact: a different decision whether the impact releases the ball in the other module. At
+    the end of a flight: the next event does not happen, or only after the end of the run. At the end of the last
+    flight: an additional event before the end of the run.
 
-    Without the impact, a ball at relative speed u and deceleration b would reach the depth u^2 / (2 b) beyond the wall.
-    Without deceleration the depth is inf. The doubt is 1 if rounding decides whether the ball hits the wall, else 0.
-    Depths and doubts have the shape (m,); events other than impacts have depth inf and doubt 0.
+    The depth is u^2 / (2 b) for an impact with relative speed u and deceleration b: without the impact, the ball would
+    move so far beyond the wall. The depth is inf without deceleration, and for events other than impacts. The doubt is
+    1 if rounding decides whether the ball hits the wall, else 0.
     """
     margins = np.full((len(flights), 2), math.inf)
     depths, doubts = np.full(len(events), math.inf), np.zeros(len(events))
@@ -220,8 +229,8 @@ def _lower(margins, margin):
 def _of_event(q, walls, boxes, balls, events, n, force, left):
     """Return the error of the state at event n that would move the event to the end of the run, a time `left` later.
 
-    For a release, the result is also at most the error that would prevent the release. The result is inf for a stick
-    that does not complete a chatter.
+    For a release, return the smaller of this error and the error that would prevent the release. For a stick that does
+    not complete a chatter, return inf.
     """
     i, wall, kind = int(events[n, 1]) - 1, events[n, 2], events[n, 3]
     if kind == IMPACT:  # how far beyond the wall the ball would be at the end of the run without this impact
@@ -252,8 +261,8 @@ def _at_start(q, boxes, balls, phase):
 def _at_end(q, walls, boxes, balls, phase):
     """Return the error of the state at the end of the run that would cause another event before the end.
 
-    For a free ball that approaches a wall, this error is the gap. For a sticking ball whose contact force decreases, it
-    is `_force`. For any other ball it is inf. The smaller value of both balls is returned.
+    For a free ball that approaches a wall, the error is the gap. For a sticking ball whose contact force decreases, the
+    error is computed by `_force`. For any other ball, the error is inf. Return the smaller error of the two balls.
     """
     margin = math.inf
     for i in range(2):
@@ -268,7 +277,7 @@ def _at_end(q, walls, boxes, balls, phase):
 
 @inlined
 def _force(q, walls, boxes, phase, i):
-    """Return the acceleration of box i, divided by its change due to a unit error in the boxes (`_force_weight`)."""
+    """Return the acceleration of box i divided by `_force_weight`, which converts the acceleration to a state error."""
     return box_accelerations(q, walls, boxes, math.sin(phase))[i] / _force_weight(q, walls, i)
 
 

@@ -130,8 +130,8 @@ class Run(Representation):
     final : ndarray
         State at the end, shape (8,).
     pieces, counters : list of ndarray, ndarray
-        Events in the engine's form, as arrays (n, ROW), and the counters of the engine
-        (`vibroimpact.exact.engine.contact`).
+        Rows of the events, as arrays (n, ROW), and counters of the run; both are defined in
+        `vibroimpact.exact.engine.contact`.
     """
 
     system: System
@@ -163,7 +163,7 @@ class Run(Representation):
 
     @cached_property
     def rows(self) -> np.ndarray:
-        """Events in the engine's form, joined into one array (n, ROW)."""
+        """Rows of the events, as defined in `vibroimpact.exact.engine.contact`, joined into one array (n, ROW)."""
         rows = self.pieces[0] if len(self.pieces) == 1 else np.concatenate(self.pieces)
         self.pieces[:] = [rows]
         rows.flags.writeable = False
@@ -257,7 +257,7 @@ class Run(Representation):
         return self._sampled(self.system.period * np.arange(self.cycles + 1))
 
     def plot(self):
-        """Return a Matplotlib Figure with X_i, and with W_i = X_i - Y_i between the walls.
+        """Return a Matplotlib Figure with the time histories of X_i and of W_i = X_i - Y_i.
 
         The run is simulated again for the samples of the curves.
         """
@@ -266,7 +266,10 @@ class Run(Representation):
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
-        """Return the states at times `since` the start of a run; such times keep their digits even if tau0 is large."""
+        """Return the states at the times `since` (n,), measured from the start of the run.
+
+        Times from the start keep their digits even if tau0 is large.
+        """
         start = self.start.copy()  # a read-only array would trigger another compilation
         return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
 

@@ -2,9 +2,9 @@
 
 Perturbations are multiplied by the linear flow for a flight, and by the saltation matrix for an impact. A release
 leaves perturbations unchanged, since the contact force is zero at the release. If an impact forces a release, the
-saltation matrix of the impact includes the release. A completed chatter has its own derivative, so that infinitely many
-saltation matrices need not be multiplied. This file orders states as [boxes, balls]; PUBLIC_ORDER and INNER_ORDER
-convert between the orders.
+saltation matrix of the impact includes the release. For a completed chatter, one matrix replaces the product of
+infinitely many saltation matrices. This file orders states as [boxes, balls]. PUBLIC_ORDER and INNER_ORDER convert
+between this order and [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
 """
 
 import math
@@ -39,8 +39,9 @@ INNER_ORDER = np.argsort(PUBLIC_ORDER)
 def replayed(flow, start, events, start_phase, duration):
     """Return the flights of a run, rows (m + 1, COLUMNS): one before each event and one to the end of the run.
 
-    events: rows of the log. start (8,): initial state in public order. The flight before a stick that completes a
-    chatter has zero length, because the stick is applied at the last simulated impact, before the chatter ends.
+    events: rows of the log. start (8,): initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']. The flight before a stick
+    that completes a chatter has zero length, because the stick is applied at the last simulated impact, before the
+    chatter ends.
     """
     q, flights = flow.coefficients, np.zeros((len(events) + 1, COLUMNS))
     leaving = first_departure(start, start_phase)
@@ -71,7 +72,7 @@ class Departure(NamedTuple):
 
 @inlined
 def first_departure(start, phase):
-    """Return the `Departure` of the first flight of a run that starts from a state (8,) in public order."""
+    """Return the `Departure` of the first flight of a run from `start` = [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
     return Departure(
         (start[0], start[2], start[4], start[6]), (start[1], start[3], start[5], start[7]), (0, 0), 0.0, phase
     )
@@ -79,9 +80,10 @@ def first_departure(start, phase):
 
 @inlined
 def next_departure(q, events, n, leaving, end):
-    """Return the `Departure` after event n, given the `Departure` before it, `leaving`.
+    """Return the `Departure` of the flight after event n.
 
-    If there is no event n, the result is a copy of `leaving` with the time and phase of `end`, (time, phase).
+    leaving: `Departure` of the flight before event n. end: (time, phase) at the end of the run. If n is the number of
+    events, return `leaving` with its time and phase replaced by `end`.
     """
     if n == len(events):
         return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
@@ -134,7 +136,7 @@ def completes_chatter(events, n):
 
 
 def rests_at_start(events, n):
-    """Return True if event n is the stick, at the start of the run, of a ball that already rests on its wall."""
+    """Return True if event n is a stick at the start of the run, of a ball that already rests on its wall."""
     first = events[n, 0] == 0.0 and events[n, 3] == STICK
     for k in range(n):
         first = first and events[k, 1] != events[n, 1]
@@ -290,8 +292,9 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     For a completed chatter, inward = u and push = a as in `contact._hop`; otherwise both are 0.
 
     Box and ball keep their momentum and centre of mass. During the chatter, springs and dampers act on the box at its
-    actual position, not at the centre of mass. The time integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)), and that
-    of the gap's rate is minus the gap at the start of the chatter. Both contribute to first order in the perturbation.
+    actual position, not at the centre of mass. To first order in the perturbation, this adds two time integrals over
+    the chatter. The integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)). The integral of the rate of the gap is minus
+    the gap at the start of the chatter.
     """
     e = q.epsilon
     share = e / (1.0 + e)
@@ -340,8 +343,8 @@ def growth(run, frame: np.ndarray) -> Growth:
     run : Run
         A simulated motion.
     frame : ndarray
-        Perturbations as columns (8, k), in public order, with zeros in the rows of an inactive module
-        (`System.modules`).
+        Perturbations of [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] as columns, shape (8, k), with zeros in the rows of an
+        inactive module (`System.modules`).
     """
     flow, flights, events = run.trajectory
     factors, counts = np.empty((run.cycles, frame.shape[1])), np.zeros((run.cycles, 2), dtype=int)
@@ -352,10 +355,11 @@ def growth(run, frame: np.ndarray) -> Growth:
 
 @compiled
 def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, counts):
-    """Return the frame after the last cycle; fill factors (n, k) and counts (n, 2), which are initially 0.
+    """Return the perturbations `frame` (8, k) after the last cycle; fill `factors` (n, k) and `counts` (n, 2).
 
-    places: indices of the components in which the frame is not 0. Flights are cut at the ends of cycles; the
-    derivative of each piece depends only on the length of the piece and on the balls that stick.
+    counts: numbers of impacts and of sticking balls, as in `Growth`; initially 0. places: indices of the rows in which
+    the frame is not 0. Flights are cut at the ends of cycles. The derivative of each piece depends only on the length
+    of the piece and on the balls that stick.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(frame)
     cycle, elapsed = 0, 0.0
@@ -388,9 +392,9 @@ def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, 
 
 @compiled
 def _orthonormalize(a, places, sizes):
-    """Replace the rows of a (m, k) at the given places by Q from their QR decomposition, and sizes (k,) by |diag R|.
+    """Replace the rows `places` of the array `a` (m, k) by the factor Q of their QR decomposition.
 
-    The other rows are left out because they are 0, and QR would fill them with rounding errors.
+    Write |diag R| to `sizes` (k,). The other rows of `a` are 0; QR would fill them with rounding errors.
     """
     q, r = np.linalg.qr(a[places])
     for row in range(len(places)):

@@ -3,9 +3,9 @@
 This is the only file that generates code through Numba's internals. It is tested with Numba 0.68 and llvmlite 0.50;
 pyproject.toml excludes later versions.
 
-The sums of rows are written with vectors since the compiler would not vectorise them. `Lanes` is the type of eight
-floats. Each operation on it rounds like the operation on a float, so that a formula gives the same bits for both types.
-Comparisons return a `Mask`, with which `where` selects values.
+The weighted sums use vector instructions explicitly, since the compiler would not vectorise a loop. `Lanes` is the type
+of eight floats. An operation on `Lanes` rounds like the operation on a float, so that a formula gives the same bits for
+`Lanes` as for floats. Comparisons return a `Mask`, with which `where` selects values.
 """
 
 import math
