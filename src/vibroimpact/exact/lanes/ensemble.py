@@ -91,8 +91,8 @@ def ensemble(
     ndarray
         Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
         the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
-        observed cycles are nan. The averages and the largest |X_i| are exact to rounding, except for the largest |X_i|
-        of a box that hardly moves near the turning point (error up to 1e-5 of its path).
+        observed cycles are nan. The averages and the largest |X_i| are exact to rounding, with one exception: if a box
+        is almost at rest around a turning point, the error of its largest |X_i| may reach 1e-5 of the path of the box.
 
     Raises
     ------
@@ -156,8 +156,8 @@ def _combined(systems, states):
         shape = np.broadcast_shapes(systems.shape, states.shape[:-1])
     except ValueError:
         raise ValueError(
-            f"states: the shape {states.shape[:-1]} without the last axis does not broadcast with the shape "
-            f"{systems.shape} of systems"
+            f"states: the shape {states.shape}, without its last axis, must broadcast with the shape of systems, got "
+            f"{systems.shape} for systems"
         ) from None
     numbers = np.array(numbers, dtype=int).reshape(systems.shape)
     return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))
@@ -205,9 +205,9 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 def _single_run(system, state, begin, stages, final, statistics):
     """Compute a run outside the lanes; return its status, and write final states (k, 8) and statistics (k, STATISTICS).
 
-    Two kinds of systems need this: those with very different frequencies of boxes and forcing, where a flight in a lane
-    would consist of many steps, and those whose integrals would lose digits as differences of potentials
-    (`energy.Squares`).
+    Two kinds of systems are not simulated in lanes. If the frequencies of boxes and forcing are very different, a
+    flight in a lane would consist of too many steps. In other systems, integrals would lose digits if computed as
+    differences of potentials (`energy.Squares`).
     """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]

@@ -48,11 +48,14 @@ class Piece(NamedTuple):
 class Memory(NamedTuple):
     """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
-    For each lane: runs, constants: arrays with the rows defined in `rows`; members: index of the initial state, or -1;
-    slots: index of the slot with the flow tables of its system; counters: counters of its event log. For each slot:
-    owners: index of the system, or -1; made: contact states whose tables are computed; series, rotations: tables as
-    from `flow_tables.tables`; known: a column of `constants`. begun: number of initial states processed. work, log,
-    statistics, change: workspace.
+    For each lane: runs and constants have the rows defined in `rows`. members: index of the initial state, or -1.
+    slots: index of the slot in use. counters: counters of the event log.
+
+    A slot contains the flow tables of one system. For each slot: owners: index of the system, or -1. made: contact
+    states with computed tables. series, rotations: tables as from `flow_tables.tables`. known: constants of the system,
+    to be copied to a column of `constants`.
+
+    begun: number of initial states begun or skipped. work, log, statistics, change: workspace.
     """
 
     runs: np.ndarray
@@ -311,9 +314,9 @@ def _run_by_events(piece, flow, squares, lane, m):
 
 @inlined_source
 def _add_events(flow, squares, leaving, progress, lane, m):
-    """Add the statistics of the last events of a run in the event loop to the statistics in its lane.
+    """Add the statistics of the part of a run that `run_until` has just computed to the statistics in its lane.
 
-    leaving, progress: `Progress` before and after these events.
+    leaving, progress: `Progress` at the start and the end of this part.
     """
     noted, motion = int(m.counters[lane, EVENTS]), leaving.motion
     departure = Departure(motion.boxes, motion.balls, motion.walls, leaving.elapsed, leaving.phase)

@@ -62,7 +62,7 @@ DRIFTS: drift c of each integral (`energy.Squares`)
 DROPS: for each integral, the two rows of its matrix S (`energy.Squares`) for the velocities of the boxes
 """
 
-LONGEST_STEP = 0.52  # longest step, multiplied by the largest rate of boxes and forcing
+LONGEST_STEP = 0.52  # longest step of a lane, in units of 1 / (largest rate of boxes and forcing)
 ORDER = next(n for n in range(1, 99) if LONGEST_STEP**n / math.factorial(n - 1) < 2.0**-53)
 """Order n of the Taylor polynomials over a time t <= LONGEST_STEP / r, where r bounds the rates of boxes and forcing.
 

@@ -3,10 +3,10 @@
 In the lanes, statistics are added up flight by flight (`observe`); in the event loop, event by event
 (`accumulate_statistics`). Integrals are differences of potentials (`energy.Squares`).
 
-A turn is an instant at which a box reverses its motion. If the Bernstein coefficients of a step show that a turn may be
-the largest displacement of the box so far, the turn is stored, but not yet computed. A stored turn may be replaced by a
-larger turn. The remaining stored turns are computed later for all lanes together (`find_turns`), so that no lane has to
-wait.
+A turn is an instant at which a box reverses its motion. If the Bernstein coefficients of a step show that the box may
+reach its largest displacement so far at a turn, the turn is stored, but not yet computed. A stored turn may be replaced
+by a turn with a larger displacement. The remaining stored turns are computed later for all lanes together
+(`find_turns`), so that no lane has to wait.
 """
 
 import math
@@ -33,7 +33,7 @@ from vibroimpact.exact.lanes.rows import (
 )
 from vibroimpact.system.state import IMPACT
 
-PIECE = 4  # length in spacings of the flow table; a box turns at most once in a piece unless its velocity stays near 0
+PIECE = 4  # spacings of the flow table per piece of a flight; a box turns at most once in a piece unless almost at rest
 STEPS = 4  # number of Newton steps to find a turn
 
 
@@ -49,7 +49,7 @@ def accumulate_run(flow, squares, start, events, final, end, statistics):
 
 @in_place
 def accumulate_statistics(flow, squares, departure, events, count, arrival, statistics):
-    """Add the statistics of a part of a run to `statistics` (STATISTICS,), without the potentials at both ends.
+    """Add the statistics of a part of a run to `statistics` (STATISTICS,), except those added by `open_or_close`.
 
     departure: start of the part (`variation.Departure`). events, count: rows of the events in the part and number of
     these events. arrival: boxes, time and phase at the end of the part.
@@ -146,7 +146,9 @@ def _add_flight(flow, squares, motion, end, length, statistics):
 
 @inlined
 def _add_piece(p, low, high, i, wall, statistics):
-    """Add any turn of box i between the times `low` and `high`, and the path of a ball that sticks to the box.
+    """Update the statistics of module i with the motion of box i between the times `low` and `high`.
+
+    If the box turns, update its largest displacement. If the ball sticks to the box, add the path of the ball.
 
     p (8,): Taylor polynomial of the box.
     """
@@ -166,10 +168,15 @@ def _add_piece(p, low, high, i, wall, statistics):
 def observe(runs, c, work, integrals, flight, hits, early, arrival):
     """Add the statistics of a flight in each lane and of the impact at its end, if there is one.
 
-    flight: mask of the lanes with a flight, the length of its last step, its duration, and five times a bound on the
-    error of Hermite's polynomial in this step. hits: for each module, the lanes with an impact. early: boxes and
-    forcing before the last step. arrival: positions of the boxes after this step, box velocities before and after the
-    impact, ball velocities before the impact, and forcing.
+    flight: mask of the lanes with a flight, length of the last step, duration of the flight, and five times a bound on
+    the error of Hermite's polynomial in the last step.
+
+    hits: masks of the lanes with an impact, one mask for each module.
+
+    early: boxes and forcing at the start of the last step.
+
+    arrival: values at the end of the last step: box positions, box velocities before and after the impact, ball
+    velocities before the impact, and forcing.
     """
     (there, t, time, wrong), (boxes, late, after, balls, forcing) = flight, arrival
     watched, third = (load(runs, rows.WATCHED) > 0.0) & there, t * (1 / 3)
@@ -211,13 +218,15 @@ def may_turn_beyond(record, x, v, later, v_later, third):
 
 @inlined
 def keep_turns(runs, c, work, turns, wrong, early, late, step):
-    """Store those turns in a step that may be the largest displacements of the boxes.
+    """Store the turns in a step at which the boxes may reach their largest displacements.
 
-    If a lane already has a stored turn that may be larger than the new turn, all stored turns are computed first.
+    If a lane already has a stored turn that may have a larger displacement, all stored turns are computed first.
 
     early, late: boxes and forcing before and after the step. wrong: five times a bound on the error of Hermite's
-    polynomial. The polynomial is split near its turn, since the Bernstein coefficients of both parts are close to the
-    polynomial there.
+    polynomial.
+
+    Hermite's polynomial is split near its turn, since the Bernstein coefficients of the two parts are close bounds on
+    the displacement at the turn.
     """
     wrong = 0.2 * wrong
     for i in range(2):

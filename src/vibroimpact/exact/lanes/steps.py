@@ -1,17 +1,19 @@
 """Advance eight runs in parallel lanes through free flights and simple impacts; each lane has its own system.
 
-Between impacts each lane advances by its fixed step h, in which z becomes exp(A h) z (`advance_lanes`). Only the change
-of z is computed and added, so that its rounding error is small. A step needs a proof that no impact happens in it. The
-position w of a ball in its box and the rate r of w, at both ends of the step, define Hermite's cubic polynomial. Its
-hull is given by the Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step.
-With a bound B on the fourth derivative, the error of the polynomial is at most B h^4 s^2 (1 - s)^2 / 24 at the fraction
-s of the step. Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows
-from the energy of the boxes, which cannot grow by more than the work of the force.
+Between impacts each lane advances by its fixed step h (`advance_lanes`): z = [X1, X2, X1', X2', sin, cos] becomes
+exp(A h) z. Only the change of z is computed and added, so that the rounding error is small.
 
-Lanes whose step is not proved wait until they are numerous enough for a pass (`step_to_event`). In a pass, the Taylor
-polynomials of both boxes give the time of an impact, and the same hull proves that no impact happens before that time.
-If the proof fails, the next pass tries half the time. All other cases (chatter to be completed, balls at rest,
-simultaneous events, any doubt) are left to the event loop.
+A step needs a proof that no impact happens in it. The position w of a ball in its box and the rate r of w, at both ends
+of the step, define Hermite's cubic polynomial. This polynomial lies between the smallest and the largest of its
+Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step. With a bound B on the
+fourth derivative of w, the error of the polynomial is at most B h^4 s^2 (1 - s)^2 / 24 at the fraction s of the step.
+Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows from the energy
+of the boxes, which cannot grow by more than the work of the force.
+
+A lane without a proof for its next step waits. Once enough lanes wait, `step_to_event` advances all of them in one
+pass. In a pass, the Taylor polynomials of both boxes give the time of an impact. The Bernstein coefficients for the
+step that ends at this time prove that no impact happens earlier. If the proof fails, the next pass tries half the time.
+All other cases (chatter to be completed, balls at rest, simultaneous events, any doubt) are left to the event loop.
 
 The impact law is that of `vibroimpact.system.restitution`, which names its other implementations.
 """
@@ -45,7 +47,7 @@ STOPPED: the run has reached the end of a window. DOUBTFUL: the lane needs the e
 SHORTEST = 1 / 32  # if a proof over this fraction of a step or less fails, the event loop takes over
 LONGEST = 6.0  # forcing angle [rad], below a full turn, after which sine and cosine are computed again from the phase
 ROUNDED = 8.0 * 2.0**-52  # relative bound on the rounding error of a few operations
-SAME_TIME = 2.0**-48  # a run stops if no more time than this is left
+SAME_TIME = 2.0**-48  # a run stops if the time left until its stop is at most this
 
 
 @in_place
@@ -123,9 +125,10 @@ class Bodies(NamedTuple):
 class Contact(NamedTuple):
     """End of a step in each lane, which may be an impact.
 
-    time: duration of the step. meets: a ball meets a wall at the end. missed: a ball should meet a wall in the step,
-    but the time is not found. first: True if that ball belongs to module 1, else False. walls: the wall ahead of each
-    ball. at_once: the ball is on its wall at the start of the step.
+    time: duration of the step. meets: True if a ball meets a wall at the end of the step. missed: True if a ball should
+    meet a wall in the step, but the time of the impact is not found. first: True if the ball that meets (or should
+    meet) a wall is in module 1, False if it is in module 2. walls: wall that each ball approaches. at_once: True if a
+    ball is already on its wall at the start of the step, so that `time` is 0.
     """
 
     time: Lanes
@@ -137,7 +140,7 @@ class Contact(NamedTuple):
 
 
 class Clock(NamedTuple):
-    """Forcing phase with its tail, number of full turns, sine and cosine, and time left until the run stops."""
+    """Forcing phase, its rounding remainder, full turns, sine and cosine, and the time left until the run stops."""
 
     phase: Lanes
     tail: Lanes
@@ -149,7 +152,7 @@ class Clock(NamedTuple):
 
 @in_place
 def step_to_event(runs, c, work, integrals):
-    """Advance each waiting run to its next impact or, if it meets no wall so soon, by its trial step.
+    """Advance each waiting run by its trial step or, if an impact happens in this step, to the impact.
 
     If an impact before the end of the step cannot be excluded, the run stays where it is, and its next trial step is
     half as long. Returns the number of runs that need the event loop or have reached the end of a window.
@@ -204,7 +207,7 @@ def step_to_event(runs, c, work, integrals):
 
 @inlined
 def _locate(runs, c, work, now, leaves):
-    """Return the Contact at the end of a step: when the first ball meets a wall, or after the longest allowed time."""
+    """Return the Contact at the end of a step, which ends at the next impact or after the longest allowed time."""
     x1, x2, v1, v2, y1, y2, u1, u2 = now
     (touch1, touch2), (s, k) = load_rows(runs, rows.TOUCH1, 2), load_rows(runs, rows.SINE, 2)
     due, step = load(runs, rows.DUE), load(c, rows.STEP)
