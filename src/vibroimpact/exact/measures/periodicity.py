@@ -48,7 +48,7 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
         window = len(displacements) / per_cycle
-        raise ValueError(f"cycles: needs at least 1 and less than the {window:g} periods of the window, got {cycles}")
+        raise ValueError(f"cycles: needs at least 1 and less than the window of {window:g} periods, got {cycles}")
     return float(np.max(np.abs(displacements[lag:] - displacements[:-lag])))
 
 
@@ -65,7 +65,7 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
     displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
     later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
-    back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)  # the start recurs
+    back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)  # first sample recurs
     return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 

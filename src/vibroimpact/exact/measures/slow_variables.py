@@ -41,7 +41,8 @@ class SlowVariables:
         Saw-tooth amplitude, from the distance between the ball's mean positions at its impacts with both walls, shape
         (2,).
     impact_phases : ndarray
-        Mean phase of the impacts as a fraction of the cycle, in [0, 1), [module, wall +1 / wall -1], shape (2, 2).
+        Mean phases of the impacts as fractions of the cycle, in [0, 1), shape (2, 2). The first index is the module,
+        the second the wall (+1, then -1).
     """
 
     B: np.ndarray
