@@ -71,14 +71,18 @@ class AsymmetricConditions:
     def linear_system(self, times: np.ndarray):
         """Return the matrix (n, 6, 4) of the linear equations for (I_1, I_2, c, s) at impact times (n, 4).
 
-        The forcing is in phase with Im(exp(i Omega tau) (c + i s)): c and s shift its phase.
+        c and s are cosine and sine of an unknown phase of the forcing, which is proportional to
+        Im((c + i s) exp(i Omega tau)).
         """
         forced = self.amplitude * np.exp(1j * self.system.Omega * times)
         by_phase = np.stack([self._forced(forced), self._forced(1j * forced)], axis=2)
         return np.concatenate([self._linear(times)[0], by_phase], axis=2)
 
     def _forced(self, forced):
-        """Return the terms of the equations due to the forced response, (n, 6), from its complex values at impacts."""
+        """Return the terms of the equations due to the forced response, (n, 6).
+
+        forced (n, 4): forced response at the impacts, as complex displacements.
+        """
         velocity = (1 + self.system.kappa) * self.system.Omega * forced.real
         distance = forced.imag[:, 0::2] - forced.imag[:, 1::2]
         return np.concatenate([velocity, distance], axis=1)

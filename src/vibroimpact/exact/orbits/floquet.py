@@ -41,12 +41,14 @@ def restitution_matrix(system, module: np.ndarray) -> np.ndarray:
 def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.ndarray) -> np.ndarray:
     """Return the saltation matrix S, shape (..., 8, 8), which maps perturbations before an impact to those after.
 
-    Both perturbations are taken at the time tau of the unperturbed impact.
+    S applies to perturbations at the time tau of the unperturbed impact.
 
-    before: states (..., 8) just before impacts of `module` (1 or 2) at times tau, both (...). With a perturbation dx,
-    the motion reaches the wall n . x = const later by -n . dx / (n . f-), which gives S = R + (f+ - R f-) n^T / (n .
-    f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through the vector fields f-
-    and f+, since wall and impact law do not depend on time. det S = kappa^2. `engine.variation` names the other
+    before (..., 8): states just before the impacts. tau, module (...): times and modules (1 or 2) of the impacts.
+
+    With a perturbation dx, the motion reaches the wall n . x = const later by -n . dx / (n . f-). This delay leads to
+    S = R + (f+ - R f-) n^T / (n . f-), where R is the restitution matrix and f-, f+ are the vector fields before and
+    after the impact (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through f- and
+    f+, since wall and impact law do not depend on time. det S = kappa^2. `engine.variation` names the other
     implementations.
 
     Raises
@@ -165,9 +167,8 @@ def by_multipliers(jacobian: np.ndarray, residual: float, slowest: float) -> str
 
     A multiplier counts as inside or outside if its modulus differs from 1 by more than its error. The error of a
     multiplier is estimated to first order, as the condition number of the eigenvalue times the error of the monodromy
-    matrix. The monodromy matrix has an error from rounding and an error from the orbit. The latter is `residual`
-    divided by the distance of the nearest multiplier from +1 and by `slowest`. Both errors are relative to the norm of
-    the matrix.
+    matrix. The monodromy matrix has an error from rounding and an error from the orbit, both relative to its norm. The
+    error from the orbit is `residual` / (d `slowest`), where d is the distance between +1 and the nearest multiplier.
 
     Parameters
     ----------

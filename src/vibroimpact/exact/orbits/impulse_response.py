@@ -9,7 +9,7 @@ from scipy.linalg import expm
 from vibroimpact.system.matrices import dynamic_stiffness, rate_matrix
 
 _TAYLOR_ORDER = 5
-_NODES_PER_RADIAN = 128  # so many that the Taylor remainder is (1/256)^6 / 6! = 5e-18
+_NODES_PER_RADIAN = 128  # with this number, the Taylor remainder is (1/256)^6 / 6! = 5e-18
 _FINE_NODES = 4096
 _UNIT_IMPULSES = np.eye(4)[:, 2:]
 
@@ -53,7 +53,7 @@ class ImpulseResponse:
         self._rate = rate_matrix(system)[:4, :4]
         advance = expm(self._rate * self.interval)
         closure = np.eye(4) - sign * advance
-        # The condition number is no criterion for a singular matrix: at a resonance of both boxes all entries vanish.
+        # The condition number would not detect a resonance of both boxes, at which all entries of `closure` vanish.
         if np.linalg.norm(closure, -2) <= 1e-12 * (1.0 + np.linalg.norm(advance, 2)):
             raise ValueError(_resonance(system, f"{'a' if sign == 1 else 'an odd'} multiple of "))
         start = np.linalg.solve(closure, _UNIT_IMPULSES)
@@ -98,7 +98,10 @@ class ImpulseResponse:
 
 
 def powers(matrix: np.ndarray, count: int) -> np.ndarray:
-    """Return the powers matrix^n for n = 0 .. count - 1, stacked; by doubling, rounding grows only with log(count)."""
+    """Return the powers matrix^n for n = 0 .. count - 1, stacked.
+
+    Each step doubles the number of powers, so that rounding errors grow only with log(count).
+    """
     powers = np.eye(len(matrix))[None]
     while len(powers) < count:
         powers = np.concatenate([powers, powers @ np.linalg.matrix_power(matrix, len(powers))])

@@ -400,7 +400,10 @@ def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
 
 
 def _samples(step, start, count):
-    """Return step^k start for k < count, shape (n, count, d); with doubling, rounding grows only with log(count)."""
+    """Return step^k start for k < count, shape (n, count, d).
+
+    Each pass doubles the number of samples, so that rounding errors grow only with log(count).
+    """
     samples, ahead = start[:, None], step.swapaxes(1, 2)
     while (made := samples.shape[1]) < count:
         samples = np.concatenate([samples, samples[:, : count - made] @ ahead], axis=1)

@@ -29,7 +29,7 @@ _DEGREE = 32
 _PIECES_AT_ONCE = 256  # pieces computed at once, a fixed number, so that memory does not grow with the period
 _RADIANS_PER_PIECE = 1.0  # radians of the fastest oscillation; interpolation of degree 32 is then exact to rounding
 _NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are due to rounding
-_NEAR = 1e-3  # the eigenvalue solver may return a double root as a pair off the real axis
+_NEAR = 1e-3  # tolerance for the imaginary part of a real root; a double root may be computed as a complex pair
 _SAME = 1e-8
 _BOXES = np.array([0, 1])
 MODULES = np.array([1, 2, 1, 2])
@@ -63,8 +63,8 @@ class SymmetricConditions:
     def matrix(self, times: np.ndarray):
         """Return P and dP, both (..., 2, 2) complex, of P C + i (1, 1) = forced response, for impact times (..., 2).
 
-        P C collects all terms with the saw-tooth amplitudes C in the conditions of the modules. dP contains the
-        derivatives of P: the one with respect to tau_i is +dP in row i and -dP in column i, and 0 on the diagonal.
+        P C collects all terms with the saw-tooth amplitudes C in the conditions of the modules. An entry (m, k) of P
+        depends only on tau_m - tau_k, and dP contains the derivative of each entry with respect to this difference.
         """
         x, v, a = self._response.between(times, _BOXES)
         own = np.eye(2)
@@ -219,8 +219,9 @@ def _line_starts(matrices, constant):
 
     If the matrix is singular (for identical modules in phase, for example), the solutions form a line that
     intersects the circle c^2 + s^2 = 1 twice. Near such a matrix both intersections are needed as starts. The other two
-    starts are therefore always the intersections for the line in the weakest direction, or its point nearest to the
-    circle. Missing starts are NaN.
+    starts are therefore computed for every matrix, from a line along the right singular vector of its smallest singular
+    value. They are the intersections of this line with the circle. If the line misses the circle, both are the point of
+    the line nearest to the circle. Starts that do not exist are NaN.
     """
     u, values, v = np.linalg.svd(matrices)
     parts = constant @ u

@@ -136,7 +136,7 @@ class EnclosedConditions:
 def _jet(value, unknown=None):
     """Return a value with its derivatives with respect to the six unknowns, (7,).
 
-    unknown: index of the unknown that the value is; if None, the derivatives are 0.
+    unknown: index k if the value is the k-th unknown, whose derivative is 1; None if all derivatives are 0.
     """
     return np.array([value, *(arb(int(k == unknown)) for k in range(_UNKNOWNS))])
 

@@ -40,7 +40,8 @@ class OrbitProof:
     ----------
     radius : float
         Half-width of a box, centred at the listed impact times and changes of ball velocity, in which exactly one root
-        lies. The root is symmetric or asymmetric, as `Orbit.symmetric` says. The half-width is 0 if nothing is proved.
+        lies. The root is proved to be symmetric if `Orbit.symmetric` is True, and asymmetric otherwise. The half-width
+        is 0 if nothing is proved.
     error : float
         Bound on the error of the listed impact phases and speeds; inf if no root is proved.
     motion : str
@@ -115,7 +116,7 @@ def _multipliers(monodromy) -> tuple[acb, ...]:
 
 
 def _of_kind(symmetric, conditions, root, listed, radius):
-    """Return True if the root is proved to be symmetric or asymmetric, as the flag `symmetric` requires."""
+    """Return True if the root is proved to be symmetric (if `symmetric` is True) or asymmetric (if False)."""
     if not symmetric:
         lags = conditions.lags(root)
         return any(not (2 * conditions.fraction(i, lags)).contains(1) for i in conditions.modules)
@@ -124,7 +125,10 @@ def _of_kind(symmetric, conditions, root, listed, radius):
 
 
 def _has_multipliers(orbit, proved):
-    """Return True if every listed multiplier is close to a proved one, and every proved one to a listed one."""
+    """Return True if the multipliers of the orbit agree with the enclosures `proved`, or if there are no enclosures.
+
+    They agree if every multiplier is close to an enclosure, and every enclosure to a multiplier.
+    """
     near = np.array(
         [[_near(one, other, _SPOILT_MULTIPLIER) for other in proved] for one in map(acb, orbit.multipliers.tolist())]
     )
@@ -147,8 +151,8 @@ def krawczyk(equations, approximate: np.ndarray):
     The box is centred at the float64 root. If the test fails for every box, the result is (None, 0.0).
 
     equations(x) returns the residual (n, 1) and Jacobian (n, n) for a list x of n intervals, or None if residual and
-    Jacobian are not defined on all of x. Boxes are tried from the widest on. The image of the first box that passes
-    Krawczyk's test is narrowed to working precision.
+    Jacobian are not defined on all of x. Boxes are tried in order of decreasing width. The image of the first box that
+    passes Krawczyk's test is narrowed further and returned.
     """
     centre = [arb(value) for value in approximate.tolist()]
     for exponent in range(_WIDEST, _NARROWEST, -1):

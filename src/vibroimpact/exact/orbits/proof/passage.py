@@ -1,9 +1,9 @@
 """Follow an orbit over one period in interval arithmetic: flights, monodromy matrix, distances from the walls.
 
-The state includes sin(Omega tau) and cos(Omega tau) at indices 8 and 9. Free flight is therefore a linear map, the
-exponential of a rate matrix A (10, 10) times the time. With the restitution matrix R and the normal n of the wall, the
-saltation matrix of floquet.py is R + (A R - R A) z n^T / (n . A z) for the state z just before the impact. Impacts are
-numbered from 0 to 3 as in conditions.py.
+The state includes sin(Omega tau) and cos(Omega tau) at indices 8 and 9. A free flight over a time t is therefore a
+linear map with the matrix exp(A t), where A (10, 10) is a rate matrix. With the restitution matrix R and the normal n
+of the wall, the saltation matrix of floquet.py is R + (A R - R A) z n^T / (n . A z) for the state z just before the
+impact. Impacts are numbered from 0 to 3 as in conditions.py.
 """
 
 from flint import arb, arb_mat
@@ -109,7 +109,7 @@ def _impact(i, conditions):
 
 
 def between_walls(passage) -> str:
-    """Return LEGAL or ILLEGAL if the motion of an EnclosedPassage is proved to be so, else NOT_PROVED.
+    """Return LEGAL or ILLEGAL if the motion of an EnclosedPassage is proved to be legal or illegal, else NOT_PROVED.
 
     In a legal motion |W_i| < 1 between impacts, and every ball hits its walls from inside. Flights are halved
     until it is proved on each piece that |W_i| < 1 or, next to an impact, that W_i leaves or approaches the wall
