@@ -127,7 +127,7 @@ def record(log, time, i, wall, kind, boxes, balls, approach):
 
 @inlined
 def pack(boxes, balls, state):
-    """Write boxes and balls to `state` in the public order [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
+    """Write boxes and balls to `state` in the order [X1, Y1, X2, Y2, X1', Y1', X2', Y2']."""
     for i in range(4):
         state[2 * i] = boxes[i]
         state[2 * i + 1] = balls[i]

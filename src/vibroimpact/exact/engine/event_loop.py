@@ -147,7 +147,7 @@ MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """Terms of the limit on the number of exclusions in a run: constant, per event and per time `Flow.unit`."""
 ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages
 EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
-"""Indices in the array of a run, (RUN_LENGTH,). The array contains the state in public order (`contact.pack`), the
+"""Indices in the array of a run, (RUN_LENGTH,). The array contains the state in the order of `contact.pack`, the
 other fields of `Progress`, the number of events in earlier rows (EARLIER_EVENTS), the phase at the start with its
 rounding remainder and the number of forcing cycles (from SPAN on), and the time on the sample clock at the start
 (CLOCK)."""
@@ -202,8 +202,8 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
 def memory(state, phase, tail, cycles, clock):
     """Return new arrays for a run over `cycles` cycles: (array of the run, rows of events, counters).
 
-    state (8,): initial state in public order. phase, tail: initial forcing phase in [0, 2 pi) and its rounding
-    remainder. clock: time at the start of the run, on the same clock as the sample times.
+    state (8,): initial state in the order of `contact.pack`. phase, tail: initial forcing phase in [0, 2 pi) and its
+    rounding remainder. clock: time at the start of the run, on the same clock as the sample times.
     """
     run, room = np.zeros(RUN_LENGTH), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     run[:8], run[12:15], run[SPAN:] = state, (-1.0, phase, tail), (phase, tail, cycles, clock)

@@ -32,9 +32,9 @@ STOP: number of full turns at which the run stops; ALIVE: 1 if the lane has a ru
 EVENTS, STALLED: numbers of events, and of flights without progress in time
 OUTCOME: state of the lane after a pass (`steps.step_to_event`); STATISTICS_AT: first row of the statistics
 
-From TURNS_AT on, TURN rows for each box describe a turn that may be its largest displacement (`find_turns`): boxes and
-forcing at a time near the turn (6 rows); SINCE: approximate time from these boxes to the turn; HIGHEST: bound on the
-displacement; KEPT: 1 if a turn is stored.
+From TURNS_AT on, TURN rows for each box describe a turn, whose displacement may be the largest (`find_turns`): boxes
+and forcing at a time near the turn (6 rows); SINCE: approximate time from these boxes to the turn; HIGHEST: bound on
+the displacement; KEPT: 1 if a turn is stored.
 """
 
 LOW_PARTS, SCALARS_AT = 24, 40

@@ -1,4 +1,4 @@
-"""Checks of sections 10.2 and 10.3: the printed equations, tested at random states and on simulations."""
+"""Check the printed equations of sections 10.2 and 10.3 at random states and on simulations."""
 
 from itertools import product
 

@@ -1,4 +1,4 @@
-"""Checks of section 10.3 on the manifold: its fold, the admissible C, and its stable part."""
+"""Check the statements of section 10.3 on the manifold: its fold, the admissible C, and its stable part."""
 
 from itertools import product
 
