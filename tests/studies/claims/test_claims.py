@@ -264,7 +264,8 @@ ERRATA = (ROOT / "docs/errata.md").read_text(encoding="utf-8")
 
 def test_refuted_claims_belong_to_two_facts(judged):
     assert {claim.get("fact") for claim in judged.values() if claim["verdict"] == REFUTED} == set(DOCUMENT["facts"])
-    assert "come down to two facts" in (ROOT / "docs/studies/findings.md").read_text(encoding="utf-8")
+    findings = (ROOT / "docs/studies/findings.md").read_text(encoding="utf-8")
+    assert "fail for one of two reasons" in " ".join(findings.split())
     assert not any("fact" in claim for claim in judged.values() if claim["verdict"] == HOLDS)
 
 
