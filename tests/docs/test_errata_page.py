@@ -38,4 +38,4 @@ def test_a_row_has_the_amplitudes_and_slow_eigenvalues_of_its_point(row):
 def test_distance_of_point_b_of_the_unequal_case_from_the_fold():
     rho = 2 * (1 - PARAMETERS["kappa"]) / (np.pi * (1 + PARAMETERS["kappa"]))
     share = 100 * (1 - POINTS["unequal", "b"].C[0] * (1 + rho**2))
-    assert f"{share:.1f} % before the fold" in PAGE
+    assert f"{share:.1f} % below the fold" in PAGE
