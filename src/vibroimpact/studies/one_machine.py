@@ -124,7 +124,8 @@ class Design:
             f"{_mm(self.absorber_stroke)} to each side",
             f"hardest impacts at {hardest['frequency_Hz']:.4g} Hz: {hardest['impacts_per_s']:.3g} per second of "
             f"{hardest['impulse_Ns']:.3g} N s each, at {hardest['impact_speed_m_s']:.3g} m/s",
-            f"Settled: in {watched} periods of the force after {waited}, the largest of {MORE_STARTS} starts.",
+            f"Settled: the largest of {MORE_STARTS} initial states in {watched} forcing periods, after the first "
+            f"{waited}.",
             *self._warnings(),
             "The walls are rigid, so an impact has an impulse but no finite force.",
         ])  # fmt: skip
