@@ -6,14 +6,14 @@ from vibroimpact.exact.engine.simulation import simulate
 
 
 def departure(system, state, truth: np.ndarray):
-    """Return the true error of a float64 run from `state`, its estimated error, and the horizon of the estimate.
+    """Return the true error of a float64 run from `state`, the estimated error, and the horizon of the run.
 
     truth: true states (n + 1, 8) at the starts of the forcing cycles 0 to n.
 
-    The true error (n + 1,) is the largest difference of any component between the run and `truth` at the start of each
-    cycle. The certificate of the run gives the other results. The estimated error (n + 1,) at the start of each cycle
-    is inf after the horizon. The horizon is the time of the first event at which the estimated error exceeds 1e-3, in
-    forcing cycles; it is inf if there is no such event.
+    The true error and the estimated error have one value at the start of each cycle, shape (n + 1,). The true error is
+    the largest difference of any component of the state between the run and `truth`. The horizon is the time of the
+    first event, or of the end of the run, at which the estimated error exceeds 1e-3, in forcing cycles; it is inf if
+    the estimated error never exceeds 1e-3. After the horizon the estimated error is inf.
     """
     cycles = len(truth) - 1
     times = np.arange(cycles + 1) * system.period

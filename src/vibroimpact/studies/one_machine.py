@@ -3,9 +3,10 @@
 The machine is a mass on a spring and a damper, driven over a band of frequencies by a constant force, a moving base or
 an unbalance. Candidates are compared by their peak: the largest displacement over the band, from rest and from other
 initial states. A peak from a few initial states is a lower bound, and selecting the lowest of many such peaks adds a
-bias. So the best few candidates are measured again: from more initial states, after a longer transient, and with
-slightly more and less clearance. The design is the candidate with the lowest worst peak in this neighbourhood. The
-text, the table and the plot of the design use the same grid of frequencies and the same window of time.
+bias. So the best few candidates are measured again: from more initial states, after a longer transient, and with three
+clearances, namely that of the candidate, slightly more and slightly less. The design is the candidate for which the
+largest of these three peaks is lowest. The text, the table and the plot of the design use the same grid of frequencies
+and the same window of time.
 """
 
 import math
@@ -76,8 +77,10 @@ class Design:
         Smallest and largest of three peaks [m]: with 2 % less clearance, with the same and with 2 % more.
     without : float
         Peak without ball [m].
-    absorber, absorber_stroke : float
-        Peak with the best linear absorber of the same mass as the ball [m], and its stroke to each side [m].
+    absorber : float
+        Peak [m] with the best linear absorber, which has the mass of the ball.
+    absorber_stroke : float
+        Room [m] that the best linear absorber needs on each side.
     window : tuple of int
         Forcing periods of the transient and of the window.
     candidates : list of dict
@@ -85,11 +88,11 @@ class Design:
         best few pairs have near_m, the largest of their three peaks as in `near`; near_m of all other pairs is nan. The
         chosen pair has the smallest near_m.
     response : list of dict
-        One row per frequency: frequency_Hz; the displacements without_m, with_m (in the window, the largest of all
-        initial states), settling_m (before the window, from rest) and absorber_m. All other entries describe the motion
-        whose displacement is with_m: impacts_per_s; the mean impact_speed_m_s of the ball against the wall; the mean
-        impulse_Ns of an impact; later_m, the displacement in the 1000 periods after the window, which is smaller than
-        with_m if this motion is a transient.
+        One row per frequency, frequency_Hz. The displacements are without_m (without ball), absorber_m (with the best
+        linear absorber), settling_m (before the window, from rest) and with_m (in the window, the largest of all
+        initial states). The remaining entries describe the motion with the displacement with_m: impacts_per_s; the mean
+        impact_speed_m_s of the ball against the wall; the mean impulse_Ns of an impact; and later_m, the displacement
+        in the 1000 periods after the window. If the motion is a transient, later_m is smaller than with_m.
 
     Examples
     --------
@@ -190,7 +193,7 @@ def design(
 ) -> Design:
     """Design a ball absorber: find clearance and restitution coefficient with the lowest peak over a band.
 
-    A machine and its mirror image (the force -F) have the same design, to the last digit.
+    The sign of the force has no effect on the design.
 
     Parameters
     ----------
@@ -199,8 +202,9 @@ def design(
     band : tuple of float
         First and last frequency of the force [Hz].
     clearances : sequence of float, optional
-        Candidates [m]. By default 8 values from 1/4 to 4 times (F / k) (M / m), none above the amplitude without ball
-        (a box that moves less than its clearance never hits a ball at rest); then further values near the best ones.
+        Candidates [m]. By default, 8 values from 1/4 to 4 times (F / k) (M / m), and then more values near the best
+        ones. If necessary, the 8 values are reduced so that the smallest is at most A / 8 and the largest at most A,
+        where A is the peak without ball: a box that moves less than its clearance never hits a ball at rest.
     restitutions : sequence of float, default RESTITUTIONS
         Candidates, each between 0 and 1.
     progress : bool, default True
@@ -296,8 +300,10 @@ def _mm(metres) -> str:
 class _Measured:
     """Response of a machine with its ball at n frequencies, from m initial states.
 
-    largest: (n, m), largest displacement [m] in the window. settling: (n,), largest displacement [m] before the window,
-    from rest. states, finals: (n, m, 8), at the start and end of the window.
+    The window is the part of a run after the transient.
+
+    largest: (n, m), largest displacement [m] in the window. settling: (n,), largest displacement [m] in the transient
+    from rest. states, finals: (n, m, 8), states at the start and at the end of the window.
     """
 
     machine: PhysicalSystem
@@ -316,7 +322,7 @@ class _Study:
     """Simulations of one machine over a band, with their frequencies, numbers of cycles and initial states.
 
     machine: the machine with the force |F|, driven at its natural frequency, with a clearance of 1 m. system: the
-    dimensionless form of `machine`. Its displacements are in units of the clearance, so that they are values in metres.
+    dimensionless form of `machine`. Its unit of length is this clearance, so that its displacements are in metres.
     """
 
     def __init__(self, machine, band):
@@ -359,7 +365,7 @@ class _Study:
         return rows
 
     def measured(self, machine, factor: float) -> _Measured:
-        """Return the response of a machine with `factor` times its clearance, from more initial states."""
+        """Return the response of a machine with `factor` times its clearance, from MORE_STARTS initial states."""
         machine = replace(machine, L=factor * machine.L)
         systems = self._systems(machine)
         each = np.array(systems)[:, None]

@@ -83,30 +83,31 @@ FINE, PER_CYCLE = 301, 30
 def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int, shown: dict) -> dict:
     """Return the largest displacements of the boxes against frequency, and a motion in time.
 
-    Runs with balls start from rest, for several clearances. The machines without balls and with the best linear
-    absorbers are computed in closed form.
+    The machines with balls are simulated from rest, for several clearances. The machines without balls and with the
+    best linear absorbers are computed in closed form.
 
     Parameters
     ----------
     plant : dict
         Arguments of PhysicalSystem except L, omega1 and omega2, in SI units.
-    clearances
+    clearances : sequence of float
         Clearances L [m].
     frequencies : dict
         `range` [Hz] and `values`, the number of frequencies.
     cycles, settle : int
-        Forcing periods of a run, and the number of these that are left out at its start.
+        Length of each run with balls, and of the transient at its start, which is left out, in forcing periods.
     shown : dict
         `L` [m], `frequency` [Hz] and `cycles` of the motion.
 
-    Returns three tables, in which swing is the largest displacement of the boxes:
+    Returns three tables. In the first and the last one, swing [mm] is the largest displacement of both boxes.
 
-    - "csv": columns series ("without balls", "best absorbers" or the clearance as "L = 5 mm"), frequency [Hz], swing
-      [mm].
-    - "motion": L [m], frequency [Hz], time [s], box, ball [mm], at_wall (True at an impact).
-    - "summary", a row per clearance: L [m]; frequency [Hz] of the largest swing; at this frequency, power [W] of the
-      forces, share (fraction of this power that impacts dissipate) and swing [mm]; force [N], the F10 for which L would
-      be the best clearance. The best clearance is proportional to F10, since only the ratio L / F10 matters.
+    - "csv": columns series ("without balls", "best absorbers" or the clearance, such as "L = 5 mm"), frequency [Hz],
+      swing.
+    - "motion": columns L [m], frequency [Hz], time [s], box [mm], ball [mm], at_wall (True at an impact).
+    - "summary": one row per clearance L [m]. The row has the frequency [Hz] at which swing is largest, the mean power
+      [W] of the forces at this frequency, the share of this power that impacts dissipate, and swing. The column force
+      [N] is the F10 for which L would be the clearance with the smallest swing. This best clearance is proportional to
+      F10, since only the ratio L / F10 matters.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]
@@ -133,9 +134,9 @@ def _machines(plant, L, hertz):
 
 
 def _linear(machine, band):
-    """Yield the curves of the linear systems over the band [Hz]: displacement [mm] against frequency [Hz].
+    """Yield the curves without balls and with the best absorbers: displacement [mm] against frequency [Hz] in a band.
 
-    The clearance of `machine` is only the unit of length of the dimensionless system; the curves do not depend on it.
+    The clearance of `machine` has no effect on these curves.
     """
     unit, fine = machine.omega10 / (2 * np.pi), np.linspace(*band, FINE)
     linear = compared(machine.dimensionless(), tuple(band / unit))

@@ -41,20 +41,19 @@ COLUMNS = {
 
 
 def compute(system) -> dict:
-    """Perturb an unstable exact orbit whose fixed point is stable by (10.26), and simulate the motion.
+    """Perturb an unstable exact orbit that criterion (10.26) of the chapter calls stable, and simulate the motion.
 
-    If there are several such orbits, the most unstable one is perturbed. Without such an orbit, the tables have no
-    rows.
+    The orbit is the one that `_called_stable` returns. If there is no such orbit, the tables have no rows.
 
     Returns tables by name, with times t in forcing periods:
 
     - "motion": columns t, X1, Y1, X2, Y2, with a row for each sample and each event, so that a plot with straight lines
-      has corners at the impacts.
+      has its corners exactly at the impacts.
     - "impacts": columns t, module, wall.
     - "distance": columns t, distance (Euclidean distance between the states of the motion and of the orbit, once a
       period).
     - "flights": columns t (end of a flight of ball 2), length.
-    - "orbit": label (of the fixed point), multiplier (largest modulus).
+    - "orbit": columns label (of the fixed point), multiplier (modulus of the largest multiplier of the orbit).
     """
     label, orbit = _called_stable(system)
     if orbit is None:
@@ -79,7 +78,7 @@ def compute(system) -> dict:
 
 
 def page_data(tables: dict[str, pd.DataFrame]) -> dict:
-    """Return the data for the first page: frames of the motion, flights, and distance from the periodic motion."""
+    """Return the data of the animation in the report: motion, flights of ball 2, and distance from the orbit."""
     rounded = {name: tables[name].astype(float).round(4) for name in ("motion", "impacts", "flights")}
     return {
         "cycles": int(tables["distance"]["t"].max()) if len(tables["distance"]) else 0,
@@ -104,9 +103,10 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
 
 
 def _called_stable(system):
-    """Return the most unstable exact orbit whose fixed point is stable by (10.26), as (label of the point, orbit).
+    """Return the most unstable exact orbit that criterion (10.26) calls stable, as (label of its fixed point, orbit).
 
-    The result is (None, None) if no admissible orbit of such a fixed point is unstable.
+    The criterion is evaluated at the fixed point of the slow flow that corresponds to the orbit. The result is
+    (None, None) if no admissible orbit is unstable while its fixed point is stable by (10.26).
     """
     points = fixed_points(system)
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))
