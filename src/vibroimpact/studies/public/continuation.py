@@ -38,7 +38,7 @@ def branches(
     Parameters
     ----------
     system : System
-        System with the values of all other parameters.
+        System that gives the values of the parameters that are not in `along`.
     along : str or sequence of str
         A parameter of System, or several that all have the same value.
     between : tuple of float
@@ -49,15 +49,16 @@ def branches(
         Number of values in `between` at which to search for motions. Branches that pass none of these values and
         emanate from no other branch are missed.
     progress : bool, default True
-        Count the families on standard error, if it is a terminal; "exact" takes about ten seconds.
+        Show the progress on standard error, if it is a terminal; "exact" takes about ten seconds.
 
     Returns
     -------
     list of Branch
-        Each branch has .family; .nodes in order, of which the first and last may lie one step beyond `between`;
-        .special, the special nodes; and .closed, True if its last node is also its first. A node has .p, the parameter,
-        .amplitudes C_1, C_2, .kind (the type of special point, or ""), .stable and .admissible. `to_frame` returns one
-        row per node of each piece between special points; a special point has a row in both pieces.
+        A branch has .family; .nodes, in order along the branch; .special, the nodes that are special points; and
+        .closed, True if the last node is also the first. The first and the last node may lie one step beyond `between`.
+        A node has .p, the value of the parameter; .amplitudes, C_1 and C_2; .kind, the type of special point or "";
+        .stable; and .admissible, False for an orbit that is not a motion of the system. `to_frame` returns one row per
+        node of each piece between special points; a special point has a row in both pieces that it joins.
 
     Raises
     ------

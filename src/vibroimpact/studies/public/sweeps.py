@@ -37,25 +37,28 @@ def sweep(
     Parameters
     ----------
     system : System
-        System with the values of all other parameters.
+        System that gives the values of the parameters that are not in `axes`.
     axes : mapping
         Values of one or two parameters, by name.
     observe : sequence of str
-        Names of observations. The following ones simulate all initial states: "amplitudes" (largest |X_i|, root mean
-        square, mean ball speeds), "energy" (energy that impacts dissipate, divided by the work of the forces), "peaks"
-        (displacement that one cycle in a hundred exceeds, at its highest along `band`) and "regimes" (share of the
-        initial states that end in each regime, and the regime reached from rest). "fixed_points" (number of fixed
-        points of the theory, and how many of them are stable) does not simulate.
+        Names of observations. All except "fixed_points" simulate the motions from all initial states.
+
+        - "amplitudes": largest |X_i|, root mean square of X_i, and mean ball speeds.
+        - "energy": energy that impacts dissipate, divided by the work of the forces.
+        - "peaks": highest peak along `band`. A peak is the displacement that one cycle in a hundred exceeds.
+        - "regimes": share of the initial states that end in each regime, and the regime reached in the run from rest.
+        - "fixed_points": number of fixed points of the theory, and number of stable fixed points.
     starts : int, default 5
-        Number of initial states, evenly spread, the first at rest. From rest, a ball may stay idle that would hit the
-        walls from all other initial states.
+        Number of initial states, evenly spread, the first at rest. A ball may stay idle in the run from rest, although
+        it hits the walls in all other runs.
     seed : int, default 0
         Seed of the scrambling of the initial states.
     cycles : int, default 1000
         Forcing periods of each run; "regimes" uses the lengths in `observation`.
     settle : int, default 800
-        Forcing periods of the transient, the first ones of `cycles`. Of 225 motions at equal forces, 210 still change
-        by more than 1e-6 per forcing period after 400 periods, none after 2000.
+        Forcing periods of the transient, the first ones of `cycles`. Transients may be long: of 225 motions with equal
+        forces on both boxes, 210 still change by more than 1e-6 per forcing period after 400 periods, but none after
+        2000 periods.
     band : mapping, optional
         For "peaks": name and values of the parameter along which the highest peak is searched.
     observation : Observation, optional

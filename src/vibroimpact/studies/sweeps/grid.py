@@ -69,7 +69,7 @@ class Grid:
     Parameters
     ----------
     system
-        System with the values of all other parameters.
+        System that gives the values of the parameters that no axis varies.
     axes : sequence of Axis
         One or two axes.
     """
