@@ -1,8 +1,9 @@
 """Follow exact asymmetric orbits to small epsilon, and find the fixed points of the slow flow that they approach.
 
-Orbits and fixed points are compared in C, v^2 and the phase half-way between both impacts [rad] of each module. Unlike
-v and the impact phases, these coordinates are smooth in epsilon at v = 0, where two orbits emanate from a symmetric
-orbit.
+Orbits and fixed points are compared in three coordinates of each module: the amplitude C of the saw-tooth, v^2, and the
+phase [rad] half-way from the impact at wall +1 to the impact at wall -1. Here v is the difference of the two flight
+times of a cycle, divided by the period. At v = 0, two asymmetric orbits emanate from a symmetric orbit. The three
+coordinates are smooth in epsilon there; v and the impact phases are not.
 """
 
 from dataclasses import dataclass
@@ -60,8 +61,9 @@ def offset(station, point) -> np.ndarray:
 def leads_to(stations, points):
     """Return the fixed point that an orbit approaches at epsilon = 0, or None.
 
-    The last two stations are extrapolated linearly to epsilon = 0. The result is None if no fixed point is near, as for
-    an orbit whose branch turns back at a fold, or if there are fewer than two stations.
+    The last two stations are extrapolated linearly to epsilon = 0. The result is None if no fixed point is near the
+    extrapolated orbit, for example because the branch turns back at a fold. The result is also None if there are fewer
+    than two stations.
     """
     if len(stations) < 2:
         return None

@@ -105,8 +105,9 @@ def attractors(system: System, states, observation: Observation | None = None, p
         Initial states at tau = 0, shape (n, 8). An inactive module (as in `PhysicalSystem.single`) is put at rest.
     observation : Observation, optional
         Length of the runs, see `Observation`. Each run lasts until the motion repeats, but at most `rounds` times
-        `cycles` forcing periods. Of 225 motions at equal forces, 210 still change by more than 1e-6 per forcing period
-        after 400 periods, none after 2000. A ball that starts at rest may never reach a wall.
+        `cycles` forcing periods. Transients may be long: of 225 motions with equal forces on both boxes, 210 still
+        change by more than 1e-6 per forcing period after 400 periods, but none after 2000 periods. A ball that starts
+        at rest may never reach a wall.
     progress : bool, default True
         Show on standard error, if it is a terminal, how many initial states are done.
 
@@ -242,6 +243,6 @@ def _same(one, other):
 
 
 def _moving(regime):
-    """Return the indices in a state of the displacements of the boxes and moving balls of active modules."""
+    """Return the k for which state[k] is the displacement of a box or of a moving ball, without inactive modules."""
     samples, moves = regime.run.samples, active_mask(regime.run.system)
     return np.array([k for k in range(4) if moves[k] and (k in (0, 2) or samples[:, 4 + k].any())])

@@ -78,13 +78,14 @@ class Regime:
 
 
 def classify_after(system, state, window: int, nearness: float) -> Regime:
-    """Return the regime of the motion from `state` (8,), at the start of a forcing cycle, over a window of cycles.
+    """Return the regime of the motion from `state` (8,) over `window` forcing cycles.
 
-    If the displacements in the window repeat within `nearness`, Newton's method computes the periodic motion. If the
-    periodic motion is near and attracting, and the run approaches it (`_approaches`), a window of the periodic motion
-    is classified instead of the window of the run. Thus a slow spiral into a 1:1 response is distinguished from a
-    modulated motion before the spiral ends. A motion that does not repeat is called unsettled here; `settling` names
-    its regime.
+    `state` is a state at the start of a forcing cycle. If a ball is idle, the window of the run is classified.
+    Otherwise, if the displacements in the window repeat within `nearness`, Newton's method computes the periodic
+    motion. If the periodic motion is near and attracting, and the run approaches it (`_approaches`), a window of the
+    periodic motion is classified instead of the window of the run. Thus a run that slowly spirals into a 1:1 response
+    is recognised as a 1:1 response, and not taken for a modulated motion. All other motions get the name UNSETTLED;
+    the module `settling` finds their regimes.
     """
     run = _window(system, state, window)
     if not _at_rest(run).any():
@@ -116,7 +117,7 @@ def _approaches(run, motion, repeats, multiplier):
     number of cycles. The distance must shrink at half of the predicted exponential rate or faster.
 
     motion: a window of the periodic motion, which repeats after `repeats` cycles. The window starts next to the
-    final state of the run.
+    final state of the run. multiplier: modulus of the largest multiplier of the periodic motion.
     """
     size = len(run.samples)
     before = _distance(run, motion.samples[(np.arange(size) - size + 1) % (_PER_CYCLE * repeats)])

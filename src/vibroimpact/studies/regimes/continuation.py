@@ -35,7 +35,7 @@ _REFINED = 1e-10
 # is costlier at a new p than at a new x.
 _STEEP = 0.2
 _TURN = 0.15  # radians by which the tangent may turn in one step
-_SHORTEST = 1e-7  # shortest step; if this step is still too long, the continuation ends, except at a corner
+_SHORTEST = 1e-7  # shortest step; the continuation ends if this step fails, except at a jump of dF/dz (a corner)
 # Bisection ends when the arclength between its two points is below this value. At this distance from a branch point,
 # Newton's method still gives 10 digits.
 _RESOLVED = 1e-6
@@ -202,10 +202,11 @@ class Curve:
         unbalanced, plane = left[:, -1:], right[-2:]
 
         def at(angle):
-            """Return a point y with F(y) + part * unbalanced = 0, and the number `part`.
+            """Return a point y near the branch point z, and a number `part`, with F(y) + part * unbalanced = 0.
 
-            y is near the circle: its projection onto the plane of both null vectors has the given angle on the circle.
-            `unbalanced` is the left null vector of dF/dz. On a branch, `part` is 0.
+            The projection of y - z onto the plane of both null vectors of dF/dz has the length _CIRCLE and the
+            direction `angle`. The vector `unbalanced` is the left null vector of dF/dz. If `part` is 0, y is on a
+            branch.
             """
             guess = z + _CIRCLE * np.array([np.cos(angle), np.sin(angle)]) @ plane
             y, part = guess, 0.0
@@ -242,8 +243,8 @@ class Curve:
         """Return the places that one step from `place` reaches, in order; the last one is the end of the step.
 
         If the step passes a branch point, the list also has this branch point, between a place just before it and one
-        just after it. The result is [] if the curve turns too much or is lost, or if the determinant changes sign
-        without a branch point, since the step has then jumped to another curve.
+        just after it. The result is [] if no place is found, if the curve turns too much, or if the determinant
+        changes sign without a branch point. In the last case, the step has jumped to another curve.
         """
         after = self._next(place, length)
         if after is None or after.determinant * place.determinant > 0:

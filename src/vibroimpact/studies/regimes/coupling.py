@@ -72,7 +72,7 @@ def patterns(system) -> dict[str, np.ndarray]:
 def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
     """Yield each pattern that has a stable orbit at a coupling in SOUGHT, with the orbits of its stable range.
 
-    The coupling damper changes in proportion.
+    The coefficient of the coupling damper is proportional to the coupling alpha12_hat.
 
     Parameters
     ----------

@@ -3,13 +3,13 @@
 The test functions of an orbit, except that for grazing, are symmetric polynomials in its multipliers mu, so that they
 are real and change sign at their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j,
 vanishes where two multipliers have the product 1; if they are complex, they are on the unit circle (Neimark-Sacker).
-For a symmetric orbit mu are the multipliers over half a period followed by mirroring, and mu = -1 breaks the symmetry.
-A symmetric orbit cannot double its period before its symmetry breaks (Swift and Wiesenfeld 1984). Folds and branch
-points (mu = 1) are found by the continuation instead.
+For a symmetric orbit, mu are the multipliers of the map that follows the motion for half a period and then mirrors the
+state (state -> -state). The symmetry breaks where such a mu is -1. A symmetric orbit cannot double its period before
+its symmetry breaks (Swift and Wiesenfeld 1984). Folds and branch points (mu = 1) are found by the continuation instead.
 
-The unknowns of an inactive module (not in `System.modules`) have the constant values `rest`: its angles are 0, and its
-C_i or I_i is 1, so that C_i = 0 or I_i = 0 always means a ball without speed. The amplitude of an inactive module is
-NaN.
+The unknowns of an inactive module (not in `System.modules`) have the constant values `rest`: 0 for its angles or impact
+times, and 1 for its C_i or I_i. So C_i = 0 or I_i = 0 always means that the speed of a ball is 0. The amplitude of an
+inactive module is NaN.
 """
 
 from itertools import combinations

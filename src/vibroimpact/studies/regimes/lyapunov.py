@@ -240,7 +240,7 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     factors, impacts, stuck, _ = (np.concatenate(part)[discarded:] for part in parts)
     with np.errstate(divide="ignore"):
         rates = np.log(factors)
-    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # these factors are 0 except for rounding
+    rates[np.arange(size) >= size - 2 * stuck[:, None]] = -np.inf  # the last 2 * stuck factors are 0 up to rounding
     return Spectrum(_largest_first(rates), contraction(system, impacts, stuck), stuck)
 
 

@@ -31,9 +31,9 @@ def predicted(path, values) -> np.ndarray:
 
 
 def observed(values, p, names) -> np.ndarray:
-    """Return True for each of `values`, (n,), at which any initial state ends in a modulated or chaotic response.
+    """Return True for each of `values`, (n,), at which a run ends in a modulated or chaotic response.
 
-    p: value of the parameter of the path in the run from each initial state. names: regime at the end of each run.
+    p: value of the parameter in each run. names: regime at the end of each run.
     """
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
@@ -58,10 +58,10 @@ def onsets(path, values, p, names) -> list[tuple]:
     p, names
         As for `observed`.
 
-    Returns one row for SLOW_FLOW and one for SIMULATION, with the columns COLUMNS. A row contains the names of the
-    parameters of the path, the source, and the first and last value of the longest range with modulated responses. Then
-    follow the spacing of the values, and the share of the values at which slow flow and simulation agree. The list is
-    empty if parameters other than forces vary along the path.
+    Returns one row for SLOW_FLOW and one for SIMULATION, with the columns COLUMNS: names of the parameters of the path;
+    source; first and last value of the longest range with modulated responses; spacing of the values; share of the
+    values at which slow flow and simulation agree. The list is empty if parameters other than forces vary along the
+    path.
     """
     if not set(path.names) <= FORCES:
         return []

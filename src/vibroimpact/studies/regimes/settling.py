@@ -78,9 +78,10 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     the witness, runs for `retest` more cycles. There are up to MOST_WITNESSES witnesses if any initial state ends in a
     periodic motion, since the motions of the regime may then be chaotic transients towards the periodic motion.
 
-    If all witnesses stay in the regime, the other motions of the regime are named as the last witness after its run.
-    In this test all kinds of chaos count as one regime. If any witness leaves the regime, the other motions also run
-    for `retest` more cycles. All motions that do not leave the regime are then named unsettled.
+    If all witnesses stay in the regime, the other motions of the regime get the regime in which the last witness ends.
+    This can be another kind of chaos, since all kinds of chaos count as one regime in this test. If any witness leaves
+    the regime, the other motions also run for `retest` more cycles. All motions that do not leave the regime are then
+    named unsettled.
 
     Parameters
     ----------
