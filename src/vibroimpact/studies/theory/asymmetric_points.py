@@ -1,10 +1,11 @@
 """Find all fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
 
-The unknowns are the parameters x_1, x_2 of both modules in their charts (`branch`), with |x_i| <= 1. The balance of the
-slow flow is linear in w_i = u_i / beta_i, with coefficients that depend on x_1 and x_2 alone (docs/derivation.md,
-section 11). By Cramer's rule w_i = m_i / Delta; the numerators m_1, m_2 are n1, n2 in the code. Since |u_i| = 1, the
-conditions for a fixed point are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2. For a given system, `completeness.points`
-can prove that no fixed point is missed.
+The unknowns are the parameters x_1, x_2 of both modules in their charts (see `branch`), with |x_i| <= 1. The complex
+amplitude of module i is z_i u_i / beta_i, where z_i and beta_i are polynomials in x_i, and |u_i| = 1. The balance of
+the slow flow is linear in u_i / beta_i, with coefficients that depend on x_1 and x_2 alone (docs/derivation.md,
+section 11). Cramer's rule gives u_i / beta_i = m_i / Delta. The names of m_1 and m_2 in the code are n1 and n2. Since
+|u_i| = 1, the conditions for a fixed point are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2. For a given system,
+`completeness.points` can prove that no fixed point is missed.
 
 Fixed points with v^2 < 0 are not motions at leading order. They are kept, since they continue the asymmetric branch
 beyond its start at v = 0. If terms of order epsilon raise v^2 above 0, a motion exists close to such a point.

@@ -2,8 +2,9 @@
 
 The table gives the polynomials z, n, beta and path of each chart. A module's complex amplitude is b = z u / beta with
 |u| = 1, and the first harmonic of its saw-tooth is n u / beta. So the describing function of the ball is N = n / z. The
-amplitude of the saw-tooth is C = path / beta. In the table, c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v); these
-are entire functions of v^2 and are replaced by their power series (docs/derivation.md, section 11):
+amplitude of the saw-tooth is C = path / beta. In the table, mu = 8 / pi^2, and rho, (10.15), measures the dissipation
+of impacts. The functions c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v) are entire functions of v^2 and are
+replaced by their power series (docs/derivation.md, section 11):
 
     chart         x      z                          n          beta                            path
     small C       C      1 - (1 + i rho) x          mu x       1                               x

@@ -38,9 +38,10 @@ class Relaxation:
 
 
 def describing_function(kappa: float):
-    """Return the describing function N of a ball, as a function of B, on the stable symmetric branch.
+    """Return the function of B that gives the describing function N of a ball on the stable part of the manifold.
 
-    For larger B, where the symmetric branch is unstable, N is that on the asymmetric branch.
+    For small B, this part is on the symmetric branch. For larger B, where the symmetric branch is unstable, it is on
+    the asymmetric branch.
     """
     r, chart = rho(kappa), charts(kappa)[ASYMMETRIC]
     squared = np.linspace(0.0, _LARGEST_SQUARED, _NODES)
