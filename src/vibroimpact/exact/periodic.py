@@ -96,7 +96,7 @@ class PeriodicOrbit(Representation):
 
     @cached_property
     def symmetric(self) -> bool:
-        """True if each state is minus the state half a period earlier; False if `periods` is even."""
+        """True if the state is multiplied by -1 after half of `period`; always False if `periods` is even."""
         half = _state_at(self.run, self.run.tau0 + self.period / 2)
         return self.periods % 2 == 1 and bool(np.abs(half + self.run.start).max() <= SAME)
 
@@ -196,7 +196,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
             break
         run = nearer
     if any(size <= least and _gap(run) <= closed for least, closed in _CONVERGED):
-        tau = run.cycles * system.period  # same forcing phase as tau = 0, which is before the run starts
+        tau = run.cycles * system.period  # the run starts after tau = 0; one period later, the state is the same
         at_zero = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
         return PeriodicOrbit(system, periods, at_zero[-1].copy() if len(at_zero) else _state_at(run, tau), run)
     grazes = "; a ball grazes a wall" if _grazes(given) or _grazes(run) else ""

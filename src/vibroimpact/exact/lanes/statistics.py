@@ -1,12 +1,13 @@
 """Compute the statistics of runs in an ensemble: impacts, displacements of boxes, speeds of balls, integrals.
 
 In the lanes, statistics are added up flight by flight (`observe`); in the event loop, event by event
-(`accumulate_statistics`). Integrals are differences of potentials (`energy.Squares`).
+(`accumulate_statistics`). The integrals, such as the work of the forces, are computed as differences of potentials
+(`energy.Squares`).
 
 A turn is an instant at which a box reverses its motion. If the Bernstein coefficients of a step show that the box may
 reach its largest displacement so far at a turn, the turn is stored, but not yet computed. A stored turn may be replaced
 by a turn with a larger displacement. The remaining stored turns are computed later for all lanes together
-(`find_turns`), so that no lane has to wait.
+(`find_turns`), since all lanes would have to wait while a turn is computed in one lane.
 """
 
 import math
@@ -33,7 +34,9 @@ from vibroimpact.exact.lanes.rows import (
 )
 from vibroimpact.system.state import IMPACT
 
-PIECE = 4  # spacings of the flow table per piece of a flight; a box turns at most once in a piece unless almost at rest
+PIECE = 4
+"""Length of a piece of a flight, in spacings of the flow table. A box turns at most once in a piece, unless the box is
+almost at rest."""
 STEPS = 4  # number of Newton steps to find a turn
 
 
@@ -148,7 +151,8 @@ def _add_flight(flow, squares, motion, end, length, statistics):
 def _add_piece(p, low, high, i, wall, statistics):
     """Update the statistics of module i with the motion of box i between the times `low` and `high`.
 
-    If the box turns, update its largest displacement. If the ball sticks to the box, add the path of the ball.
+    If the box turns, its largest displacement is updated. If the ball sticks to the box, the length of their common
+    path is added to the path length of the ball.
 
     p (8,): Taylor polynomial of the box.
     """
@@ -208,19 +212,20 @@ def _add(runs, mask, place, value):
 
 @inlined
 def may_turn_beyond(record, x, v, later, v_later, third):
-    """Return True in lanes where a box turns in a step and a middle Bernstein coefficient exceeds the record.
+    """Return True in lanes where a box turns in a step and a middle Bernstein coefficient is above `record`.
 
-    record: largest displacement so far. x, v, later, v_later: position and velocity of the box at both ends of the
-    step. third: a third of the step.
+    record: largest displacement of the box so far, minus a margin for errors. x, v, later, v_later: position and
+    velocity of the box at both ends of the step. third: a third of the step.
     """
     return (v * v_later < 0.0) & (most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > record)
 
 
 @inlined
 def keep_turns(runs, c, work, turns, wrong, early, late, step):
-    """Store the turns in a step at which the boxes may reach their largest displacements.
+    """Store a turn of a box if the displacement at this turn may be the largest displacement of the box so far.
 
-    If a lane already has a stored turn that may have a larger displacement, all stored turns are computed first.
+    If the displacement at an already stored turn may be larger than at the new turn, all stored turns are computed
+    first.
 
     early, late: boxes and forcing before and after the step. wrong: five times a bound on the error of Hermite's
     polynomial.
@@ -252,9 +257,10 @@ def keep_turns(runs, c, work, turns, wrong, early, late, step):
 
 @in_place
 def find_turns(runs, c, work):
-    """Compute the stored turns by Newton's method and a final parabola; update the largest displacements.
+    """Compute the displacements of the boxes at the stored turns, and update the largest displacements.
 
-    The time of a turn is computed with the first terms of the Taylor polynomials, the displacement with all terms.
+    The time of a turn is computed by Newton's method with the first terms of the Taylor polynomials. The displacement
+    is computed with all terms, and corrected to the vertex of a parabola.
     """
     for i in range(2):
         row, first = rows.TURNS_AT + rows.TURN * i, rows.SECOND * i

@@ -7,15 +7,16 @@ A step needs a proof that no impact happens in it. The position w of a ball in i
 of the step, define Hermite's cubic polynomial. This polynomial lies between the smallest and the largest of its
 Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step. With a bound B on the
 fourth derivative of w, the error of the polynomial is at most B h^4 s^2 (1 - s)^2 / 24 at the fraction s of the step.
-Lowering the limit for the two middle coefficients by B h^4 / 72 covers more than this error. B follows from the energy
-of the boxes, which cannot grow by more than the work of the force.
+The walls are at w = +-1. The proof requires that the two middle coefficients are at most 1 - B h^4 / 72 in magnitude,
+since the margin B h^4 / 72 covers more than this error. A bound on rounding errors is also subtracted from 1. B follows
+from the energy of the boxes, which cannot grow by more than the work of the force.
 
 A lane without a proof for its next step waits. Once enough lanes wait, `step_to_event` advances all of them in one
 pass. In a pass, the Taylor polynomials of both boxes give the time of an impact. The Bernstein coefficients for the
 step that ends at this time prove that no impact happens earlier. If the proof fails, the next pass tries half the time.
 All other cases (chatter to be completed, balls at rest, simultaneous events, any doubt) are left to the event loop.
 
-The impact law is that of `vibroimpact.system.restitution`, which names its other implementations.
+The impact law is implemented here again; `vibroimpact.system.restitution` lists all implementations of the law.
 """
 
 import math
@@ -45,18 +46,17 @@ RUNNING: the run goes on. WAITING: the next step is not proved to be free of imp
 STOPPED: the run has reached the end of a window. DOUBTFUL: the lane needs the event loop."""
 
 SHORTEST = 1 / 32  # if a proof over this fraction of a step or less fails, the event loop takes over
-LONGEST = 6.0  # forcing angle [rad], below a full turn, after which sine and cosine are computed again from the phase
+LONGEST = 6.0  # change of the forcing phase [rad] after which its sine and cosine are computed again; below 2 pi
 ROUNDED = 8.0 * 2.0**-52  # relative bound on the rounding error of a few operations
-SAME_TIME = 2.0**-48  # a run stops if the time left until its stop is at most this
+SAME_TIME = 2.0**-48  # a run stops if its remaining time is at most SAME_TIME
 
 
 @in_place
 def advance_lanes(runs, c, work, enough):
-    """Advance runs (STATES, 8) with constants c (CONSTANTS, 8) until `enough` lanes have no proof for the next step.
+    """Advance runs (STATES, 8) with constants c (CONSTANTS, 8), and return the number of steps taken.
 
-    A proof shows that no ball hits a wall in the step.
-
-    Returns the number of steps.
+    The function returns when `enough` or more lanes have no proof for their next step. A proof shows that no ball hits
+    a wall in the step.
     """
     x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
     passed, reach, trial = load_rows(runs, rows.PASSED, 3)
@@ -319,7 +319,10 @@ def _begin_flight(runs, c, done, start, clock):
 
 @inlined
 def _limit(c, size, t, rounding):
-    """Return the limit for Bernstein coefficients over a time t; size: bound on the root of twice the boxes' energy."""
+    """Return the limit on the middle Bernstein coefficients of a step of length t.
+
+    size: bound on the square root of twice the energy of the boxes. rounding: bound on rounding errors.
+    """
     square = t * t
     bend = fused(load(c, rows.BEND), size, load(c, rows.BEND_FORCE))
     return 1.0 - fused(bend, square * square, rounding)
@@ -334,9 +337,9 @@ def _change(c, k, x1, x2, v1, v2, s, cosine):
 
 @inlined
 def _rough_change(c, k, x1, x2, v1, v2, s, cosine, low=0.0):
-    """Return `_change` with constants rounded to one float each.
+    """Return the change as in `_change`, by default without the rounding remainders of the constants.
 
-    low: contribution of the remainders of the constants, which `_change` passes.
+    low: contribution of these remainders.
     """
     boxes = _of_boxes(c, 6 * k, x1, x2, v1, v2)
     return boxes + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
@@ -352,7 +355,8 @@ def _of_boxes(c, k, x1, x2, v1, v2):
 def _inside(limit, w, rate, later, rate_later, third):
     """Return True in lanes where both middle Bernstein coefficients are at most `limit` in magnitude.
 
-    w, rate, later, rate_later: position and its rate at both ends of the step. third: a third of the step.
+    w, rate, later, rate_later: position of a ball in its box and the rate of this position, at the start and at the end
+    of the step. third: a third of the step.
     """
     return (abs(fused(third, rate, w)) <= limit) & (abs(fused(-third, rate_later, later)) <= limit)
 
@@ -398,8 +402,8 @@ def _approximate_time(work, first, leaves, wall, y, u, step):
 def _refined_time(work, one, near, speed, t):
     """Return the time at which a ball meets its wall, by two Newton steps from t, and True if they converge.
 
-    one: True for module 1, else module 2. near, speed: position relative to the wall, and its rate, at time 0. The
-    first step uses fewer terms of the polynomial, since the second step corrects it.
+    one: True for module 1, False for module 2. near, speed: position of the ball relative to the wall, and rate of this
+    position, at time 0. The first step uses fewer terms of the polynomial, since the second step corrects it.
     """
     t = t - _newton_step(work, one, near, speed, t, rows.TERMS + 2)
     change = _newton_step(work, one, near, speed, t, ORDER)
@@ -423,7 +427,7 @@ def _newton_step(work, one, near, speed, t, order):
 
 @inlined
 def _sine_and_cosine(phase, tail):
-    """Return `flow.sine_and_cosine` in each lane."""
+    """Return sine and cosine of phase + tail in each lane, computed as in `flow.sine_and_cosine`."""
     quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
     x, y = fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
     sine, cosine = sine_and_cosine_near(x, y)

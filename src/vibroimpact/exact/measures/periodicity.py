@@ -23,7 +23,8 @@ def samples_per_cycle(tau, period: float) -> int:
     slack = 1e-6 * step
     if np.any(np.abs(np.diff(tau) - step) > slack) or abs(number * step - period) > number * slack:
         raise ValueError(
-            f"tau: needs evenly spaced times, a whole number per period of {period}, got a mean spacing of {step}"
+            f"tau: needs evenly spaced times with a whole number of spacings in a period of {period}, "
+            f"got a mean spacing of {step}"
         )
     if len(tau) <= number:
         raise ValueError(f"tau: {len(tau)} samples span less than one period; needs at least {number + 1}")
@@ -48,7 +49,7 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
         window = len(displacements) / per_cycle
-        raise ValueError(f"cycles: needs at least 1 and less than the window of {window:g} periods, got {cycles}")
+        raise ValueError(f"cycles: must be at least 1 and less than {window:g} (periods in the window), got {cycles}")
     return float(np.max(np.abs(displacements[lag:] - displacements[:-lag])))
 
 
@@ -65,7 +66,8 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
     displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
     later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
-    back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)  # first sample recurs
+    # the numbers of periods after which the displacements are again those of the first sample
+    back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)
     return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 

@@ -71,8 +71,8 @@ class AsymmetricConditions:
     def linear_system(self, times: np.ndarray):
         """Return the matrix (n, 6, 4) of the linear equations for (I_1, I_2, c, s) at impact times (n, 4).
 
-        c and s are cosine and sine of an unknown phase of the forcing, which is proportional to
-        Im((c + i s) exp(i Omega tau)).
+        The forcing is proportional to Im((c + i s) exp(i Omega tau)), where c and s are the cosine and sine of an
+        unknown phase.
         """
         forced = self.amplitude * np.exp(1j * self.system.Omega * times)
         by_phase = np.stack([self._forced(forced), self._forced(1j * forced)], axis=2)

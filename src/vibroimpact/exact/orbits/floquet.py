@@ -49,7 +49,7 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
     S = R + (f+ - R f-) n^T / (n . f-), where R is the restitution matrix and f-, f+ are the vector fields before and
     after the impact (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through f- and
     f+, since wall and impact law do not depend on time. det S = kappa^2. `engine.variation` names the other
-    implementations.
+    implementations of S.
 
     Raises
     ------

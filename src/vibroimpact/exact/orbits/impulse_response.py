@@ -86,7 +86,7 @@ class ImpulseResponse:
         return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None] % 2))
 
     def between(self, times: np.ndarray, boxes: np.ndarray):
-        """Return displacements, velocities and accelerations just before impulses, each (*times.shape, n).
+        """Return box displacements, velocities and accelerations just before impulses, each (*times.shape, n).
 
         Train k has an impulse on box boxes[k] at times[..., k]. Entry [..., m, k] is the response of box boxes[m] to
         train k, just before the impulse of train m.

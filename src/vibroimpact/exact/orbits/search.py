@@ -254,11 +254,10 @@ def prove(orbit: Orbit):
 
 
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:
-    """Return the multipliers of a symmetric orbit for half a period followed by the mirroring state -> -state.
+    """Return the half-period multipliers of a symmetric orbit; their squares are the multipliers of the orbit.
 
-    Their squares are the multipliers of the orbit.
-
-    The half-period multipliers distinguish a fold (multiplier +1) from symmetry breaking (multiplier -1).
+    The half-period multipliers are the eigenvalues of the derivative of -state(T/2) with respect to state(0). They
+    distinguish a fold (multiplier +1) from symmetry breaking (multiplier -1).
 
     Raises
     ------
@@ -371,9 +370,10 @@ def _state(system, times, changes, speeds, sign):
 
 
 def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
-    """Return the largest |X_i - c Y_i| with c = `balls` at extrema inside the free flights, (2,); 0 if there is none.
+    """Return the largest |X_i - c Y_i|, c = `balls`, at the extrema of X_i - c Y_i inside the free flights, (2,).
 
-    With c = 1 this is the largest |W_i|, with c = 0 the largest |X_i|.
+    The result is 0 if X_i - c Y_i has no extremum there. With c = 1 the result is the largest |W_i|, with c = 0 the
+    largest |X_i|.
     """
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))

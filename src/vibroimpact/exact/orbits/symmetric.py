@@ -170,10 +170,10 @@ def _coupled_starts(system, conditions):
 
 
 def _roots_of_condition(system, conditions):
-    """Return the real parts of all nearly real roots delta in [0, T], and the index of the force for each root.
+    """Return the roots delta of c^2 + s^2 = 1 in [0, T], and the index of the force for each root.
 
-    The condition c^2 + s^2 = 1 on the solution of `linear_system` is interpolated by Chebyshev polynomials on pieces of
-    the interval.
+    c and s are taken from the solution of `linear_system` at delta. The condition is interpolated by Chebyshev
+    polynomials on pieces of the interval. Of a root that is nearly real, the real part is returned.
     """
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     pieces = 2 * math.ceil(system.period / 2 * fastest / _RADIANS_PER_PIECE)
@@ -195,10 +195,12 @@ def _roots_of_condition(system, conditions):
 
 
 def _condition(conditions, delta, force):
-    """Return N_c^2 + N_s^2 - D^2, with c = N_c / D and s = N_s / D, times a positive factor per piece.
+    """Return N_c^2 + N_s^2 - D^2, which is zero where c^2 + s^2 = 1, at each delta (pieces, n).
 
-    N_c, N_s and D are Cramer's determinants of the linear system for (C_1, C_2, c, s). delta: (pieces, n); force:
-    index of the force of each piece, (pieces, 1). The factors keep the squares within the range of floats.
+    N_c, N_s and D are the determinants of Cramer's rule for the linear system in (C_1, C_2, c, s): c = N_c / D and
+    s = N_s / D. Each row is multiplied by a positive factor that keeps the squares within the range of floats.
+
+    force: index of the force for each row of delta, (pieces, 1).
     """
     matrices, constant = conditions.linear_system(delta, force)
     size = np.abs(matrices).max(axis=2).mean(axis=1)  # one scale per unknown, so that the determinants are of order 1
@@ -215,13 +217,13 @@ def _condition(conditions, delta, force):
 def _line_starts(matrices, constant):
     """Return three starts (C_1, C_2, c, s) for each linear system, shape (n, 3, 4).
 
-    The first start is the solution of the linear system.
+    The first start is the solution of the linear system. The second and the third start are the two points
+    with c^2 + s^2 = 1 on a line through this solution, along the right singular vector of the smallest singular value.
+    If the line has no such points, the second and the third start are its point with the smallest c^2 + s^2. Starts
+    that do not exist are NaN.
 
-    If the matrix is singular (for identical modules in phase, for example), the solutions form a line that
-    intersects the circle c^2 + s^2 = 1 twice. Near such a matrix both intersections are needed as starts. The other two
-    starts are therefore computed for every matrix, from a line along the right singular vector of its smallest singular
-    value. They are the intersections of this line with the circle. If the line misses the circle, both are the point of
-    the line nearest to the circle. Starts that do not exist are NaN.
+    The second and the third start are needed if the matrix is singular or almost singular, for example for identical
+    modules in phase. If the matrix is singular, all points of the line are solutions.
     """
     u, values, v = np.linalg.svd(matrices)
     parts = constant @ u

@@ -22,9 +22,10 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 class SteadyBoxes:
     """Steady motion [X1, X2, X1', X2'] of the boxes; the system's float64 matrices and forcing are taken as exact.
 
-    omega, period: of the forcing. rate (4, 4): rate matrix of free motion. start (4, 2): state just after an impulse;
-    column j is for a train of impulses on box j (sign +1: equal impulses, one per period; -1: impulses of alternating
-    sign, one every half period). amplitude (4, 1): without impulses the state is Im(amplitude exp(i omega tau)).
+    omega, period: frequency and period of the forcing. rate (4, 4): rate matrix of free motion. start (4, 2): state
+    just after an impulse; column j is for a train of impulses on box j (sign +1: equal impulses, one per period; -1:
+    impulses of alternating sign, one every half period). amplitude (4, 1): without impulses the state is
+    Im(amplitude exp(i omega tau)).
 
     Raises
     ------

@@ -1,11 +1,11 @@
 """Prove existence, motion between the walls and stability of a computed orbit in interval arithmetic.
 
 Krawczyk's test (Krawczyk 1969; Neumaier 1990) on the six equations of asymmetric.py proves that exactly one root lies
-in a box around the computed numbers. If the mirror image of the root also lies in the box, the root is its own mirror
-image and therefore symmetric. If a flight certainly does not last half a period, the root is asymmetric. The enclosure
-of the root gives enclosures of the states at the impacts, of the monodromy matrix and of its eigenvalues (flint's
-acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017). Numbers of the Orbit, computed in float64, are called listed
-numbers.
+in a box, which is a product of six intervals around the computed numbers. If the mirror image of the root also lies in
+the box, the root is its own mirror image and therefore symmetric. If a flight certainly does not last half a period,
+the root is asymmetric. The enclosure of the root gives enclosures of the states at the impacts, of the monodromy matrix
+and of its eigenvalues (flint's acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017). Numbers of the Orbit,
+computed in float64, are called listed numbers.
 """
 
 import math
@@ -27,7 +27,7 @@ _SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
 The tolerances are relative for values above 1. A larger difference means that the listed values belong to another
 orbit. The tolerance for multipliers is larger, since rounding changes a double multiplier by the square root of the
 rounding error."""
-_STEPS = 20  # largest number of steps to narrow a box; convergence soon becomes quadratic
+_STEPS = 20  # largest number of steps to narrow the enclosure of a root; the convergence soon becomes quadratic
 
 
 @dataclass(frozen=True)
