@@ -171,9 +171,9 @@ def verdict(table: pd.DataFrame, label: str) -> str:
 
 
 def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
-    """Return a text on the singular points outside the frame of a panel.
+    """Return a text with the C_i of all singular points outside the frame of a panel.
 
-    The text gives C_i of these points. It is "no S_i" if the panel has no singular points, and "" if all are inside.
+    The text is "no S_i" if the panel has no singular points at all, and "" if all of them are inside the frame.
     """
     name = f"S_{panel[-1]}"
     beyond = select(table, panel, f"{name} beyond")["C"]

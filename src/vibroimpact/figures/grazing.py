@@ -37,7 +37,7 @@ DIGITS = range(2, 15)
 
 
 def compute() -> pd.DataFrame:
-    """Return the rows of `stress_tests.judge`, one per method in LOOKS and depth, with the columns in SPEC."""
+    """Return the rows of `stress_tests.judge` for each method in LOOKS and each depth, with the columns in SPEC."""
     system, methods = System(**CHAPTER), [method for method in METHODS if method.name in LOOKS]
     rows = [{"digits": digits} | row for digits in DIGITS for row in judge(grazing(system, -1, digits), methods)]
     table = pd.DataFrame(rows)[[name for names in SPEC["columns"] for name in names.split(", ")]]

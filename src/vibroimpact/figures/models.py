@@ -77,8 +77,9 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
     Parameters
     ----------
     scenes : dict
-        For each figure, by name: its `module`, `notebook`, `model` in use, parameters of its `system`, and `settings`
-        of the figure or of its simulation (see `vibroimpact.accuracy.window.window`).
+        For each figure, keyed by its name, a dict. The keys of this dict are module (name of the Python module),
+        notebook (name of the notebook), model (model in use), system (parameters) and settings (of the figure or of
+        its simulation, see `vibroimpact.accuracy.window.window`).
     seconds : float
         Time [s] for which each run is repeated to measure its run time.
 
@@ -116,7 +117,7 @@ def _simulations(module, system, settings, models, seconds):
 
     The runs in float64 and in arbitrary precision both start where the transient in float64 ends, since the transient
     takes a minute in arbitrary precision. The cost in arbitrary precision includes an estimate for the transient: the
-    run time of a window with few samples, multiplied by the ratio of the numbers of periods.
+    number of periods of the transient, multiplied by the run time per period of a run with few samples.
     """
     whole = window(system, settings | {"model": "float64"})
     part = settings | {"initial_state": whole.samples[list(NAMES)].iloc[0].tolist(), "transient_cycles": 0}

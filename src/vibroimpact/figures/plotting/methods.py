@@ -1,4 +1,4 @@
-"""Choose and draw the eight methods of the accuracy charts; the tables contain more methods."""
+"""Select the eight methods that the accuracy charts show (the tables contain more), and draw their curves."""
 
 from vibroimpact.figures.plotting.style import BLACK
 

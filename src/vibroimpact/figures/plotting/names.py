@@ -25,8 +25,8 @@ which curve the name belongs. OVERLAPS: the name covers something."""
 def name_curves(figure, panels: dict, **style) -> None:
     """Write the name of each curve next to it, in its colour, where it covers no line, marker, text or inset.
 
-    Call `name_curves` after all other drawing, since it finds the places for the axes limits and layout at the time of
-    the call. A halo separates names from shading.
+    Call `name_curves` after all other drawing, since the places of the names depend on the axes limits and on the
+    layout. A halo separates names from shading.
 
     Parameters
     ----------

@@ -44,7 +44,9 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame
 
 
 def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
-    """Return statistics of the amplitude of each box: half its peak-to-peak displacement in each forcing period.
+    """Return statistics of the amplitudes of each box.
+
+    An amplitude is half the peak-to-peak displacement of a box in one forcing period.
 
     Returns columns displacement ("X1", "X2"), smallest amplitude, largest amplitude, amplitude variation (standard
     deviation divided by mean), modulation periods (their number), mean length in cycles (mean length of the modulation
@@ -97,7 +99,10 @@ def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
 
 
 def without_resonance(table: pd.DataFrame) -> np.ndarray:
-    """Return the time intervals [forcing cycles], (n, 2), in which ball 2 needs more than a cycle from wall to wall."""
+    """Return the time intervals without resonance [forcing cycles], (n, 2).
+
+    In such an interval, ball 2 needs more than one forcing cycle to reach the opposite wall.
+    """
     motion = select(table, "b", "W_2")
     time, wall = motion.loc[motion["value"].abs() == 1, ["cycle", "value"]].to_numpy().T
     reached = time[np.diff(wall, prepend=0) != 0]

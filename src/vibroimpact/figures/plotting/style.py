@@ -94,10 +94,10 @@ def save(figure: Figure, outputs: dict) -> None:
 
 
 def draw_tables(figure, read: dict) -> Figure:
-    """Draw a figure from the dict `read` of its tables by name; `figure` is the Python module of the figure.
+    """Draw a figure from its tables `read`, {name: DataFrame}; `figure` is the Python module of the figure.
 
-    The dict is the argument of `figure.draw`. If a figure has only the table "csv", the argument is this table. If a
-    figure has no tables, `figure.draw` is called without an argument.
+    If the figure has no tables, `figure.draw` is called without an argument. If the figure has only the table "csv",
+    the argument is this table. Otherwise the argument is `read`.
     """
     if not read:
         return figure.draw()
@@ -115,7 +115,8 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
     computed
         Result of its `compute`.
     outputs : dict
-        Paths by kind of picture and by name of table; a table without a path is not written.
+        Paths of the files to write. The keys are the names of tables and the keys that `save` uses. A table without a
+        path is not written.
     """
     drawn = _by_name(computed)
     for name in drawn.keys() & outputs.keys():
@@ -125,15 +126,16 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
 
 
 def shown(figure, inputs: dict, *args, **settings) -> tuple:
-    """Return the content of a figure's page: the result of `compute`, and the PNG (a path or the bytes).
+    """Return the tables of a figure, in the form in which `compute` returns them, and its PNG (a path or the bytes).
 
     Parameters
     ----------
     figure
         Python module of the figure.
     inputs : dict
-        Paths of the files of a build: of each table under its name, and of the picture under "png". If `inputs` is
-        empty, the figure is computed and drawn.
+        Paths of the files of a build: the path of each table, keyed by the name of the table, and the path of the
+        picture, keyed "png". This path is then returned as the PNG. If `inputs` is empty, the figure is computed and
+        drawn, and the bytes of the PNG are returned.
     args, settings
         Arguments of `compute`.
     """
