@@ -11,9 +11,8 @@ MOST_CALLS = 5000
 def interleaved(functions, seconds: float) -> list[tuple]:
     """Call several functions repeatedly, in turn, so that a disturbance of the machine affects all of them.
 
-    Each function is called as often as fits in `seconds`, at least once and at most MOST_CALLS times. One-time work
-    (such as compilation) must be done by an earlier call. Return, for each function, its result and its shortest time
-    [s].
+    Each function is called until its calls have taken `seconds` in total, but at most MOST_CALLS times. One-time work
+    (such as compilation) must be done by an earlier call. Return the result and the shortest time [s] of each function.
     """
     given, best = [None] * len(functions), [float("inf")] * len(functions)
     total, calls, left = [0.0] * len(functions), [0] * len(functions), list(range(len(functions)))

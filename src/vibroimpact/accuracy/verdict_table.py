@@ -24,10 +24,10 @@ epsilon = 0.1, it is at most 0.29, or above 2.5 where the orbits next to two fix
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
-    """Return one row per orbit in `orbits`, in this order: quantities, verdict of each criterion, and proof if any.
+    """Return one row per orbit, in the order of `orbits`, with the verdict of each criterion.
 
     Columns: case, label ("S1", ... if symmetric, "A1", ... if asymmetric), the columns of `Orbit.row` except `proved`,
-    one column per criterion, and the columns of `OrbitProof.row`.
+    one column per criterion and, if any of the orbits has a proof, the columns of `OrbitProof.row`.
     """
     counts, rows = {True: 0, False: 0}, []
     for orbit in orbits:
@@ -42,9 +42,9 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.DataFrame:
     """Return one row per fixed point, sorted by label, with the verdict of each criterion.
 
-    Columns: case, label, admissible (W stays between the walls at leading order), C1, C2, orbit (label of the symmetric
-    orbit next to the point, see `partners`; "" if there is none), and one column per criterion. The verdict in the
-    column `exact` is the Floquet verdict on the exact orbit next to the fixed point.
+    Columns: case; label; admissible (True if the balls stay between the walls at leading order); C1 and C2 (saw-tooth
+    amplitudes); orbit (label of the symmetric orbit next to the point, see `partners`, or "" if there is none); one
+    column per criterion. The column `exact` contains the Floquet verdict on this orbit, or NO_ORBIT.
 
     Parameters
     ----------
@@ -70,9 +70,9 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
 def partners(points, orbits) -> list[int | None]:
     """Return, for each fixed point, the index of the exact orbit next to it, or None.
 
-    `points` (n, 2) and `orbits` (m, 2) contain C of both modules; the NaN of an inactive module (`System.modules`) is
-    ignored. A point is matched with its nearest orbit, unless another point is nearer to that orbit or the distance is
-    REACH or more.
+    `points` (n, 2) and `orbits` (m, 2) contain the saw-tooth amplitudes C of both modules. The amplitude of an inactive
+    module (`System.modules`) is NaN and is ignored. Each point is matched with its nearest orbit, unless another point
+    is nearer to this orbit or the distance is REACH or more.
     """
     points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
     if not len(orbits):

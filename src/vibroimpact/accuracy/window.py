@@ -22,10 +22,10 @@ DIGITS = 40
 class Window:
     """Window of a simulation.
 
-    samples: columns tau and the state, at evenly spaced times, both ends of the window included. events: columns tau,
-    module, wall, kind and the state just after the event. strobe: columns as in samples, at the start of every forcing
-    cycle of the whole run and at the end of the run. trust: method of the simulation, with the certificate of the run
-    (float64) or the digits and the agreement of two runs (reference).
+    samples: tau and the state at evenly spaced times, both ends of the window included. events: tau, module, wall, kind
+    and the state just after each event in the window. strobe: tau and the state at the start of every forcing cycle of
+    the whole run and at the end of the run. trust: the method of the simulation; for float64 also the certificate of
+    the run, for the reference arithmetic the digits of two runs and the largest difference between these runs.
     """
 
     samples: pd.DataFrame
@@ -42,9 +42,9 @@ def window(system: System, settings: dict) -> Window:
     system : System
         Dimensionless parameters.
     settings : dict
-        Keys: initial_state (8,); transient_cycles, before the window; window_cycles; samples_per_cycle; model,
-        "float64" or "reference"; and digits, the decimal digits of the first reference run (default DIGITS). The
-        digits are doubled until two successive reference runs agree.
+        initial_state: shape (8,). transient_cycles, window_cycles: numbers of forcing cycles before and in the window.
+        samples_per_cycle: number of samples per cycle. model: "float64" or "reference". digits (optional, default
+        DIGITS): decimal digits of the first reference run, which are doubled until two successive runs agree.
 
     Raises
     ------

@@ -68,7 +68,10 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 
 
 def _measured(problem, setting, run, time, reference):
-    """Return the columns of a run: errors, time, steps, evaluations, outcome, and reason of a failure or doubt."""
+    """Return the columns of a run: errors, time, numbers of steps and evaluations, outcome and reason.
+
+    The reason is the cause of a failure or what the method reports as undecided; otherwise it is empty.
+    """
     return {
         "setting": str(setting),
         **run_errors(run, reference, problem.system.period)._asdict(),
@@ -83,7 +86,8 @@ def _measured(problem, setting, run, time, reference):
 def fitted_order(points) -> float | None:
     """Fit log(error) against log(scale) by least squares; return the slope, or None for fewer than three points.
 
-    `points` are pairs (scale, error), with `Method.scale`. Only pairs whose error is in the range RESOLVED are used.
+    `points` are pairs of the value of `Method.scale` and the error of a run. Only pairs whose error is in the
+    range RESOLVED are used.
     """
     largest, smallest = RESOLVED
     resolved = [(scale, error) for scale, error in points if smallest <= error <= largest]
