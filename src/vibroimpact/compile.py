@@ -18,7 +18,7 @@ def main() -> None:
 
 
 def beforehand() -> None:
-    """Prepare a process that only compiles: omit the advice to compile in advance, disable garbage collection."""
+    """Prepare a process that only compiles: print no hint to compile in advance, and disable garbage collection."""
     from vibroimpact.exact.engine.compiled import NOTICE
 
     NOTICE.hint = ""
@@ -37,7 +37,7 @@ def simulations() -> None:
 
 
 def ensembles() -> None:
-    """Compile ensembles: the code for several runs at once, and the code for runs of undamped systems, one at a time.
+    """Compile the code for ensembles: for several runs at once, and for runs of undamped systems (one run at a time).
 
     Call this function last, because ensembles use all other compiled code.
     """

@@ -65,7 +65,7 @@ class Command(NamedTuple):
 
 
 def add_system_options(parser) -> None:
-    """Add an option for every dimensionless parameter to a parser, and --case for the forces of the chapter's case."""
+    """Add an option for each dimensionless parameter, and the option --case for the forces of a case of the chapter."""
     group = parser.add_argument_group(
         "system", "dimensionless parameters of (10.4)-(10.6); the defaults are those of section 10.4"
     )
@@ -141,7 +141,7 @@ def _design_options(parser):
 
 
 def _design(options):
-    """Return one row per frequency; the summary is the text of the `Design`."""
+    """Return the response with the chosen ball, one row per frequency, and the text of the `Design` as the summary."""
     if options.plot is not None:
         if options.plot.suffix not in PICTURES:
             raise ValueError(f"plot: {options.plot} should end in {', '.join(PICTURES)}")
