@@ -1,1 +1,1 @@
-"""Event-driven simulation: free flight in closed form, impacts, chatter, sticking and release, and a certificate."""
+"""Event-driven simulation (closed-form flight, impacts, chatter, sticking, release) with a certificate for each run."""

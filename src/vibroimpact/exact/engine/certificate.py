@@ -39,7 +39,7 @@ instead of averaging out."""
 
 
 class Errors(NamedTuple):
-    """Estimated errors of a state, in UNIT.
+    """Estimated errors of a state, in units of the constant UNIT (the float64 epsilon).
 
     independent: covariance (8, 8) of independent rounding errors. repeated: sums (8, 6) of rounding errors that recur
     with the same value, one column for each source. Columns 0 and 2: errors of the flow tables that make the motion of
@@ -120,7 +120,10 @@ def errors_at(flow, flights, events, times, limit):
 
 @inlined
 def _begin(q, flight, errors):
-    """Add the rounding errors of the initial state to `errors`; a ball has one in its velocity only at a wall."""
+    """Add the rounding errors of the initial state to `errors`.
+
+    The velocity of a ball has a rounding error only if the ball is at a wall.
+    """
     state = flight[BEFORE:AFTER]
     touching = abs(state[0] - state[4]) >= 1.0, abs(state[1] - state[5]) >= 1.0
     _add_rounding(q, errors, flight[:AFTER], state, touching)
@@ -168,8 +171,8 @@ def _pass_event(q, flights, events, n, errors, matrix, product):
 def _end(q, flight, elapsed, errors, rate):
     """Add to `errors` the effects of rounding the time and the state at the end of a run or at a sample.
 
-    elapsed: time of the sample since the start of the run, with which the rounding error of the sample time grows; 0 at
-    the end of a run, whose time is computed from the forcing phase without such growth.
+    elapsed: time of the sample since the start of the run; the rounding error of the sample time grows with this time.
+    At the end of a run, `elapsed` is 0: the end time is computed from the forcing phase, whose error does not grow.
     """
     late = 2.0 / q.omega + flight[LENGTH] + elapsed
     _, _, walls = start_of(flight)
@@ -213,7 +216,7 @@ def _root(errors):
     """Return the root of the sum, over all components of the state, of their mean square errors."""
     total = 0.0
     for k in range(8):
-        row = errors.independent[k, k]  # the processor can add separate sums for the rows in parallel
+        row = errors.independent[k, k]  # one sum for each row, since the processor can compute these sums in parallel
         for j in range(errors.repeated.shape[1]):
             row += errors.repeated[k, j] ** 2
         total += row
@@ -237,15 +240,14 @@ def _add_table(q, state, sums):
 
 @inlined
 def _add_rounding(q, errors, flight, state, met):
-    """Add a unit rounding error for a state (8,), [boxes, balls], at the end of a flight.
+    """Add to `errors` the rounding error of a state (8,), [boxes, balls], at the end of a flight.
 
     flight: row of the flight; the entries for the end of the flight are not used. met: for each module, True if its
     ball touches a wall.
 
-    A state is computed as a sum, in which the force contributes F / Omega^2 to a position and F / Omega to a velocity.
-    The rounding error of this contribution remains even if the contribution cancels later. Velocities due to a stiff
-    spring leave a rounding error in the same way. The velocity of a free ball is computed only at an impact, so that it
-    has a rounding error only there.
+    A state is computed as a sum. The force contributes F / Omega^2 to a position and F / Omega to a velocity, and a
+    stiff spring also contributes to a velocity. The rounding error of a contribution remains even if the contribution
+    cancels later. The velocity of a free ball is computed only at an impact and has a rounding error only there.
     """
     covariance, began = errors.independent, flight[BEFORE:]
     speed = q.drive / max(1.0, q.omega)

@@ -74,7 +74,8 @@ def with_contacts(motion, i, wall, touching):
 def drift_balls(balls, walls, boxes, t):
     """Return the positions and velocities of the balls a time t after the start of a flight.
 
-    balls: at the start of the flight. boxes: at the time t, for balls that stick to a box. walls: as in `Motion`.
+    balls: state at the start of the flight. boxes: state at the time t; a sticking ball moves with its box. walls: as
+    in `Motion`.
     """
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
@@ -167,9 +168,8 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
     """Return a number > 0 if the wall pushes ball i, at rest on it, and < 0 if the wall would have to pull the ball.
 
     The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. There is one
-    exception: a negative force on a sticking ball may increase so fast that the ball, if released, would rise by no
-    more than rounding. In this case the first derivative of the force, `change`, is returned. The ball would rise by
-    2 |force|^3 / (3 change^2).
+    exception: a sticking ball with a negative force that increases at the rate `change` would, if released, rise only
+    by 2 |force|^3 / (3 change^2). If this height is below rounding, `change` is returned.
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -262,7 +262,7 @@ def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
     """Apply the impact of the flying ball i if the ball has reached a wall; return (motion, soon).
 
     due: True if the impact is due now. soon: True if a chatter that begins with this impact would end within half of
-    `remaining` and within half of LOOKAHEAD * flow.unit, the longest time for which one proof excludes events.
+    `remaining` and within half of LOOKAHEAD * flow.unit. (A proof excludes events for at most LOOKAHEAD * flow.unit.)
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]

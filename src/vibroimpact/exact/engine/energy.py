@@ -110,7 +110,10 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @lru_cache(maxsize=64)
 def squares_of(system) -> Squares:
-    """Return the potentials for the forms OBSERVED, or NO_POTENTIALS if differences of potentials lose digits."""
+    """Return the potentials for the integrals of the quadratic forms OBSERVED.
+
+    If differences of these potentials would lose digits, return NO_POTENTIALS.
+    """
     _, rates = numbers_of([system], 2)
     potentials, drifts, sound = potentials_of(rates[:, 0], OBSERVED)
     return Squares(potentials[0], drifts[0]) if sound[0] else NO_POTENTIALS
@@ -251,7 +254,10 @@ def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
 
 @inlined
 def _add_quadrature(flow, mode, motion, length, row):
-    """Add the integrals of the forms OBSERVED over a flight of length <= flow.longest to a row, by Gauss's rule."""
+    """Add to a row the integrals of the forms OBSERVED over a flight, by Gauss's rule.
+
+    length: of the flight, at most `flow.longest`. The forms are X_1^2, X_2^2 and the terms of the energy balance.
+    """
     for j in range(int(length * flow.density + 0.5) + 1):
         jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
         sine, cosine = rotate_phase(flow, motion.sine, motion.cosine, j)

@@ -2,13 +2,15 @@
 
 Between events the flow is linear and evaluated in closed form (flow.advance). For each module, exclusion.module_time
 proves that the module has no event over some time (an exclusion), or returns the time at which its next event certainly
-happens. If the first event is certain, Newton's method finds its time, if necessary from the Taylor polynomials about
-the nearest time of the flow table. If no event is certain, the flight continues to the end of the proved interval, so
-that no event is missed. Events (contact.resolve):
+happens. If the first event is certain, Newton's method finds its time, from the Taylor polynomials about the present
+time if the event is near, otherwise from those about the nearest time of the flow table. If no event is certain, the
+flight continues to the end of the proved interval, so that no event is missed. Events (contact.resolve):
 
-impact    a ball meets a wall with outward relative velocity: Newton's restitution rule, momentum conserved;
-stick     the end of a chatter, infinitely many impacts in a finite time. A chatter is completed at once if completing
-          it neglects less than rounding. Box and ball then move as one body of mass 1 + epsilon until the release;
+impact    a ball meets a wall with outward relative velocity. Newton's restitution rule determines the rebound, and
+          momentum is conserved;
+stick     a ball comes to rest on a wall, for example after a chatter (infinitely many impacts in a finite time).
+          A chatter is completed at once if the neglected change of the state is below rounding. Box and ball then move
+          as one body of mass 1 + epsilon until the release;
 release   the contact force of a sticking ball falls to zero, or an impact in the other module makes the force negative.
 
 Time is represented by the forcing phase, which is reduced to one turn without loss (flow.reduced), so that long
@@ -85,7 +87,7 @@ def _first_event(q, motion, jets, bound, horizon, short):
     The event happens in `module` at `time` +- `width`. No event happens in either module before `safe`. The module is
     -1 if no event is certainly the first. doubt: `undecided` from `module_time` for the first event.
     """
-    # check first the module whose ball would be first at the wall ahead of it, at constant relative velocity
+    # first check the module whose ball, at constant relative velocity, would reach the wall ahead of it earlier
     (x1, x2, v1, v2), (y1, y2, u1, u2) = motion.boxes, motion.balls
     gap1, gap2 = 1.0 - math.copysign(1.0, v1 - u1) * (x1 - y1), 1.0 - math.copysign(1.0, v2 - u2) * (x2 - y2)
     one = 0 if gap1 * abs(v2 - u2) <= gap2 * abs(v1 - u1) else 1
@@ -137,7 +139,7 @@ FAILURES = {
     EXHAUSTED: "there are too many proofs that no event happens",
 }
 ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096
-"""Initial number of rows for events: constant, per cycle, and largest number. Few runs need more rows."""
+"""The initial number of rows for events is ROOM + ROOM_PER_CYCLE * cycles, at most MOST_ROOM. Few runs need more."""
 MOST_AT_ONCE = 8  # most events at one instant: for each module an impact, a stick, a release and the end of a chatter
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 need more."""
@@ -176,8 +178,8 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """Continue a run to its end or to a pause; return the status.
 
     numbers, series, rotations: from `flow.tables_of`. run, rows, counters: from `memory`; they are updated, and run[:8]
-    is the state reached. times (n,): ascending sample times, on the clock of run[CLOCK]. samples (n, 8): filled with
-    the states at these times; a sample at the time of an event is the state after the event.
+    is the state reached. times (n,): ascending sample times, measured so that the run starts at run[CLOCK]. samples
+    (n, 8): filled with the states at these times; a sample at the time of an event is the state after the event.
 
     The status is PAUSED if `rows` may be too short for the events of the next instant. It is also PAUSED after
     INTERRUPT_INTERVAL exclusions, so that the interpreter can handle an interrupt. To continue, call the function
@@ -203,7 +205,7 @@ def memory(state, phase, tail, cycles, clock):
     """Return new arrays for a run over `cycles` cycles: (array of the run, rows of events, counters).
 
     state (8,): initial state in the order of `contact.pack`. phase, tail: initial forcing phase in [0, 2 pi) and its
-    rounding remainder. clock: time at the start of the run, on the same clock as the sample times.
+    rounding remainder. clock: start of the run on the clock of the sample times.
     """
     run, room = np.zeros(RUN_LENGTH), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     run[:8], run[12:15], run[SPAN:] = state, (-1.0, phase, tail), (phase, tail, cycles, clock)
@@ -267,7 +269,7 @@ def run_until(flow, progress, span, sampling, log, earlier, interval):
 
 @inlined_source
 def _failure(q, boxes, balls, due, stalled, count, most_events):
-    """Return the reason for stopping a run after a flight, or FINISHED."""
+    """Return the reason for stopping a run after a flight, or FINISHED if there is no reason to stop."""
     for i in range(2):
         beyond = abs(boxes[i] - balls[i]) - 1.0
         if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, boxes, balls, i):

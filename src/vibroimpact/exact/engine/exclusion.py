@@ -164,10 +164,10 @@ def remainder(q, mode, jets, growth):
 
     growth: bound on the time integral of the sixth derivative of the force.
 
-    The sixth derivative of the box displacements obeys the equations of motion with the sixth derivative of the force.
-    In these equations, the velocity is the seventh derivative, and it is bounded by the square root of twice the
-    energy. This root grows by no more than the time integral of the sixth derivative of the force, since damping only
-    removes energy.
+    The sixth time derivatives of the box displacements obey the equations of motion, with the sixth derivative of the
+    force as forcing. In this motion, the velocities are the seventh derivatives. The velocities are bounded by
+    sqrt(2 E), where E is the energy of this motion. Damping only removes energy, so that sqrt(2 E) grows by no more
+    than `growth`.
     """
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
@@ -308,7 +308,8 @@ def module_time(q, motion, i, jets, bound, horizon, short):
 def _sticking_time(q, motion, i, jets, horizon, short):
     """Return the result of `module_time` for a sticking ball; the constraint is that the wall pushes the ball."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
-    # the second term bounds the rounding error of the growing force up to the horizon; needed if the box is at rest now
+    # The second term bounds the rounding error of the change of the force up to the horizon. Without this term, the
+    # margin could be almost zero for boxes at rest.
     margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + ZERO_FORCE_MARGIN
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)

@@ -95,7 +95,7 @@ PARAMETERS = (
 def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the scalars of the flows of n systems, (n, NUMBERS), and the rate matrices from `exact_rates`.
 
-    `count` is the number of times in the tables.
+    `count` is the number of times in the flow tables of each system.
 
     The scalar `shift` is a bound on the displacement of a box that the force causes in a period. It follows from a
     bound on the energy: sqrt(2 energy) grows by at most the time integral of the force.
@@ -133,9 +133,10 @@ def flow_of(system) -> Flow:
 
 @lru_cache(maxsize=64)
 def tables_of(system) -> tuple[np.ndarray, ...]:
-    """Return `flow_of` packed into three arrays: (scalars, series, rotations).
+    """Return the Flow of a system, packed into three arrays: (scalars, series, rotations).
 
-    For a tuple of many items, Numba would inspect each item, which takes 4 us per call instead of 1.5 us.
+    A call of a compiled function with these arrays takes 1.5 us. A call with a Flow would take 4 us, because Numba
+    inspects each field.
     """
     coefficients, series, rotations, *rest = flow_of(system)
     return np.array([*coefficients, *rest]), series, rotations

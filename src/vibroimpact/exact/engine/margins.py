@@ -3,7 +3,7 @@
 The constraint of a module is the gap between ball and wall while the ball flies, and the contact force while the ball
 sticks. A turn is a minimum of a constraint. To find all turns, a flight is cut into pieces in which the rate of the
 constraint, or the derivative of this rate, certainly keeps its sign. A piece therefore has at most one turn, which is
-found from the signs of the rate at both ends. That a sign is kept is proved as in `exclusion`, from Bernstein
+found from the signs of the rate at both ends. As in `exclusion`, the proof that a rate keeps its sign uses Bernstein
 coefficients of Taylor polynomials and a bound on the seventh derivative of the boxes.
 
 A margin is the smallest error of the state that would change the event sequence.
@@ -29,7 +29,7 @@ from vibroimpact.exact.engine.variation import FORCING, LENGTH, completes_chatte
 from vibroimpact.system.state import IMPACT, RELEASE
 
 SHORTEST = 1e-9  # shortest piece of a flight, in units of `Flow.unit`; the motion in a shorter piece is below rounding
-TURN_TOLERANCE = 1e-10  # of the time of a turn, in units of `Flow.unit`; the error of the gap is of second order
+TURN_TOLERANCE = 1e-10  # for the time of a turn, in units of `Flow.unit`; the effect on the gap is about its square
 NEGLIGIBLE_DOUBT = 1e-17  # a smaller bound on the error of a gap or contact force is below rounding
 MOST_STEPS = 60
 GAP, FORCE, DOUBTS = 0, 1, 2
@@ -180,15 +180,17 @@ def _note(flow, motion, i, times, rates, least_of):
 def margins_of(q, flights, turns, events, start_phase, duration):
     """Return margins at the start and the end of each flight (m + 1, 2), and depths (m,) and doubts (m,) of the events.
 
-    A margin is the smallest error of the state that would cause one of the following changes. At the start and the end:
-    an additional event at a turn (`turning_points`). At the start of the first flight: another contact state. At the
-    start of a flight after an impact: a different decision whether the impact releases the ball in the other module. At
-    the end of a flight: the next event does not happen, or only after the end of the run. At the end of the last
-    flight: an additional event before the end of the run.
+    A margin is the smallest error of the state that would cause one of these changes:
 
-    The depth is u^2 / (2 b) for an impact with relative speed u and deceleration b: without the impact, the ball would
-    move so far beyond the wall. The depth is inf without deceleration, and for events other than impacts. The doubt is
-    1 if rounding decides whether the ball hits the wall, else 0.
+    start and end of any flight         an additional event at a turn (`turning_points`)
+    start of the first flight           another contact state
+    start of a flight after an impact   a different decision whether the impact releases the ball in the other module
+    end of any flight but the last      the next event does not happen, or only after the end of the run
+    end of the last flight              an additional event before the end of the run
+
+    The depth of an impact is the distance u^2 / (2 b) that the ball would move beyond the wall if there were no impact,
+    with the relative speed u and the deceleration b. The depth is inf without deceleration, and for events other than
+    impacts. The doubt is 1 if rounding decides whether the ball hits the wall, else 0.
     """
     margins = np.full((len(flights), 2), math.inf)
     depths, doubts = np.full(len(events), math.inf), np.zeros(len(events))
@@ -220,7 +222,7 @@ def margins_of(q, flights, turns, events, start_phase, duration):
 
 @inlined
 def _lower(margins, margin):
-    """Lower each of the two margins of a flight, at its start and its end, to `margin` if it is larger."""
+    """Lower the margins at the start and at the end of a flight to `margin` where they are larger than `margin`."""
     for k in range(2):
         margins[k] = np.minimum(margins[k], margin)
 

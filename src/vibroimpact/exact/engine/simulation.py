@@ -275,7 +275,7 @@ class Run(Representation):
 
     @cached_property
     def trajectory(self) -> tuple:
-        """(flow tables, flights between the events as in `replayed`, rows of events as in `contact`)."""
+        """Flow tables, flights between events (see `replayed`) and rows of events (see `contact`), as a tuple."""
         flow, duration = flow_of(self.system), self.cycles * self.system.period
         phase = phase_at(self.begin, self.system.Omega)[0]
         return flow, replayed(flow, self.start, self.rows, phase, duration), self.rows

@@ -292,9 +292,9 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     For a completed chatter, inward = u and push = a as in `contact._hop`; otherwise both are 0.
 
     Box and ball keep their momentum and centre of mass. During the chatter, springs and dampers act on the box at its
-    actual position, not at the centre of mass. To first order in the perturbation, this adds two time integrals over
-    the chatter. The integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)). The integral of the rate of the gap is minus
-    the gap at the start of the chatter.
+    actual position, not at the centre of mass. The effect on the velocities is included to first order in the
+    perturbation. The effect depends on two time integrals over the chatter. The integral of the gap is
+    2 u^3 / (3 a^2 (1 - kappa^3)). The integral of the rate of the gap is minus the gap at the start of the chatter.
     """
     e = q.epsilon
     share = e / (1.0 + e)
