@@ -83,16 +83,17 @@ def ensemble(
     energy : bool, default False
         Add a field `energy` (ENERGY) with the energy balance over the observed cycles, as in `Run.energy`.
     by_cycle : bool, default False
-        Return an outcome for each observed cycle along an additional last axis. Its field `final` is the state at the
-        end of the cycle.
+        Return an outcome for each observed cycle along an additional last axis. The field `final` of an outcome is then
+        the state at the end of the cycle.
 
     Returns
     -------
     ndarray
         Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
         the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
-        observed cycles are nan. The averages and the largest |X_i| are exact to rounding, with one exception: if a box
-        is almost at rest around a turning point, the error of its largest |X_i| may reach 1e-5 of the path of the box.
+        observed cycles are nan. The averages and the largest |X_i| are exact to rounding, with one exception: for a box
+        that is almost at rest around a turning point, the error of the largest |X_i| may reach 1e-5 of the distance
+        that the box travels.
 
     Raises
     ------
@@ -205,9 +206,9 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 def _single_run(system, state, begin, stages, final, statistics):
     """Compute a run outside the lanes; return its status, and write final states (k, 8) and statistics (k, STATISTICS).
 
-    Two kinds of systems are not simulated in lanes. If the frequencies of boxes and forcing are very different, a
-    flight in a lane would consist of too many steps. In other systems, integrals would lose digits if computed as
-    differences of potentials (`energy.Squares`).
+    Lanes cannot simulate two kinds of systems. In the first kind, the frequencies of boxes and forcing are very
+    different, so that a flight in a lane would consist of too many steps. In the second kind, integrals would lose
+    digits if computed as differences of potentials (`energy.Squares`).
     """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]

@@ -48,14 +48,14 @@ class Piece(NamedTuple):
 class Memory(NamedTuple):
     """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
-    For each lane: runs and constants have the rows defined in `rows`. members: index of the initial state, or -1.
-    slots: index of the slot in use. counters: counters of the event log.
+    Fields with an entry for each lane. runs, constants: values in the rows defined in `rows`. members: index of the
+    initial state, or -1. slots: index of the slot that the lane uses. counters: counters of the event log.
 
-    A slot contains the flow tables of one system. For each slot: owners: index of the system, or -1. made: contact
-    states with computed tables. series, rotations: tables as from `flow_tables.tables`. known: constants of the system,
-    to be copied to a column of `constants`.
+    Fields with an entry for each slot, which contains the flow tables of one system. owners: index of the system, or
+    -1. made: True for each contact state whose tables are computed. series, rotations: tables as from
+    `flow_tables.tables`. known: constants of the system, to be copied to a column of `constants`.
 
-    begun: number of initial states begun or skipped. work, log, statistics, change: workspace.
+    Other fields. begun: number of initial states begun or skipped. work, log, statistics, change: workspace.
     """
 
     runs: np.ndarray
@@ -314,9 +314,9 @@ def _run_by_events(piece, flow, squares, lane, m):
 
 @inlined_source
 def _add_events(flow, squares, leaving, progress, lane, m):
-    """Add the statistics of the part of a run that `run_until` has just computed to the statistics in its lane.
+    """Add the statistics of one part of a run, computed by `run_until`, to the statistics of the run in a lane.
 
-    leaving, progress: `Progress` at the start and the end of this part.
+    leaving, progress: `Progress` at the start and the end of the part.
     """
     noted, motion = int(m.counters[lane, EVENTS]), leaving.motion
     departure = Departure(motion.boxes, motion.balls, motion.walls, leaving.elapsed, leaving.phase)
