@@ -69,7 +69,7 @@ def add_system_options(parser) -> None:
     group = parser.add_argument_group(
         "system", "dimensionless parameters of (10.4)-(10.6); the defaults are those of section 10.4"
     )
-    group.add_argument("--case", choices=CASES, default="equal", help="forces of the chapter's case (default: equal)")
+    group.add_argument("--case", choices=CASES, default="equal", help="use the forces of a case (default: equal)")
     for name, value in NAMES.items():
         usual = "that of the case" if value is None else value
         spellings = dict.fromkeys((f"--{name.replace('_', '-')}", f"--{name}"))
