@@ -92,8 +92,7 @@ def ensemble(
         Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
         the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
         observed cycles are nan. The averages and the largest |X_i| are exact to rounding, with one exception: for a box
-        that is almost at rest around a turning point, the error of the largest |X_i| may reach 1e-5 of the distance
-        that the box travels.
+        that is almost at rest around a turning point, the error of the largest |X_i| may be larger.
 
     Raises
     ------
