@@ -145,7 +145,8 @@ def _rows(one, number):
 def _columns(table):
     """Return the columns of a structured array (n,), keyed by name.
 
-    A field with several numbers becomes several columns, numbered from 1, or named like the components of a state.
+    A field of 8 numbers becomes 8 columns with the names of the components of a state. Any other field of several
+    numbers becomes columns that are numbered from 1.
     """
     columns = {}
     for name in table.dtype.names:

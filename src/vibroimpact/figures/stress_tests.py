@@ -1,4 +1,4 @@
-"""Compute and draw the results of the stress tests: columns are methods, rows are groups of tests."""
+"""Compute the results of the stress tests, and draw them as a table of methods (columns) and groups of tests (rows)."""
 
 import numpy as np
 import pandas as pd
@@ -60,7 +60,7 @@ def compute(full: bool) -> pd.DataFrame:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the columns group, method and verdict of the table of `compute`."""
+    """Draw the verdicts of `compute` as a table with a column per method and a row per group of tests."""
     groups, methods = table["group"].unique().tolist(), table["method"].unique().tolist()
     height = HEAD + FOOT + ROW * len(groups)
     figure = new_figure(DOUBLE_COLUMN, height, layout=None)

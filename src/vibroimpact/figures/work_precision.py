@@ -80,11 +80,11 @@ def draw(table: pd.DataFrame) -> Figure:
     for axes, problem, letter in zip(panels, problems, ascii_lowercase, strict=False):
         axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel="error of the final state")
         axes.axvspan(LARGEST * 2, END, color=LIGHT_GREY, linewidth=0, zorder=0)
-        axes.axvline(LARGEST * 2, color=LIGHT_GREY)  # a line at the edge of the shading, since names cover no lines
+        axes.axvline(LARGEST * 2, color=LIGHT_GREY)  # keeps the names of curves off the edge of the shading
         axes.vlines(GOALS, 0, 1, transform=axes.get_xaxis_transform(), **GUIDE)
         measured = drawn[(drawn["problem"] == problem) & drawn["seconds_per_cycle"].notna()]
         by_method = measured.groupby("method", sort=False)
-        # Methods without a result are named first, since the shading for them at the right has little room for names.
+        # Methods without a result are named first: their lines are in the shading at the right, which has little room.
         by_room = sorted(by_method, key=lambda one: one[1]["outcome"].eq("finished").any())
         curves[axes] = [(method, lines) for method, rows in by_room for lines in _method(axes, method, rows)]
         axes.set_xticks(10.0 ** np.arange(-15, 1, 3))
@@ -110,4 +110,4 @@ def _method(axes, method, rows):
     x, wrong = good["error_state"].clip(SMALLEST, LARGEST), good["missed"] + good["spurious"] > 0
     lane = axes.plot(np.full(failed.sum(), NO_RESULT), rows["seconds_per_cycle"][failed], **mark(method))
     curve = draw_method(axes, method, x, good["seconds_per_cycle"], wrong)
-    return lane, curve  # `name_curves` writes the name of the method at both lines
+    return lane, curve  # `name_curves` writes the name of the method at `lane` and at `curve`

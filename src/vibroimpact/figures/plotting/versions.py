@@ -1,4 +1,4 @@
-"""Return versions of packages: those that determine the pixels of a picture, and those recorded with a figure."""
+"""Return package versions: `drawing_versions` to compare pictures, `recorded_versions` to record with a figure."""
 
 import platform
 from importlib.metadata import version
