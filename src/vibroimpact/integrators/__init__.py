@@ -1,4 +1,4 @@
-"""Integrators of (10.2) with a common protocol: the engine, and others for comparison with it."""
+"""Integrators of (10.2) with a common protocol: the engine of this package, and other methods for comparison."""
 
 from vibroimpact.integrators import ivanov, penalty, solve_ivp
 from vibroimpact.integrators.event_driven import CertifiedEngine, Engine

@@ -92,7 +92,8 @@ def hunt_crossley_number(kappa: float) -> float:
     if 1.0 - kappa < NEARLY_ELASTIC:
         return 1.5 * (1.0 - kappa)
 
-    def number(x):  # d for given x = -log(1 - kappa d); for small kappa, rounding turns d into 1 / kappa, but not x
+    # The unknown is x = -log(1 - kappa d) instead of d, since rounding turns d into 1 / kappa for small kappa.
+    def number(x):
         return -math.expm1(-x) / kappa
 
     def excess(x):

@@ -28,7 +28,7 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 from vibroimpact.system.state import BALLS, BOXES
 
 SHORTEST, PATIENCE = 1e-6, 100
-"""A run is stopped, as an endless chatter, after more than PATIENCE successive jumps less than SHORTEST [tau] apart."""
+"""A run is stopped after more than PATIENCE successive jumps, each less than SHORTEST [tau] after the previous jump."""
 HALVINGS = 50  # number of bisections of a step that locate a jump
 
 
@@ -138,8 +138,8 @@ def _impact(tau, i, box, direction, speed, k):
 def _march_across_jumps(q, k, z, tau0, h, count):
     """Take `count` steps across jumps, without locating them.
 
-    Return coordinates and boxes at the end, impacts, number of steps, and nan as the time of an endless chatter, which
-    is not detected here.
+    Return coordinates and boxes at the end, impacts, number of steps, and nan. `_march_to_jumps` returns the time of an
+    endless chatter in place of nan; this function does not detect chatter.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, signs = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
@@ -219,7 +219,10 @@ def _beyond(z, boxes, signs):
 
 @disk_cached()
 def _ahead_of(z, i, boxes, signs):
-    """Return the distance of ball i to the wall ahead, and v towards it; beyond a jump one of the two is negative."""
+    """Return the distance of ball i to the wall ahead, and v, positive towards this wall.
+
+    Beyond a jump, the returned distance or the returned v is negative.
+    """
     return 1.0 - signs[i] * (z[4 * i] - 2.0 * boxes[i]), signs[i] * z[4 * i + 1]
 
 

@@ -128,10 +128,10 @@ def _state(s, walls, count, shape, amplitudes, t, there):
 
 @inlined()
 def _guess(before, there, i, low, high):
-    """Return the time between `low` and `high` at which ball i reaches a wall, from a cubic through two states.
+    """Return the time between `low` and `high` at which ball i reaches a wall, estimated with a cubic.
 
-    The cubic interpolates the distance to the wall and its rate in the states `before` and `there`. Newton's method for
-    the zero of the cubic starts with the tangent in the state `there`.
+    The cubic has the values and slopes of the distance to the wall at `low` (state `before`) and at `high` (state
+    `there`). Newton's method finds the zero of the cubic; it starts at the zero of the tangent at `high`.
     """
     x = 2 * i
     wall = 1.0 if there[x] - there[x + 1] > 0.0 else -1.0
@@ -175,9 +175,9 @@ def _march(q, tables, s, tau, end, step, limit):
 
 @inlined_source()
 def _fly(q, flight, tau, length, stride, most, memory):
-    """Sample a flight until an event, the time `length` or `most` samples; return (module, time, number of samples).
+    """Sample a flight until an event occurs, the time `length` has passed or `most` samples are taken.
 
-    The module is that of the event, or -1 without an event. The state at the returned time is written to memory[2].
+    Return (module of the event or -1, time, number of samples). The state at this time is written to memory[2].
     stride: time between samples, and the factors by which amplitudes change over this time.
     """
     (s, walls, count, shape, rates, amplitudes), (step, ahead), (modes, states, reached) = flight, stride, memory
@@ -211,10 +211,10 @@ def _fly(q, flight, tau, length, stride, most, memory):
 
 @inlined()
 def _event(q, flight, tau, i, times, states, memory, event):
-    """Return the time between two samples at which the guard of module i falls through zero.
+    """Return the time between two samples at which the function `guard` of module i falls through zero.
 
-    The state at that time is written to `event`. For a flying ball, Newton's method starts at the zero of a cubic
-    through both samples. Bisection is the fallback.
+    The state at that time is written to `event`. For a flying ball, Newton's method is used, starting at the time of
+    `_guess`; a step that leaves the interval is replaced by a bisection. For a sticking ball, only bisection is used.
     """
     (s, walls, count, shape, rates, amplitudes), (turns, trial) = flight, memory
     (low, high), (before, there) = times, states

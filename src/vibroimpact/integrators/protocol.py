@@ -50,7 +50,7 @@ class Method(ABC):
 
     name, family: texts for tables and legends. knob: what a setting is, such as "steps per cycle". settings: values
     from coarse to fine. careful: the setting that a careful user would choose for difficult motions. order: expected
-    order of convergence in `scale`, or None. limit: number of steps at which a run is stopped, after roughly half a
+    order of convergence in `scale`, or None. limit: largest number of steps of a run, which take roughly half a
     minute. compiles_settings: True if each setting has its own code, compiled on its first run.
     """
 

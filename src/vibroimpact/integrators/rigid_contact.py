@@ -86,10 +86,10 @@ def first_sample_time(tau, s, q, walls, step):
 
 @inlined()
 def newton_or_middle(t, value, slope, low, high):
-    """Return the time after a Newton step from t, or the middle of [low, high] if this time lies outside.
+    """Return t - value / slope, the result of a Newton step, or the middle of [low, high] if the result lies outside.
 
-    The function with this value and slope at t falls below zero within the interval. If the value is 0 and the slope is
-    not, t is returned.
+    A function falls below zero within [low, high]; `value` and `slope` are its value and slope at t. If `value` is 0
+    and `slope` is not, t is returned.
     """
     after = t - value / slope if slope != 0.0 else math.inf
     return after if low <= after <= high else 0.5 * (low + high)
@@ -107,7 +107,10 @@ class Contacts:
         self.walls, self.impacts = np.zeros(2), []
 
     def start(self, tau, s):
-        """Let each ball that is on a wall at the start impact, stick or leave the wall, according to the state `s`."""
+        """Update the state `s` (8,) and the contact states at the start of a run, for each ball that is on a wall.
+
+        Depending on `s`, such a ball impacts, sticks or leaves the wall.
+        """
         self.resolve(tau, s, [-1])
 
     def resolve(self, tau, s, due):
