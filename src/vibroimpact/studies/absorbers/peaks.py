@@ -22,11 +22,11 @@ QUANTILE = 0.99
 
 @dataclass(frozen=True)
 class CycleMaxima:
-    """Maxima over the observed cycles of runs of m systems, each from n initial states.
+    """Displacements of the boxes in the observed cycles of runs, for m systems from n initial states each.
 
-    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: root mean
-    square of X_1 or X_2 over all observed cycles of a run, the largest value of all finished runs. unfinished: number
-    of unfinished runs.
+    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: largest root
+    mean square of X_1 or X_2 over the observed cycles of a run, among all finished runs. unfinished: number of
+    unfinished runs.
     """
 
     largest: np.ndarray
@@ -65,7 +65,7 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
     Raises
     ------
     ValueError
-        If no cycle would be observed, or as for `ensemble`.
+        If `cycles` is not above `settle`, and in the cases listed for `ensemble`.
     """
     if not cycles > settle:
         raise ValueError(f"cycles: {cycles} is not above settle = {settle}, so that no cycle is left to observe")
@@ -89,7 +89,7 @@ def peak_of(largest: ArrayLike) -> np.ndarray:
 
 
 def standard_error(largest: ArrayLike) -> float:
-    """Return the standard error of the highest `peak_of` of all systems, by a jackknife over the starts.
+    """Return the standard error of the highest peak of all systems (see `peak_of`), by a jackknife over the starts.
 
     The jackknife leaves out one start at a time. It assumes that the starts are independent, but not that the cycles of
     one start are. The error is large if a single start determines the highest peak, and nan for fewer than 2 starts.

@@ -52,6 +52,9 @@ def _plain(value):
 
 
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
-    """Return the Finding on a statement as printed; its `numbers` include the verdict on the corrected statement."""
+    """Return the Finding on a statement as printed, with the verdict on the corrected statement among its numbers.
+
+    holds: True if the printed statement holds. corrected: True if the corrected statement holds.
+    """
     numbers["as corrected"] = HOLDS if corrected else REFUTED
     return Finding({"as printed": holds}, numbers, corrected=bool(corrected))

@@ -27,7 +27,8 @@ def modulation_tables(
 ) -> dict:
     """Return measures of the modulation and Lyapunov exponents for each case and regime.
 
-    The start from rest has rows of its own. The spread starts of a case that end in the same regime share their rows.
+    The spread starts of a case that end in the same regime are evaluated together. The start from rest is evaluated
+    separately.
 
     Parameters
     ----------

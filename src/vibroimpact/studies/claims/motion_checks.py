@@ -241,8 +241,8 @@ def assesses_stability(evidence):
 def restitution_far_from_unity(evidence, kappas, forces):
     """Compare fixed points with exact orbits at each restitution coefficient of `kappas` and each force of `forces`.
 
-    The same force acts on both modules. Each fixed point must have a symmetric orbit, and the distance between the two
-    must be proportional to epsilon. Every symmetric orbit must belong to a fixed point. At each fixed point, the balls
+    The same force acts on both modules. Each fixed point must have a symmetric orbit, at a distance that is
+    proportional to epsilon. Every symmetric orbit must belong to a fixed point. At each fixed point, the balls
     must stay between the walls.
 
     A force without a fixed point is skipped, but each restitution coefficient needs at least one force with a fixed

@@ -62,8 +62,9 @@ def stable_points(evidence, case, number):
     """Count the stable fixed points of a case by each criterion of the theory, and by their exact orbits.
 
     The chapter calls a fixed point stable by the fast criterion: the impacts are stable at constant B and phase. The
-    verdicts of the fast criterion are also compared with the captions. They are computed from the derived condition,
-    which differs from the printed one, (10.26).
+    fast criterion is evaluated with the condition derived in this project. The fixed points that are stable by the
+    printed condition, (10.26), are counted separately. The verdicts of the fast criterion are also compared with the
+    captions.
     """
     points = evidence.points(case)
     counts = {
@@ -92,8 +93,8 @@ def on_the_left_arm(evidence, case, label, modules):
 def points_move_left(evidence, before, after):
     """Check that each C_i of each fixed point is smaller in the case `after` than in the case `before`.
 
-    Fixed points with the same label are compared. There are also other ways to pair the fixed points of the two cases;
-    `numbers` contains the number of smaller C_i for the pairing in which this number is largest.
+    Fixed points with the same label are compared. `numbers` also contains the largest number of smaller C_i over all
+    possible pairings of the fixed points of `before` with those of `after`.
     """
     first, last = (evidence.points(case)[NAMES] for case in (before, after))
     parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
@@ -187,7 +188,10 @@ def places_of_singular_points(evidence, case, label):
 
 
 def _other_determinant(system, C):
-    """Return |K|^4 - |a_1 a_2|^2 (docs/derivation.md, section 8), times |z_1 z_2|^2 to keep the value finite."""
+    """Return (|K|^4 - |a_1 a_2|^2) |z_1 z_2|^2, see docs/derivation.md, section 8.
+
+    The factor |z_1 z_2|^2 keeps the value finite.
+    """
     balance = Balance.of(system)
     z, q = balance.at(C)
     p = q + balance.K * z

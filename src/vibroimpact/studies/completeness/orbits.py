@@ -16,7 +16,8 @@ Where D is not 0 the roots of F are exactly the solutions, each with one C and o
 [T/2, T]. Both halves are bisected until, on each interval, the enclosure of F excludes 0, or the enclosures of F' and D
 both exclude 0. In the latter case F is monotonic, and its signs at the two ends of the interval show whether F has one
 root or none in the interval. The proof covers any lag, any phase and any real C. Intervals that are undecided at the
-smallest width (a double root, a root at a kink) are reported.
+smallest width are reported, for example next to a double root of F, or next to a root at delta = T/2, where F has a
+kink.
 
 For a single machine, |P_kk C_k + i| = |a_k| is a quadratic equation for C_k.
 """
@@ -35,7 +36,7 @@ need("reference", "flint")
 
 from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the dependency check)
 
-_NARROWEST = 2.0**-24  # smallest width, relative to the half period; the 53 bits of arb resolve it
+_NARROWEST = 2.0**-24  # smallest width of an interval of delta, divided by T/2; the 53-bit precision of arb resolves it
 _FIRST = 8
 _MOST = 10_000  # largest number of intervals that are examined; all others are reported as undecided
 _TERMS = 3
@@ -47,7 +48,8 @@ class Proof:
 
     isolated: ascending intervals of the lag (tau_2 - tau_1) / T, or of C for a single machine, each with exactly one
         symmetric response.
-    undecided: intervals in which nothing is proved; everywhere else there is no symmetric response.
+    undecided: intervals in which nothing is proved. Outside the isolated and undecided intervals, no symmetric response
+        exists.
     complete: True if nothing is undecided, and `symmetric_solutions` lists exactly one response per isolated interval.
     """
 
@@ -163,7 +165,8 @@ class _Condition:
     def _taylor(self, motion, direction):
         """Return the Taylor coefficients of a free motion of the boxes, in forward or backward time.
 
-        motion: the first coefficient, the state. direction: 1 for forward time, -1 for backward time.
+        motion: the coefficient of order 0, which is the state of the boxes. direction: 1 for forward time, -1 for
+        backward time.
         """
         terms = [motion]
         for k in range(1, _TERMS):

@@ -52,8 +52,8 @@ class Proof:
     """Result of the proof for the fixed points of a system, whose float64 hatted parameters are taken as exact.
 
     isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point. For asymmetric
-        fixed points, each entry is (pair of charts, box of the chart parameters) instead. For a single machine, there
-        is only one interval, and only one chart.
+        fixed points, each entry is (pair of charts, box of the chart parameters) instead. For a single machine, a
+        box has only one interval, and a pair of charts only one chart.
     undecided: boxes in which nothing is proved, in the same format. Outside the isolated and undecided boxes, no fixed
         point exists for any real C_i and v_i^2 in [-1, 1].
     motions: number of isolated fixed points that are motions at leading order: C_i > 0 for each symmetric module, and
@@ -152,7 +152,7 @@ def _all_zeros(system, pairs):
 
 
 def _active(system, both) -> tuple:
-    """Return those entries of `both`, which has one entry per module, that belong to active modules."""
+    """Return the entries of the active modules; `both` has one entry per module."""
     return tuple(both[module - 1] for module in system.modules)
 
 
@@ -177,7 +177,7 @@ def _subdivide(conditions):
     distinct = []
     for zero in sorted(found):
         gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
-        if any(gap < 0.5 for gap in gaps):  # a duplicate, since the tested box of a zero contains no second zero
+        if any(gap < 0.5 for gap in gaps):  # a duplicate: the enlarged box of a zero contains no other zero
             continue
         (undecided if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
     return [_box(*zero) for zero in distinct], [_box(*zero) for zero in undecided]
@@ -259,7 +259,7 @@ class _Conditions:
     def _expanded(self, module, at, half):
         """Return the coefficients of z, q = e z + n, beta^2 and |m|^2 as polynomials in t = (x - at) / half.
 
-        z, q and beta are those of `module`; m is the numerator of the other module, which depends on the same x.
+        z, q and beta are those of `module`; m is the numerator m_j of the other module j, a function of z and q only.
 
         The highest coefficients of z, q, beta and m are intervals that include the remainder for |t| <= _REACH.
         """
