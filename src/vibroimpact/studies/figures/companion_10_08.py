@@ -92,7 +92,10 @@ def _theory(system, points, samples):
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: theory above simulation, mirror image in grey, each flight with its length."""
+    """Draw the table of `compute`, with the theory in the upper panel and the simulation in the lower panel.
+
+    The mirror image is grey. Each flight is labelled with its length.
+    """
     figure = new_figure(SINGLE_COLUMN, 88.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True, sharey=True)
     for axes, (panel, title) in zip(grid, PANELS.items(), strict=True):

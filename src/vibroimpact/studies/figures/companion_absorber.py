@@ -1,7 +1,7 @@
 """Companion: peak displacement over a band of frequencies with balls, without balls and with tuned absorbers.
 
-Peaks X and clearances are divided by the static deflection f = epsilon f10_hat. As X is in units of the clearance, the
-results are X / f and 1 / f.
+Peaks X and clearances are divided by the static deflection f = epsilon f10_hat. As X and f are in units of the
+clearance, the divided peak is X / f, and the divided clearance is 1 / f.
 """
 
 from itertools import takewhile
@@ -123,7 +123,7 @@ def compute(system, response, clearance, design, band: dict, seed: int, cycles: 
     seed : int
         Seed of the starts in the sweeps.
     cycles, settle : int
-        Forcing periods of each run in the sweeps, and how many of them are left out at its start.
+        Length of each run in the sweeps, and length of the transient that is left out, in forcing periods.
 
     Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f); and "summary": columns
     quantity, who, value, ... (see SPEC).
@@ -174,11 +174,11 @@ def _lowest_again(system, table, band, states, cycles, settle):
 
 
 def plateau(places):
-    """Return the largest kappa on the plateau, and the least and the greatest of the lowest peaks on the plateau.
+    """Return the largest kappa, the smallest peak and the largest peak of the points on the plateau.
 
-    places: the point with the lowest peak for each kappa, ascending in kappa. Up to the end of the plateau, each lowest
-    peak is at most PLATEAU_FACTOR times the lowest of all. If the lowest peak at the least kappa is already higher, all
-    three results are nan.
+    places: for each kappa, ascending, the point with the lowest peak. The plateau consists of all points before the
+    first one whose peak exceeds PLATEAU_FACTOR times the lowest peak of `places`. If this is the point with the
+    smallest kappa, all three results are nan.
     """
     level = PLATEAU_FACTOR * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))

@@ -128,14 +128,14 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_
     kappa
         Restitution coefficient of the manifold; cases with another kappa are left out.
     epsilon, values
-        Range and number of values of epsilon, evenly on a log scale. An orbit is followed from the epsilon of its case
-        to all values that are smaller.
+        Range and number of values of epsilon, evenly spaced on a log scale. Each orbit is followed from the epsilon of
+        its case through all smaller values.
     C_max : float
         Largest C of the symmetric branch.
 
     Returns three tables:
 
-    - "csv", the manifold, and each module of a fixed point that is on the asymmetric branch: columns series, C, B.
+    - "csv", the manifold, and the C_i and B_i of the asymmetric modules of fixed points: columns series, C, B.
     - "pairs", a row per orbit and epsilon: columns case, label, exact, epsilon, asymmetry (the larger abs(v)). The last
       row of an orbit is its limit, if known: a fixed point at epsilon = 0, or a symmetric orbit.
     - "points", a row per fixed point.
@@ -254,7 +254,7 @@ def _draw_pairs(axes, pairs):
         here = mine.drop_duplicates("label")
         axes.plot(here["epsilon"], here["asymmetry"], clip_on=False, label=label, **mark)
     points = last[last["epsilon"] == 0]
-    if len(points):  # an empty line that is not clipped would spoil the layout
+    if len(points):  # with clip_on=False, a line without data would spoil the layout
         axes.plot(points["epsilon"], points["asymmetry"], clip_on=False, **POINT_MARK)
     label = r"difference of flight times / period, $\vert v\vert$"
     axes.set(xlabel=r"$\varepsilon$", ylabel=label, xlim=(0, None), ylim=(0, None))

@@ -69,10 +69,12 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
     observation : dict
         Arguments of `regimes.settling.Observation`.
 
-    Returns "csv", a row per start: columns panel (the case), label (regime), W1, W2; "orbits": columns series
-    ("shared": the state from which all starts take the positions of the boxes and the velocities; "mirror image": its
-    mirror image) and NAMES; and
-    "shares": columns regime, share, uncertainty (binomial standard error of the share).
+    Returns three tables:
+
+    - "csv", a row per start: columns panel (the case), label (regime), W1, W2.
+    - "orbits", states at tau = 0: columns series and `NAMES`. The series "shared" is the state that gives all starts
+      their box positions and their velocities; "mirror image" is the state of the mirror image of the orbit.
+    - "shares": columns regime, share, uncertainty (binomial standard error of the share).
     """
     orbit = stable_response(system)
     states = plane(np.zeros(8) if orbit is None else orbit.state, points)

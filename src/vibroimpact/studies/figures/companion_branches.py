@@ -195,7 +195,10 @@ def _special_points(nodes, names):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: C_2 along each path, theory above exact; stable bold solid, unstable dashed."""
+    """Draw C_2 along each path from the tables of `compute`: theory in the upper panels, exact motions below.
+
+    Lines of stable motions are bold and solid; lines of unstable motions are dashed. Dots show simulated motions.
+    """
     nodes, attractors, cases = tables["csv"], tables["attractors"], tables["cases"]
     panels = list(dict.fromkeys(attractors["panel"]))
     figure = new_figure(DOUBLE_COLUMN, 112.0)

@@ -101,7 +101,7 @@ def errors(system) -> list[dict]:
 
     error: larger difference in C_1 or C_2 between the fixed point and its exact orbit, divided by the larger C_i of
         the orbit.
-    own_error: larger relative error of C_1 or C_2, where each difference is divided by the same C_i of the orbit.
+    own_error: larger of the relative errors of C_1 and C_2; the difference in C_i is divided by the C_i of the orbit.
     predicted: True if the fixed point is stable by the theory on both time scales.
     stable: True if the exact orbit is admissible and all of its multipliers are inside the unit circle.
 
@@ -135,7 +135,7 @@ def _of_errors(table):
 
 
 def _of_patterns(system):
-    """Return the smallest and the largest coupling of each range in which a pattern of flights is stable, by name."""
+    """Return a dict, text -> coupling, of the ends of all ranges in which a pattern of flights is stable."""
     return {
         f"{name}, from {start:g}: stable {end}": found[i][0]
         for name, start, found, _ in stable_ranges(system, LIMITS)
@@ -154,7 +154,7 @@ def draw(tables: dict) -> Figure:
     for name, (cases, look) in SHOWN.items():
         rows = table[table["case"].isin(cases)].groupby("coupling")["error"]
         for axes, values in ((left, rows.max()), (right, rows.agg(lambda error: error.isna().mean()))):
-            if len(values):  # an empty line that is not clipped would spoil the layout
+            if len(values):  # with clip_on=False, a line without data would spoil the layout
                 axes.plot(100 * values, linewidth=0.9, clip_on=False, label=name, **look)
     for axes, words, highest in ((left, "largest error in %", None), (right, "share of fixed points in %", 100)):
         axes.axvline(PARAMETERS["alpha12_hat"], zorder=0, **LEVEL)

@@ -77,9 +77,10 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     mixed : dict, optional
         `case` and `label` of a point to leave out because its fast and slow multipliers cannot be distinguished.
 
-    Returns "csv": columns panel ("distance", "slow", "fast", or "two terms": the distance with the first-order term
-    added to the fixed point), series ("case, label"), epsilon, error; and "orders": case, label, panel, order,
-    uncertainty.
+    Returns "csv": columns panel (kind of error), series ("case, label"), epsilon, error; and "orders": case, label,
+    panel, order, uncertainty. The kinds of error are "distance" (between fixed point and exact orbit), "slow" (of slow
+    rates), "fast" (of fast multipliers) and "two terms" (the distance if the first-order term is added to the fixed
+    point).
 
     Raises
     ------
@@ -90,7 +91,7 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     curves, orders = [], []
     points = {case: {point.label: point for point in fixed_points(system)} for case, system in systems.items()}
     if mixed and mixed["label"] not in (known := sorted(points[mixed["case"]])):
-        what = f"case {mixed['case']!r} has no fixed point {mixed['label']!r}, only {', '.join(known) or 'none'}"
+        what = f"case {mixed['case']!r} has no fixed point {mixed['label']!r} (labels: {', '.join(known) or 'none'})"
         raise ValueError(f"mixed.label: {what}; set mixed to null to keep all points")
     for case, system in systems.items():
         for label, point in sorted(points[case].items()):

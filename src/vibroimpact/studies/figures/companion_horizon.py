@@ -31,10 +31,11 @@ SPEC = {
 
 
 def compute(system: System, initial_state, strobe: pd.DataFrame) -> pd.DataFrame:
-    """Return the error of the float64 run at the start of each forcing cycle, and the estimate in its certificate.
+    """Return the measured error of a float64 run at the start of each forcing cycle, and the error that is expected.
 
-    strobe: the true states at the starts of the cycles (columns tau and `NAMES`). Returns columns panel ("error"),
-    series ("measured", "expected": curves; "horizon": the cycle at which the expected error passes 1e-3), cycle, error.
+    The expected error is the estimate in the certificate of the run. strobe: the true states at the starts of the
+    cycles (columns tau and `NAMES`). Returns columns panel ("error"), series, cycle, error. The series are "measured",
+    "expected" and "horizon", which has one row: the cycle at which the expected error exceeds 1e-3.
     """
     difference, expected, horizon = departure(system, initial_state, strobe[list(NAMES)].to_numpy(float))
     cycles = np.arange(len(difference))

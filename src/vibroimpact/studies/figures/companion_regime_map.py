@@ -98,7 +98,7 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
     - "csv", a row per cell: label (regime from rest), f10_hat, f20_hat, regime (in which most of the other starts end),
       coexisting (number of regimes in which the other starts end, without "unsettled"), a column with the share of each
-      regime, fixed_points and stable_points (their numbers).
+      regime, fixed_points and stable_points (number of fixed points, and of those that the theory calls stable).
     - "cases": case, f10_hat, f20_hat.
     - "borders", where the number of fixed points changes: series, piece, f10_hat, f20_hat.
     """
@@ -155,9 +155,10 @@ def _border(system, cells, series):
 
 
 def _squares(cells, square):
-    """For each square of four adjacent cells with known counts, yield [(centre, count), ...] in order around it.
+    """For each square of four adjacent cells with known counts, yield the list of (centre, count) of the four cells.
 
-    square: the count of fixed points in each cell, over f20_hat (rows) and f10_hat (columns); nan if unknown.
+    Neighbours in the list share a side. square: the count of fixed points in each cell, over f20_hat (rows) and f10_hat
+    (columns); nan if unknown.
     """
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
@@ -182,7 +183,7 @@ def _pieces(corners, crossing):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: a colour per regime, a stroke where several coexist, and the theory's border."""
+    """Draw the map of `compute`: a colour per regime, strokes where regimes coexist, and the border of stability."""
     cells, cases, borders = (tables[name] for name in ("csv", "cases", "borders"))
     regimes = cells.pivot(index="f20_hat", columns="f10_hat", values="regime")
     figure = new_figure(SINGLE_COLUMN, 103.0)
@@ -212,7 +213,7 @@ def draw(tables: dict) -> Figure:
 def _name(axes, regimes, name, lined):
     """Write the name of a regime where its largest patch is widest; return False if that patch is too small.
 
-    lined: True for cells with a stroke or the theory's border, which names avoid.
+    The name avoids cells with a stroke or a piece of the border of stability; `lined` is True for these cells.
     """
     patches, _ = ndimage.label(regimes.eq(name))
     sizes = np.bincount(patches.ravel())[1:]
@@ -228,6 +229,9 @@ def _name(axes, regimes, name, lined):
 
 
 def _ends(centres):
-    """Return both outer edges of cells with these `centres`, rounded so that no rounding error hides a tick there."""
+    """Return the limits of an axis: the outer edges of the first and the last cell of a row with the given `centres`.
+
+    The limits are rounded, since a tick at an edge could otherwise lie outside the limits by a rounding error.
+    """
     half = 0.5 * (centres[1] - centres[0])
     return np.round([centres[0] - half, centres[-1] + half], 12)

@@ -149,7 +149,11 @@ def ratios(system, linear, detunings):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: a panel for each pair of forces over the frequency, and one over the force."""
+    """Draw the tables of `compute`.
+
+    Each pair of forces has a panel with the responses over the detuning. The last panel shows the responses over the
+    force.
+    """
     balls, linear = (dict(iter(tables[key].groupby("panel"))) for key in ("csv", "linear"))
     pairs = list(balls["frequency"].groupby(FORCES, sort=False))
     columns, rows = side_by_side(len(pairs) + 1, most=2)
@@ -178,7 +182,10 @@ def draw(tables: dict) -> Figure:
 
 
 def _forced(pair):
-    """Return words for the forces, without subscripts, which would be too small in a heading."""
+    """Return a heading with the forced boxes and the amplitudes of the forces, such as "box 1 forced, amplitude 2".
+
+    Symbols with subscripts would be too small in a heading.
+    """
     forces = {f"box {box}": f"{force:g}" for box, force in enumerate(pair, 1) if force}
     who = "both boxes" if len(forces) == len(pair) else " ".join(forces)
     return f"{who} forced, amplitude {' and '.join(dict.fromkeys(forces.values()))}"
