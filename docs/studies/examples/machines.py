@@ -1,4 +1,4 @@
-"""Print the largest displacements of two coupled 10 kg machines without balls, with linear absorbers and with balls."""
+"""Print largest displacements of two coupled 10 kg machines: without absorbers, with linear absorbers, with balls."""
 
 import numpy as np
 
