@@ -8,8 +8,8 @@
 - `largest_lyapunov`, `lyapunov_spectrum`: Lyapunov exponents with error estimates.
 - `attractors`, `basins`: the attractors of a system; their basins on a plane of initial states.
 - `sections`: stroboscopic sections of many runs, such as a bifurcation diagram.
-- `branches`: continuation of 1:1 motions in one parameter.
-- `sweep`: observations over a grid of parameters.
+- `branches`: continuation, in one parameter, of 1:1 motions (one impact at each wall per forcing period).
+- `sweep`: regimes, amplitudes and other quantities on a grid of parameters.
 - `design`: choice of the ball for a machine.
 - `to_frame`, `to_dataset`: results as tables.
 

@@ -8,7 +8,8 @@ from vibroimpact.interrupt import without_traceback
 def main() -> int:
     """Run one command; return the exit status."""
     with without_traceback():
-        from vibroimpact.cli.parser import main  # this import takes a second and may be interrupted too
+        # This import takes a second. It is here so that Ctrl-C prints no traceback during this second.
+        from vibroimpact.cli.parser import main
 
         return main()
 
