@@ -1,4 +1,4 @@
-"""Measure the time per impact of every method on one motion, and of ensembles and single runs on sets of motions."""
+"""Measure the time per impact of every method for one motion, and compare ensembles with single runs."""
 
 from functools import partial
 
@@ -28,7 +28,7 @@ SHORT = 10
 
 
 def methods_table(seconds: float) -> list[dict]:
-    """Return one row per method and setting on PROBLEM: time per impact [us], and errors against the reference.
+    """Return one row per method and setting for the motion PROBLEM: time per impact [us], and errors of the run.
 
     Parameters
     ----------
@@ -48,9 +48,9 @@ def methods_table(seconds: float) -> list[dict]:
 
 
 def scenes() -> dict[str, tuple]:
-    """Return the scenes, which are sets of n motions, by their descriptions.
+    """Return the scenes by description; a scene is a set of n motions.
 
-    Each scene is a tuple (one system or n systems, initial states (n, 8), number of cycles).
+    Each scene is given as a tuple (one system or n systems, initial states (n, 8), number of cycles).
     """
     equal, weak = (System(**PARAMETERS, **CASES[case]) for case in ("equal", "weak"))
     sweep = [
@@ -68,11 +68,11 @@ def scenes() -> dict[str, tuple]:
 
 
 def scenes_table(seconds: float) -> list[dict]:
-    """Return two rows per scene of `scenes`, for `ensemble` and for single runs: time per impact [us] on one core.
+    """Return the time per impact [us] on one core: for each scene, one row for `ensemble` and one for single runs.
 
-    For the error of an ensemble, SINGLE_RUNS motions of the scene are computed over SHORT cycles, both in an ensemble
-    and by single runs. The error is the median, over these motions, of the largest difference of a coordinate between
-    the two final states.
+    The row of `ensemble` also contains an error. To measure this error, SINGLE_RUNS motions of the scene are computed
+    twice over SHORT cycles: in an ensemble and by single runs. For each motion, the largest difference of a coordinate
+    between the two final states is taken. The error is the median of these differences.
 
     Parameters
     ----------

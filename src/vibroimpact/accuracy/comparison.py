@@ -14,15 +14,15 @@ OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDL
 
 
 def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per method, in the order of `work_precision`: relative cost, and numbers of stress tests.
+    """Return one row per method, in the order of `work_precision`: relative cost, and results of the stress tests.
 
     A run solves a problem if it has an error of at most 1e-6 and no missed or spurious impacts. The cost of a method is
     the shortest time per cycle of its runs that solve the problem. Columns:
 
     - method, family;
     - problems: number of solved problems;
-    - times: largest ratio, over all problems, of the cost to the cost of the first method; blank unless the method
-      solves all problems;
+    - times: cost divided by the cost of the first method, for the problem with the largest quotient; blank unless
+      the method solves all problems;
     - right: number of stress tests with a right result;
     - wrong: number of stress tests with a wrong result for which the method reports no error or doubt;
     - stopped: number of stress tests that end with an error or do not finish;

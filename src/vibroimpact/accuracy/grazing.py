@@ -1,4 +1,4 @@
-"""Compute initial states from which a ball passes a wall at a given small distance, in high precision."""
+"""Compute, in high precision, initial states from which a ball barely misses or barely hits a wall."""
 
 from fractions import Fraction
 

@@ -49,9 +49,9 @@ SAMPLES = 400
 class Motion:
     """Symmetric motion that one model gives for a fixed point.
 
-    point: label, C, B and psi of the motion. impacts: time tau >= 0 at which each ball hits the wall W = +1, (2,),
-    half a period before it hits the wall -1; NaN for an inactive module (one not in `System.modules`). response:
-    function that returns U, X, W, Y at times tau (n,).
+    point: label, C, B and psi of the motion. impacts: for each ball, a time tau >= 0 at which the ball hits the wall
+    W = +1, (2,). The ball hits the wall W = -1 half a period later. Inactive modules (see `System.modules`) have NaN.
+    response: function that returns U, X, W, Y at times tau (n,).
     """
 
     point: LabelledPoint
@@ -106,7 +106,7 @@ def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
 
 
 def _exact(system, point, root) -> Motion:
-    """Return the motion of the exact orbit given by `root`, the solution (4,) of the symmetric conditions."""
+    """Return the motion of an exact symmetric orbit; `root` (4,) contains its impact times and amplitudes C."""
     impacts, C = np.where(np.isfinite(point.C), root.reshape(2, 2), np.nan)
     return _motion(system, point, C, impacts, lambda tau: _exact_U(system, root, tau))
 
@@ -132,7 +132,7 @@ def _second_term(system, point) -> Motion:
 
 
 def _motion(system, point, C, impacts, U) -> Motion:
-    """Return the motion with the given function U(tau) and the given saw-tooth: amplitudes C and impact times.
+    """Return the motion with the given U(tau), and with a saw-tooth of the given amplitudes C and impact times.
 
     B and psi are computed from the first harmonic of U.
     """

@@ -64,9 +64,10 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 
 
 def offsets(system, point, roots) -> np.ndarray:
-    """Return roots (..., 4), ordered as in `near`, minus a fixed point: differences in C and phase [rad], (..., 2, 2).
+    """Return the differences between orbits and a fixed point: of C (row 0) and of the impact phases [rad] (row 1).
 
-    Entries of an inactive module are NaN.
+    `roots` (..., 4) are the roots of SymmetricConditions that describe the orbits. The result has the shape
+    (..., 2, 2); entries of an inactive module are NaN.
     """
     phases = np.angle(np.exp(1j * system.Omega * (roots[..., :2] - impact_times(system, point))))
     return np.stack([roots[..., 2:] - point.C, phases], axis=-2)

@@ -30,8 +30,8 @@ class StressTest:
     """A test problem: group (kind of difficulty), name, system, initial state (8,) at tau = 0, forcing cycles.
 
     faint: impacts with at most this rebound speed need not be found (0: all impacts must be found). reference_cycles:
-    number of cycles of a shorter reference run, at the end of which the motion must have settled; None if the reference
-    run has `cycles` cycles. quick: True if the test also belongs to the reduced set.
+    number of cycles after which the motion has settled, so that the reference run ends there; None if the reference run
+    has `cycles` cycles. quick: True if the test also belongs to the reduced set.
     """
 
     group: str
@@ -140,6 +140,6 @@ def grazing(system: System, side: int, digits: int) -> StressTest:
 def _crossing(system, periods):
     """Return a state from which ball 1 reaches a wall after `periods` forcing periods, up to rounding.
 
-    Both boxes are at rest, and ball 2 rests in the middle of its box.
+    In this state both boxes are at rest, and ball 2 rests in the middle of its box. `system` must have no forcing.
     """
     return (0.0, 0.0, 0.0, 0.0, 0.0, -1.0 / (periods * system.period), 0.0, 0.0)

@@ -8,11 +8,12 @@ class Undecidable(ArithmeticError):
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
-    """Return an interval (arb) that contains the first root of the series in (0, end] and no other, or None.
+    """Return an interval (arb) that contains the first root of the series in (0, end] and no other root.
+
+    Return None if (0, end] contains no root. In either case, mean-value enclosures of the series prove the result.
 
     series: arb_poly, positive at 0. hint: point in (0, end) at which the search first splits (0, end]; this saves time
-    if the first root is much nearer to 0 than to `end`. Mean-value enclosures of the series prove that no root comes
-    before the returned interval, or that (0, end] contains no root if None is returned.
+    if the first root is much nearer to 0 than to `end`.
 
     Raises
     ------

@@ -24,7 +24,7 @@ ACCURACY, MAX_DIGITS = 1e-15, 5000
 
 @dataclass(frozen=True, eq=False)
 class ReferenceRun:
-    """Trajectory in arbitrary precision, dimensionless, with states in the usual order.
+    """Dimensionless trajectory in arbitrary precision; a state is [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
 
     digits: decimals to which a single flight is computed. events: structured array (tau, module, wall, kind 0 impact /
     1 stick / 2 release, state after), rounded to float64. event_taus (n,), event_states (n, 8), final_exact (8,): times

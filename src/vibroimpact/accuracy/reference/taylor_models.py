@@ -108,7 +108,8 @@ class Flow:
                 2 * self.terms, 6, [entry for start in (0, 6) for row in table for entry in row[start : start + 6]]
             )
             # |A^k s| <= norm^k |s| bounds every neglected coefficient. While norm * t <= (terms - 4) / 2, the sum of
-            # the neglected terms is at most twice the first of them; this also holds for the first four derivatives.
+            # the neglected terms is at most twice the first neglected term. The same bound holds for each of the first
+            # four derivatives of the series.
             self._tail = 2 * to_ball(self.norm) ** self.terms / arb.fac_ui(self.terms)
 
     @property

@@ -97,7 +97,7 @@ class Trajectory:
         self.samples += [self.state() for _ in self.pending]
 
     def _fly(self):
-        """Advance to the next event, to the end of the window or by the longest step, whichever comes first."""
+        """Advance to the next event, to the end of the run or by `Flow.longest_step`, whichever comes first."""
         self._settle()
         flow, search_flow = self._flow(self.bits + GUARD_BITS), self._flow(SEARCH_BITS)
         vector = self._vector()
@@ -287,9 +287,10 @@ class Trajectory:
     # -- chatter -----------------------------------------------------------------------------------------
 
     def _follow_chatter(self, contacts):
-        """Add the simultaneous impacts `contacts` to the chatter, or start a new one.
+        """Add the simultaneous impacts `contacts` to the current chatter, or start a new chatter.
 
-        A chatter is replaced by its limit as soon as `_is_complete` holds.
+        A chatter goes on as long as the same balls hit the same walls. As soon as `_is_complete` returns True, the
+        chatter is replaced by its limit.
         """
         if self.chatter is None or self.chatter.contacts != contacts:
             self.chatter = Chatter(contacts, self.system.kappa) if contacts else None
@@ -362,10 +363,11 @@ def _force(ball, motion):
 
 
 def _parabola_hint(distance, longest):
-    """Return a time at which `first_root` should first split its search for the root of `distance`, or None.
+    """Return the time `hint` for the call of `first_root` that searches the root of `distance`, or None.
 
-    The time is twice the root of the linear part of `distance`. With this time, one split suffices to find the end of a
-    short flight of a chatter. The result is None if the time is not positive or exceeds a quarter of `longest`.
+    The time is twice the root of the linear part of `distance`. In a short flight of a chatter, `distance` is almost
+    linear, so that one split at this time suffices to find its root. The result is None if the time is not positive or
+    exceeds a quarter of `longest`.
     """
     height, slope = distance[0], distance[1]
     if not (height > 0 and slope < 0):
