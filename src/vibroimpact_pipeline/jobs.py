@@ -74,7 +74,7 @@ def running(job) -> Iterator[SimpleNamespace]:
 
 
 def log_of(job) -> Path:
-    """Return the path of the log of a job: results/logs/RULE.log, or for example results/logs/RULE/CASE.log."""
+    """Return the path of the log of a job: results/logs/RULE.log or, with a wildcard, results/logs/RULE/CASE.log."""
     folder = LOGS.joinpath(job.rule, *job.wildcards)
     return folder.with_name(f"{folder.name}.log")
 

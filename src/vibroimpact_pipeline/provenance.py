@@ -30,7 +30,7 @@ def write(job, out) -> None:
     job
         The Snakemake job.
     out
-        Temporary paths of the outputs; `out.provenance` already contains the versions of packages.
+        Temporary paths of the outputs; the file at `out.provenance` already contains the versions of packages.
     """
     folder = Path(job.output.provenance).parent
     outputs = {path: getattr(out, name) for name, path in job.output.items() if name != "provenance"}
@@ -90,7 +90,10 @@ def differences(path, record: dict, config: dict) -> Iterator[str]:
 
 
 def _at(config, place):
-    """Return the config entry at "section.key"; for a case, the parameters of its System."""
+    """Return the config entry at a key path such as "section.key", or None if there is no such entry.
+
+    For the path "cases.NAME", return the parameters of System for this case; for "cases", those of all cases by name.
+    """
     section, _, name = place.partition(".")
     if place == "cases":
         return {case: case_parameters(config, case) for case in config["cases"]}

@@ -8,8 +8,9 @@ workflow/rules/.
 - method: how the figure is computed.
 - notebook: name of the notebook that explains the figure, if any.
 - sweeps: for each sweep that the figure draws, the axes and observations that the figure needs.
-- columns: for each column of the plotted table, its meaning, unit and allowed values. The entry `compared` is a key of
-  a file tolerances.yaml, or a mapping with such a key for each series. The entry `infinite` allows infinite values.
+- columns: for each column of the plotted table, its meaning, unit and allowed values. The entry `compared`
+  selects the tolerance for the figure check. It is a key in a file tolerances.yaml, or a mapping with a key for each
+  series. The entry `infinite` allows infinite values.
 - file: path of the plotted table, if not the default.
 - tables: for each further table that `compute` returns, its file, description and columns.
 
@@ -61,8 +62,9 @@ def module_of(figure: str) -> str:
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
     """Return the SPEC of a figure, with the name of its drawing module as the entry "module".
 
-    Your own figure gets the SPEC of the figure `like`, with the texts `own` and with its own file names. `scene` is the
-    config entry of the figure, and `known` contains the SPEC of every figure of the library.
+    `scene` is the config entry of the figure, and `known` contains the SPEC of every figure of the library. If `scene`
+    has the entry "like", the result is the SPEC of the figure named there, with the texts in its entry "own" and with
+    the new figure's file names.
     """
     module = scene.get("like", figure)
     if module == figure:
@@ -78,7 +80,7 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
 
 
 def with_model(caption: str, scene: dict) -> str:
-    """Return the caption of a figure, followed by the name of its model if this is exact_orbit or second_term."""
+    """Return a caption; if the model of the figure is exact_orbit or second_term, add the name of the model."""
     other = scene.get("model") in ("exact_orbit", "second_term")
     return f"{caption} Drawn with the model *{scene['model'].replace('_', ' ')}*." if other else caption
 

@@ -54,7 +54,10 @@ def markdown_to_html(source: str) -> str:
 
 
 def linked(page: str, address: str) -> str:
-    """Return the page of a notebook with links to the HTML pages of the report and to the figure at `address`."""
+    """Return the page of a notebook with its links to Markdown documents replaced by links to the report's HTML pages.
+
+    The line "Notebook of ..." at the head of the page becomes a link to the figure, at `address`.
+    """
     page = re.sub(r'href="\.\./(?:\.\./docs/)?(\w+)\.md"', r'href="../\1.html"', page)
     return re.sub(r'(<p class="of">)(.*?)(</p>)', rf'\1<a href="{escape(address)}">\2</a>\3', page, count=1)
 
@@ -62,7 +65,7 @@ def linked(page: str, address: str) -> str:
 def page(notebook, title: str) -> str:
     """Return the HTML page of an executed notebook; `title` is the title of the figure.
 
-    Progress messages of the library on compilation are omitted.
+    Messages that the library prints while it compiles functions are omitted.
     """
     for cell in notebook.cells:
         if "outputs" in cell:

@@ -18,7 +18,7 @@ HEAD = re.compile(r"<head>\n?")
 def policy(*scripts: str) -> str:
     """Return the policy as a meta element.
 
-    If inline `scripts` are given, the policy allows these scripts and script files. If not, it allows no script.
+    If inline `scripts` are given, the policy allows them and all script files of the site. If not, it allows no script.
     """
     digests = (base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in scripts)
     allowed = " ".join([FILES, *(f"'sha256-{digest}'" for digest in digests)]) if scripts else "'none'"

@@ -60,7 +60,10 @@ class Axis(Section):
         return len(self.listed or self.tuples or ()) or self.cells or self.values
 
     def ends(self) -> list[dict[str, float]]:
-        """Return the parameters at the lowest and the highest value of the axis; for `tuples`, those of every tuple."""
+        """Return the parameters at the lowest and at the highest value of the axis.
+
+        For an axis that is given by `tuples`, return the parameters of every tuple.
+        """
         values = self.tuples or [[end] * len(self.along) for end in self.range or (min(self.listed), max(self.listed))]
         return [dict(zip(self.along, at, strict=True)) for at in values]
 
@@ -101,9 +104,9 @@ class Sweep(Section):
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):
-        """Yield a pair (key path, message) for each reason why a companion figure cannot draw this sweep.
+        """Yield a pair (key path, message) for each reason why companion figures cannot draw this sweep.
 
-        Only companion figures that draw a sweep called `name` are considered.
+        `name` is the name of the sweep; it determines which companion figures draw the sweep.
         """
         for figure, spec in specs().items():
             if drawn := spec.get("sweeps", {}).get(name):

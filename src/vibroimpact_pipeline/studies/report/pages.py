@@ -181,7 +181,10 @@ class Pages:
 
 
 def table(frame, heads: dict, number: int = 3) -> str:
-    """Return the DataFrame columns in `heads` (head by name) as a Markdown table with `number` significant digits."""
+    """Return columns of a DataFrame as a Markdown table; values are shown with `number` significant digits.
+
+    `heads` maps the name of each selected column to its head in the Markdown table.
+    """
     rows = [[digits(value, number) for value in row] for row in frame[list(heads)].itertuples(index=False)]
     return "\n".join("| " + " | ".join(line) + " |" for line in [heads.values(), ["---"] * len(heads), *rows])
 

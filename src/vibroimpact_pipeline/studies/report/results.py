@@ -32,7 +32,9 @@ class Results:
         return (self.root / name).read_text(encoding="utf-8")
 
     def files(self, figure: str) -> dict[str, Path]:
-        """Return the path of each file of a figure by kind, and of its further tables <figure>.<name>.csv by name.
+        """Return the paths of the files of a figure: <figure>.<kind> by kind, and further tables by name.
+
+        The kinds are csv, svg, pdf and png. A further table is in the file <figure>.<name>.csv.
 
         Raises
         ------
