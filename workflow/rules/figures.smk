@@ -9,7 +9,7 @@ MOTION = {
     "samples": "results/simulations/{case}/{model}/samples.csv",
     "events": "results/simulations/{case}/{model}/events.csv",
 }
-# For each notebook, READ lists the results that it reads in addition to the files of its figure.
+# READ lists, for each notebook, the results that the notebook reads in addition to the files of its figure.
 ORBITS = {"orbits": "results/orbits/{case}.csv"}
 READ = {
     "fixed_points": POINTS | ORBITS,

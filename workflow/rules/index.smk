@@ -1,4 +1,4 @@
-# Index page: what the exact system shows for each figure, and links to all results, including those of built studies.
+# Index page: for each figure, a comment on the exact system; links to all results, including results of the studies.
 
 
 rule index:

@@ -1,4 +1,7 @@
-"""Compare all figures with the reference set, write page, verdicts and summary, and exit with 1 if a figure fails."""
+"""Compare all figures with the reference set, and exit with status 1 if a figure fails.
+
+The script writes a page with the pictures, the verdicts as JSON, and a summary.
+"""
 
 import json
 import os

@@ -52,7 +52,7 @@ def execute(notebook, executed, parameters: dict):
     ValueError
         If the notebook lacks a parameter (papermill would only warn), or if a cell raises ValueError.
     papermill.PapermillExecutionError
-        If a cell fails.
+        If a cell raises any other exception.
     """
     if unknown := sorted(parameters.keys() - papermill.inspect_notebook(str(notebook)).keys()):
         raise ValueError(f"notebook: {notebook} should define the parameters {', '.join(unknown)}")
@@ -64,7 +64,10 @@ def execute(notebook, executed, parameters: dict):
 
 
 def parameters_of(config: dict) -> dict:
-    """Return the notebook parameters by name, from the config entries (by path) on which a figure depends."""
+    """Return the parameters of a notebook by name; `config` contains the config entries of its figure by key path.
+
+    A parameter has the last key of the path as its name. Each entry of a case or of `plant` is a separate parameter.
+    """
     given = {}
     for path, value in config.items():
         name = path.rpartition(".")[2]

@@ -17,8 +17,8 @@ from vibroimpact.system.state import KINDS, NAMES
 def summarise(simulated: Window, settings: dict) -> dict:
     """Return a summary of the window after the transient.
 
-    The summary contains the start and end time, the number of events by kind and module, the largest change of the
-    state after 1 to 4 cycles, and the final state.
+    The summary contains the start and end time, the number of events by kind and module, the largest change of a
+    coordinate over 1, 2, 3 and 4 cycles (at most the length of the window), and the final state.
     """
     events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {
