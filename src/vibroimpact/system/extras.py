@@ -4,7 +4,10 @@ from importlib.util import find_spec
 
 
 def need(extra: str, *packages: str) -> None:
-    """Raise an error unless all `packages` are installed; the message gives the command that installs `extra`.
+    """Raise an error unless all `packages` are installed.
+
+    The message gives the pip command that installs `extra`, one of the groups of optional dependencies in
+    pyproject.toml.
 
     Raises
     ------

@@ -139,15 +139,15 @@ class System:
         return (1, 2) if coupled and forced else tuple(forced)
 
     def with_inactive_damped(self) -> "System":
-        """Return the system with damping of the box in the inactive module, if exactly one module is active.
+        """Return a copy of the system in which the inactive box is damped: its gamma1_hat or gamma2_hat is 1.
 
-        The box of the inactive module stays at rest. Without damping the box may have a resonance, at which the
-        equations of the boxes have no unique solution.
+        The inactive box, that is the box of the inactive module, stays at rest with and without damping. Without
+        damping it may have a resonance, at which the equations of the two boxes have no unique solution.
 
         Returns
         -------
         System
-            A new System if exactly one module is active, else the system itself.
+            The copy if exactly one module is active, else the system itself.
         """
         if len(self.modules) != 1:
             return self
@@ -183,14 +183,14 @@ class System:
     def _resonates(self) -> bool:
         """Return True if a force drives the undamped boxes at a resonance."""
         stiffness = dynamic_stiffness(self)
-        # The bound on rounding errors is proportional to the sum of the terms of the dynamic stiffness. The entries of
-        # the matrix give no bound: at a resonance their terms cancel, and without coupling all entries can vanish.
+        # Bound on the rounding errors of the matrix: a multiple of the sum of all terms in its entries. The entries
+        # themselves give no bound, since their terms can cancel: all entries are 0 if both uncoupled boxes resonate.
         springs = 1.0 + self.stiffness2 + 2.0 * self.alpha12
         dampers = self.gamma1 + self.gamma2 + 2.0 * self.gamma12
         rounding = 1e-12 * (springs + self.Omega * (dampers + 2.0 * self.Omega))
         (a, b), (c, d) = stiffness.tolist()
         if abs(a * d - b * c) > rounding * 1e12 * rounding:
-            return False  # both singular values are above the rounding
+            return False  # both singular values are larger than `rounding`
         left, values, _ = np.linalg.svd(stiffness)
         loads = abs(left[:, values <= rounding].conj().T @ self.forcing)
         return bool((loads > 1e-12 * np.linalg.norm(self.forcing)).any())

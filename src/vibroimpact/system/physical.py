@@ -102,10 +102,10 @@ class PhysicalSystem:
     ) -> "PhysicalSystem":
         """Return the parameters of one machine with a ball in its box.
 
-        The equations have two modules. Module 2 is a copy of the machine, but neither coupled nor driven, and is
-        therefore inactive (see `System.modules`): fixed points, orbits, branches, proofs, attractors and exponents are
-        those of module 1. Arrays with an entry per module keep their shape, with NaN for module 2. States have zeros
-        for module 2. There are 4 multipliers, 4 exponents and 2 slow eigenvalues.
+        Module 1 of the returned system is the machine. Module 2 is a copy of the machine, but neither coupled nor
+        driven, and is therefore inactive (see `System.modules`). Fixed points, orbits, branches, proofs, attractors and
+        exponents are those of module 1, with 4 multipliers, 4 exponents and 2 slow eigenvalues. Arrays with one entry
+        per module still have two entries, the second of them NaN. In states, the components of module 2 are 0.
 
         Parameters
         ----------

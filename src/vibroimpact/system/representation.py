@@ -17,7 +17,10 @@ class Representation:
 
 
 class Found(list):
-    """List of results; `columns` are the names of the columns in the table from `to_frame`, also for an empty list."""
+    """List of results that stores the column names of its table, so that an empty list also has a table with columns.
+
+    `to_frame` makes the table.
+    """
 
     def __init__(self, results: Iterable, columns: Iterable[str]):
         super().__init__(results)

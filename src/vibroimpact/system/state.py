@@ -31,7 +31,8 @@ def states_array(name: str, values) -> np.ndarray:
     Raises
     ------
     ValueError
-        If the values are not an array of real numbers, or if they have labels, which could be in another order.
+        If the values are not an array of real numbers, or if they have labels, such as the keys of a mapping or the
+        columns of a table. Labelled values could be in another order.
     """
     _refuse_labels(name, values)
     return reals(name, values)
