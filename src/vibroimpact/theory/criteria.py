@@ -1,8 +1,8 @@
 """Apply stability criteria to a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
 
-Each criterion gives "stable", "unstable" or "undecided" (the threshold is within the error bound of the value). A
-motion is stable if both modules are stable. An inactive module (see `System.modules`), whose saw-tooth amplitude C is
-NaN, is ignored. The verdicts are named printed_10_26 (the condition as printed), fast (Masri's analysis as derived in
+Each criterion gives "stable" or "unstable", or "undecided" if the error bounds are too large for a decision. A motion
+is stable if both modules are stable. An inactive module (see `System.modules`), whose saw-tooth amplitude C is NaN, is
+ignored. The verdicts are named printed_10_26 (the condition as printed), fast (Masri's analysis as derived in
 docs/stability.md), slow (the slow flow), theory (fast and slow together) and exact (the Floquet multipliers of the
 exact orbit).
 """
@@ -37,7 +37,10 @@ class Stability(NamedTuple):
 
     @property
     def theory(self) -> str:
-        """Verdict of both analyses together: "stable" if `fast` and `slow` are both "stable"."""
+        """Verdict of the theory, from the verdicts `fast` and `slow`.
+
+        "stable" if both verdicts are "stable", "unstable" if one of them is "unstable", else "undecided".
+        """
         return all_stable(self)
 
     def __str__(self) -> str:

@@ -3,11 +3,11 @@
 The condition printed in the chapter, (10.26), differs from the result of this analysis: see `printed_limit`.
 
 The derivation is in docs/stability.md. A linear map leads from the perturbations of impact time and ball speed at an
-impact to the perturbations at the mirror image of the next impact. The determinant of the map is kappa^2 and its trace
-is 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), where C is the saw-tooth amplitude. A multiplier leaves the unit circle
-through +1 at C_min, where the two arms of the manifold merge, or through -1 at C = pi^2 / (pi^2 - 4), where two
-asymmetric motions branch off the symmetric motion. A pair of complex multipliers cannot leave the unit circle, since
-the determinant is below 1.
+impact to the perturbations of impact time and ball speed at the next impact. The determinant of the map is kappa^2 and
+its trace is 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), where C is the saw-tooth amplitude. A multiplier leaves the
+unit circle through +1 at C_min, where the two arms of the manifold merge, or through -1 at C = pi^2 / (pi^2 - 4), where
+two asymmetric motions branch off the symmetric motion. A pair of complex multipliers cannot leave the unit circle,
+since the determinant is below 1.
 """
 
 import numpy as np
@@ -23,8 +23,8 @@ SYMMETRY_BREAKING_C = np.pi**2 / (np.pi**2 - 4)
 def impact_multipliers(C, kappa) -> np.ndarray:
     """Return the multipliers, shape (2,), of the map from one impact to the next at constant B and phi.
 
-    The map leads from the perturbations of impact time and ball speed at an impact to the perturbations at the mirror
-    image of the next impact. The motion is stable if both moduli are below 1, that is for
+    The map leads from the perturbations of impact time and ball speed at an impact to the perturbations of impact
+    time and ball speed at the next impact. The motion is stable if both multipliers are below 1 in modulus, that is for
     C_min < C < SYMMETRY_BREAKING_C. The product of the multipliers is kappa^2, and their sum is
     2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C).
 

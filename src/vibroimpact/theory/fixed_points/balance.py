@@ -7,7 +7,7 @@ are therefore linear in the phasors u_i, with coefficients that are linear in C_
     q_i u_i + K (z_i u_i - z_j u_j) = f_i,    q_i = e_i z_i + mu C_i,    mu = 8 / pi^2.
 Here f_i is the forcing amplitude of module i and j is the other module. The impedances e_i of box i and K of the
 coupling come from `slow_flow.impedances`.
-This module also computes the singular points of (10.24) (docs/derivation.md, section 8).
+The function `singular_points` computes the singular points of (10.24) (docs/derivation.md, section 8).
 """
 
 from dataclasses import dataclass
@@ -53,7 +53,7 @@ class Balance:
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
 
     def phases(self, C) -> np.ndarray:
-        """Return the phases psi (2,) of the fixed point with amplitudes C (2,), at which both `polynomials` vanish."""
+        """Return the phases psi (2,) of the fixed point with amplitudes C (2,), a common zero of the `polynomials`."""
         numerators, denominator = self.solve(C)
         return -np.angle(self.at(C)[0] * numerators / denominator)
 
@@ -76,12 +76,13 @@ class Balance:
         return C, -np.angle((self.z[0] + self.z[1] * C) * f / (q0 + q1 * C)), bool(multiple)
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the coefficients of two polynomials equivalent to (10.24), and their magnitudes, each (2, 3, 3).
+        """Return the coefficients of two polynomials equivalent to (10.24), and magnitudes of the coefficients.
+
+        Both arrays have the shape (2, 3, 3); entry [:, j, k] belongs to C_1^j C_2^k. A coefficient is a sum of terms,
+        and its magnitude is the sum of the moduli of these terms. The magnitudes are the scale of rounding errors.
 
         The polynomials are |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2. They vanish where |u_1| = |u_2| = 1, since u_i =
-        n_i / Delta (`solve`). n_1 depends on C_2 alone and n_2 on C_1 alone. Entry [:, j, k] is the coefficient of
-        C_1^j C_2^k. A coefficient is a sum of terms, and its magnitude is the sum of the moduli of these terms. The
-        magnitudes are the scale of rounding errors.
+        n_i / Delta (`solve`). n_1 depends on C_2 alone and n_2 on C_1 alone.
         """
         # The first polynomial is proportional to the square of the forces. It is computed for forces of order one,
         # since squares of tiny forces underflow. Scaling by a power of 2 causes no rounding error.
@@ -115,10 +116,11 @@ def determinant(system, C) -> float:
 
     z_i, q_i and K are those of `Balance`. Constant factors, powers of B_i and the square in h_1 are left out.
 
-    The denominator is a determinant. The equation sin^2 + cos^2 = 1, for psi_1 and for psi_2, gives two equations that
-    are linear in cosine and sine of the phase difference. The determinant of these two equations is four times the
-    returned value. For coupled modules, the returned value does not vanish for all C. As a function of C_1, it is a
-    quadratic polynomial that vanishes identically only if p_2 = 0, which dissipation in the impacts excludes.
+    The equations sin^2 psi_i + cos^2 psi_i = 1 for i = 1, 2 lead to two equations that are linear in the cosine and
+    sine of psi_2 - psi_1. The determinant of the two linear equations is four times the returned value.
+
+    The returned value is a quadratic polynomial in C_1. For coupled modules all its coefficients vanish only if
+    p_2 = 0, which dissipation in the impacts excludes except for C_2 = 0.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)

@@ -127,7 +127,7 @@ def _newton(pair, size, points):
 def _expanded(pair, size, points):
     """Return values (n, 2) and Jacobians (n, 2, 2) of both polynomials, and bounds (n, 2) on the errors of the values.
 
-    size: sums of the moduli that form the coefficients, as `magnitudes` of `real_zeros`. points: (n, 2).
+    size: for each coefficient, the sum of the moduli of its terms, as `magnitudes` of `real_zeros`. points: (n, 2).
     """
     value, by_x, by_y = (_at(points, one) for one in (pair, *_derivatives(pair)))
     return value, np.stack([by_x, by_y], -1), _ROUNDING * _at(np.abs(points), size)
@@ -167,7 +167,7 @@ def _contract(pair, size, points):
 
 
 def _distinct(points, apart):
-    """Return the first point of each group of points that are within a relative distance `apart`."""
+    """Return the points except those within the relative distance `apart` of a point that is already in the result."""
     found = []
     for point in points:
         if not any(_near(point, known, apart) for known in found):

@@ -51,8 +51,8 @@ class FixedPoint(Representation):
         Complex eigenvalues of the slow flow, per unit of tau_1, shape (4,), or (2,) for a single machine. At a fold of
         the manifold an eigenvalue is infinite.
     multiple : bool
-        True if several fixed points may coincide within rounding (a fold or branch point in the parameters). C and psi
-        are then known only to about the square root of rounding.
+        True if several fixed points may coincide within rounding, as they do at parameters of a fold or of a branch
+        point. The relative errors of C and psi are then about the square root of the rounding error.
     label : str
         "a", "b", ... as in the figures (see `labels`); "" for a point that does not come from `fixed_points`.
 
@@ -139,7 +139,7 @@ def search(system: System) -> list[FixedPoint]:
     if system.modules == (1, 2):
         zeros, multiple = real_zeros(*balance.polynomials(), search_radius(system))
         solutions = _solutions(system, balance, zeros, multiple)
-    else:  # without a force there is no fixed point, since the ball dissipates energy
+    else:  # at most one active module; if there is none, no fixed point exists, since impacts dissipate energy
         solutions = [solution for module in system.modules for solution in _of_one_module(balance, module - 1)]
     points = [FixedPoint.of(system, *solution) for solution in solutions]
     return sorted(points, key=lambda point: tuple(np.nan_to_num(point.C)))
@@ -163,12 +163,11 @@ def search_radius(system) -> float:
 def labels(system, points) -> list[str]:
     """Return the label "a", "b", "c", ... of each fixed point; "a" is the least stable point.
 
-    The chapter gives labels in its figures, but no rule for them.
-
     Points that are unstable by (10.26) come first, then the points that are stable by (10.26). Each of the two groups
-    is sorted by descending growth rate, which is the largest real part of the eigenvalues of the slow flow. Of the
-    plausible orders, this one agrees with the most sentences of section 10.4, among them the sentence on Figs. 10.7 and
-    10.8 (list in docs/errata.md).
+    is sorted by descending growth rate, which is the largest real part of the eigenvalues of the slow flow.
+
+    The chapter gives labels in its figures, but no rule for them. The order used here agrees with more sentences of
+    section 10.4 than the other plausible orders (docs/errata.md lists the sentences).
     """
     limit = printed_limit(rho(system.kappa))
     keys = [(bool(np.nanmin(point.C) > limit), -point.slow_eigenvalues.real.max()) for point in points]
@@ -178,7 +177,7 @@ def labels(system, points) -> list[str]:
 
 def refuse_free_motion(system) -> None:
     """Raise ValueError for a system whose fixed points need not be isolated (see `search`)."""
-    if len(system.modules) == 1:  # with one module, the force excites the only relevant resonance
+    if len(system.modules) == 1:  # the force excites every resonance of the active box
         return
     balance = Balance.of(system)
     numerators, denominator = balance.solve((0.0, 0.0))
