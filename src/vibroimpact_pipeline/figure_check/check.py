@@ -1,4 +1,7 @@
-"""Compare new tables with reference tables, and `draw(reference table)` with the reference picture.
+"""Compare the tables and pictures of each figure with the reference set.
+
+Tables of the build are compared with the reference tables. The picture that the present code draws from the reference
+tables is compared with the reference picture.
 
 A figure passes, fails or is not comparable. It is not comparable if its tables match but its picture differs, and the
 reference picture was drawn with other versions of the drawing libraries.
@@ -107,9 +110,10 @@ def _add(verdict, file, differences):
 
 
 def _other_pictures(verdict, reference, built, old, new) -> list[str]:
-    """Return the kinds of pictures that differ from the reference; add reasons for failure to the verdict.
+    """Return which of the PNG, PDF and SVG pictures differ from the reference; add reasons for failure to the verdict.
 
-    Reasons are a blank picture, and a difference from reference pictures drawn with the present library versions.
+    A blank picture is a reason for failure. A difference is a reason only if the installed library versions are those
+    that drew the reference.
     """
     # If the tables are equal, drawing the reference tables would only repeat the picture in the build.
     equal = all(name in new and old[name].equals(new[name]) for name in verdict["files"])

@@ -29,9 +29,8 @@ MOVED_BY = 1e-3
 def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
     """Return the reasons why a table fails, and the distance of each column from its reference.
 
-    The rows of a table are grouped into series. Rows belong to one series if they have the same text in the first two
-    text columns, not counting text columns with the entry `compared`. The rows of a series are compared in order with
-    the reference rows of the same series.
+    Rows with the same text in the first two text columns form a series; text columns with the entry `compared` are
+    skipped. The rows of a series are compared in order with the reference rows of the same series.
 
     Parameters
     ----------
@@ -47,9 +46,12 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
     reasons : list of str
         One line for each reason. The table passes if the list is empty.
     distances : list of dict
-        One mapping for each column and measure. Its keys are column; kind and measure, as in KINDS; distance, the
-        largest one in units of the limit; where, the row with this distance; reference and new, the values of the two
-        tables in this row. If a measure gives one distance for the whole column, the two values are medians.
+        One mapping for each column and measure, with these keys.
+        column, kind, measure: name of the column, and the kind and measure as in KINDS.
+        distance: largest distance, in units of the limit.
+        where: row with the largest distance.
+        reference, new: values of the two tables in this row. If a measure gives one distance for the whole column,
+        the values are medians of the column.
     """
     if list(old) != list(new):
         return [f"columns are {', '.join(new)} instead of {', '.join(old)}"], []
@@ -203,7 +205,7 @@ def _decades(old, new, limit):
 
 
 def _middle(old, new, limit):
-    """Compare a column by the median difference of the decimal logarithms."""
+    """Compare numbers by the median, over all rows, of the differences of their decimal logarithms."""
     return np.abs(np.nanmedian(_shifts(old, new))) / limit
 
 
@@ -218,13 +220,13 @@ def _rows(old, new, limit):
 
 
 def _balance(old, new, limit):
-    """Compare how many rows enter a class with how many rows leave the class (sign test).
+    """Compare, for each class, how many rows enter the class with how many rows leave the class (sign test).
 
     For a column of numbers, compare how many numbers increase with how many decrease.
 
-    Rounding changes rows in both directions equally often. The difference of the two counts is divided by its standard
-    deviation, the square root of the number of changed rows. If a class of RARE_ROWS rows or more vanishes, the
-    distance is MAX_DISTANCE.
+    Rounding errors cause the two kinds of change equally often. The distance is the difference of the two numbers,
+    divided by its standard deviation, the square root of the number of changed rows. If a class of RARE_ROWS rows or
+    more vanishes, the distance is MAX_DISTANCE.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:
