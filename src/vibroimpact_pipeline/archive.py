@@ -25,8 +25,8 @@ WORKFLOW = "Snakefile"
 def results_behind(targets: list[str]) -> list[Path]:
     """Return the targets and all results on which they depend, according to the records.
 
-    All results of the jobs that made these files are included. Results of other jobs are excluded, since they may be
-    from an older commit.
+    If a job made one of these results, all other results of the job are included. Results of other jobs are excluded,
+    since they may be from an older commit.
     """
     known = {path: record for path, record in records().items() if Path(path).is_file()}
     behind, pending = set(), list(targets)

@@ -9,14 +9,14 @@ COLLECTIONS = ("accuracy.problems", "sweeps")
 
 
 def with_cases(config: dict) -> dict:
-    """Return a copy of a config in which every entry that needs a case names its case.
+    """Return a copy of a config in which entries without a case name the default case.
 
-    An entry without a case gets the default case: `default_case`, or the first case if the config has no
-    `default_case`. The chapter's figures (fig10_...) get no default case, since they must name their case.
+    The default case is `default_case`, or the first case if the config has no `default_case`. The chapter's figures
+    (fig10_...) get no default case, since they must name their case.
 
-    The config may omit a case of the chapter (`CASES`). Figures with an omitted case are removed, and so is
-    `regimes.epsilon.mixed` if its case is omitted. All other entries with an omitted case get the default case.
-    Malformed entries are left unchanged; validation reports them.
+    The config may omit a case of the chapter (`CASES`). Entries of `figures` and of `regimes.epsilon` that name an
+    omitted case are removed. All other entries that name an omitted case get the default case. Malformed entries are
+    left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")
@@ -45,7 +45,7 @@ def case_overrides(config: dict, case: str) -> dict:
 
 
 def title_of(config: dict, case: str) -> str:
-    """Return the text for a case in titles and captions: its title, or its name and the values that it overrides."""
+    """Return the text for a case in titles and captions: its title, or its name and its overrides of `system`."""
     overrides = [
         f"{name} = {value}" for name, value in case_overrides(config, case).items() if name in config["system"]
     ]

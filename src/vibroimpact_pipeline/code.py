@@ -59,7 +59,7 @@ def fingerprint(*roots: str) -> str:
 
 
 def change_times(*roots: str) -> dict[Path, int]:
-    """Return the ctime [ns] of each file of `code_files`; unlike the mtime, it changes when a file is restored."""
+    """Return the ctime [ns] of each file of `code_files`; unlike the mtime, the ctime changes if a file is restored."""
     return {path: path.stat().st_ctime_ns for path in code_files(*roots)}
 
 

@@ -59,7 +59,7 @@ def read() -> tuple[dict, dict]:
 
 
 def files(known: dict, data: dict) -> list[File]:
-    """Return a description of each kind of results file, first of the tables of figures.
+    """Return a description of each kind of results file; the tables of figures come first.
 
     `known` and `data` are the two values that `read` returns.
     """
@@ -79,8 +79,8 @@ def files(known: dict, data: dict) -> list[File]:
 def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
     """Return the data dictionary in Markdown.
 
-    It describes the tables of figures if `of_figures` is True, all other files if it is False, and all files if it is
-    None.
+    The page describes the tables of figures if `of_figures` is True, all other files if `of_figures` is False, and
+    all files by default.
     """
     parts = []
     if not of_figures:

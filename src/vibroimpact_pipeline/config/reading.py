@@ -23,7 +23,7 @@ class ConfigError(ValueError):
 
 
 class _Loader(yaml.SafeLoader):
-    """A YAML loader that keeps keys as text and rejects duplicate keys, octal numbers and base 60."""
+    """A YAML loader that keeps keys as text and rejects duplicate keys and numbers in octal (017) or base 60 (1:30)."""
 
     def construct_mapping(self, node, deep=False):
         seen = set()

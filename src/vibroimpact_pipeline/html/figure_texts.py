@@ -14,7 +14,7 @@ TEXTS = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", tex
 
 
 def figure_texts(config: dict) -> dict[str, dict]:
-    """Return the SPEC of every figure by name, filled in for a config (see `words`)."""
+    """Return the SPEC of every figure by name, with values of a config inserted into its texts (see `words`)."""
     known, data = read()
     texts = {name: spec for name, spec in known.items() if not name.startswith("fig10_")}
     for figure, scene in config["figures"].items():
