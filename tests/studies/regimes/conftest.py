@@ -1,4 +1,4 @@
-"""The chapter's system under given forcing, and how motions are looked at in these tests."""
+"""Fixtures of the tests of regimes: systems with the parameters of the chapter, and settings of the observation."""
 
 import pytest
 
@@ -13,10 +13,11 @@ def make(f10_hat=1.0, f20_hat=1.0, **changes):
 
 @pytest.fixture(scope="session")
 def chapter():
+    """Return a function that returns the system of the chapter with other forces and parameters."""
     return make
 
 
 @pytest.fixture(scope="session")
 def observation():
-    """That of the default build."""
+    """Return the settings of the default build."""
     return Observation(cycles=250, rounds=3, window=24, nearness=0.02, blocks=6, block=20, retest=10000)

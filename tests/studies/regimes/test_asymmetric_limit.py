@@ -1,4 +1,4 @@
-"""The asymmetric slow flow against exact asymmetric orbits as epsilon falls: the pair of Fig. 10.8 among them."""
+"""Exact asymmetric orbits converge to asymmetric fixed points of the slow flow as epsilon falls."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ SMALLER = np.geomspace(0.1, 1e-3, 21)[1:]
 
 @pytest.fixture(scope="module")
 def ways():
-    """Of every mirror pair of the equal case, by v^2 of its start."""
+    """Return the orbits of each mirror pair of the case equal as epsilon falls, by the larger v^2 at epsilon = 0.1."""
     found = [asymmetric_limit.follow(EQUAL, root, SMALLER) for root in asymmetric_solutions(EQUAL)[0]]
     return {round(float(max(way[0].place[2:4])), 3): way for way in found}
 
@@ -29,13 +29,13 @@ def points():
 
 
 def distance_to_limit(station, point):
-    """Coordinates and multipliers of an orbit compared with those of a fixed point."""
+    """Return the differences of coordinates and multipliers between an orbit and a fixed point."""
     system, exact = station.system, asymmetric_orbit(station.system, station.root).multipliers
     offset = asymmetric_limit.offset(station, point)
     return paired(system, offset, exact, point.slow_eigenvalues, point.fast(system.kappa))
 
 
-def test_every_pair_leads_to_a_point_of_its_own_and_in_first_order(ways, points):
+def test_every_pair_converges_to_its_own_point_at_first_order(ways, points):
     ends = [asymmetric_limit.leads_to(way, points) for way in ways.values()]
     assert len(ends) == 4
     assert None not in ends
@@ -46,8 +46,8 @@ def test_every_pair_leads_to_a_point_of_its_own_and_in_first_order(ways, points)
         assert order(epsilon[epsilon < 0.02], distance[epsilon < 0.02])[0] == pytest.approx(1, abs=0.03)
 
 
-def test_the_pair_of_fig_10_8_comes_from_just_below_symmetry_breaking(ways, points):
-    """At epsilon = 0 it is no motion yet, v^2 < 0; it is born at the epsilon at which point (c) loses its symmetry."""
+def test_the_limit_of_the_pair_of_fig_10_8_is_just_below_symmetry_breaking(ways, points):
+    """At epsilon = 0, v^2 < 0: the pair appears at the epsilon at which the orbit of point (c) loses its symmetry."""
     pair = ways[0.061]
     end = asymmetric_limit.leads_to(pair, points)
     assert -0.002 < end.squared[1] < -0.0015
@@ -59,8 +59,8 @@ def test_the_pair_of_fig_10_8_comes_from_just_below_symmetry_breaking(ways, poin
     assert station.place[3] == pytest.approx(end.squared[1] + 0.8 * station.system.epsilon, abs=2e-4)
 
 
-def test_multipliers_are_those_of_impact_maps_and_slow_flow():
-    """At a force where the pair exists at epsilon = 0; the errors fall like epsilon."""
+def test_multipliers_converge_to_those_of_impact_maps_and_slow_flow():
+    """At the force 1.3, the pair exists down to epsilon = 0. All errors are proportional to epsilon."""
     system = EQUAL.with_(f20_hat=1.3)
     (point,) = [p for p in fixed_points(system) if 0 < p.squared[1] < 0.1]
     roots = asymmetric_solutions(system)[0]
@@ -82,8 +82,8 @@ def test_multipliers_are_those_of_impact_maps_and_slow_flow():
 
 
 @pytest.mark.parametrize(("f20", "between"), [(1.0, (0.0021, 0.0023)), (0.89, (0.0075, 0.0088))])
-def test_a_pair_is_born_where_the_symmetric_orbit_loses_its_symmetry(f20, between):
-    """Against the multiplier of the symmetric orbit, which passes 1 there; in steps of a fifth, as in a build."""
+def test_a_pair_appears_where_the_symmetric_orbit_loses_its_symmetry(f20, between):
+    """A multiplier of the symmetric orbit is 1 there. Epsilon falls in steps of about a fifth, as in a build."""
     system = EQUAL.with_(f20_hat=f20)
 
     def excess(epsilon):
@@ -93,5 +93,5 @@ def test_a_pair_is_born_where_the_symmetric_orbit_loses_its_symmetry(f20, betwee
 
     steps = np.geomspace(0.1, 3e-4, 31)[1:]
     ways = [asymmetric_limit.follow(system, root, steps) for root in asymmetric_solutions(system)[0]]
-    born = [asymmetric_limit.onset(way) for way in ways if way[-1].system.epsilon > 2e-3]
-    assert min(abs(np.array(born) - brentq(excess, *between, xtol=1e-10))) < 1e-7
+    onsets = [asymmetric_limit.onset(way) for way in ways if way[-1].system.epsilon > 2e-3]
+    assert min(abs(np.array(onsets) - brentq(excess, *between, xtol=1e-10))) < 1e-7

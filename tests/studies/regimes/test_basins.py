@@ -1,4 +1,4 @@
-"""Basins on a plane of starts: the plane itself, its own orbit, and the mirror image."""
+"""Basins of attraction on a plane of starts: the plane, the basin of a stable orbit, and mirror images."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from vibroimpact.studies.regimes.basins import MIRRORED, ends, plane, stable_res
 from vibroimpact.studies.regimes.classification import ASYMMETRIC
 
 
-def test_the_plane_varies_the_balls_alone():
+def test_the_plane_varies_only_the_positions_of_the_balls():
     state = np.array([0.1, 0.5, -0.2, 0.3, 0.4, -0.6, 0.7, -0.8])
     states = plane(state, 4)
     W = np.column_stack([states[:, 0] - states[:, 1], states[:, 2] - states[:, 3]])
@@ -16,7 +16,7 @@ def test_the_plane_varies_the_balls_alone():
     assert len(np.unique(W.round(9), axis=0)) == 16
 
 
-def test_the_orbit_is_in_its_own_basin(chapter, observation):
+def test_a_stable_orbit_is_in_its_own_basin(chapter, observation):
     system = chapter(1.0, 0.89)
     orbit = stable_response(system)
     flights = orbit.ball_speeds[:, ::-1] / orbit.ball_speeds.sum(axis=1, keepdims=True)
@@ -24,14 +24,14 @@ def test_the_orbit_is_in_its_own_basin(chapter, observation):
     assert ends(system, [orbit.state, orbit.state + 1e-3], observation) == [ASYMMETRIC] * 2
 
 
-def test_without_a_stable_asymmetric_orbit_there_is_no_plane(chapter):
+def test_without_a_stable_asymmetric_orbit_the_response_is_none(chapter):
     assert stable_response(chapter(0.5, 0.5)) is None
 
 
 def test_mirrored_starts_under_mirrored_forces_end_in_the_mirror_image(chapter, observation):
     states = plane(stable_response(chapter(1.0, 0.89)).state, 6)
-    ours = ends(chapter(1.0, 0.89), states, observation)
+    names = ends(chapter(1.0, 0.89), states, observation)
     mirrored = ends(chapter(-1.0, -0.89), -states, observation)
     swap = {ASYMMETRIC: MIRRORED, MIRRORED: ASYMMETRIC}
-    assert {ASYMMETRIC, MIRRORED} <= set(ours)
-    assert [swap.get(name, name) for name in ours] == mirrored
+    assert {ASYMMETRIC, MIRRORED} <= set(names)
+    assert [swap.get(name, name) for name in names] == mirrored

@@ -1,4 +1,4 @@
-"""Special points against the zeros that define them, evaluated by other means than continuation uses."""
+"""Special points of branches satisfy their defining equations, evaluated independently of the continuation."""
 
 from itertools import pairwise
 
@@ -35,7 +35,7 @@ def special(found, family, kind):
 
 
 def orbits_at(path, p, amplitudes):
-    """Exact orbits at p, found by the complete search, nearest to given amplitudes first."""
+    """Return exact orbits at p from the complete search, sorted by distance from the amplitudes."""
     system = path(p)
     return sorted(
         (orbit for orbit in vi.orbits(system) if (orbit.ball_speeds > 0).all()),
@@ -56,11 +56,11 @@ def test_all_motions_at_a_value_lie_on_branches_with_their_stability(path, found
 
 
 @pytest.mark.parametrize(
-    ("family", "search", "beside"), [(SymmetricOrbits, symmetric_solutions, 1e-7), (FixedPoints, vi.fixed_points, 1e-8)]
+    ("family", "search", "offset"), [(SymmetricOrbits, symmetric_solutions, 1e-7), (FixedPoints, vi.fixed_points, 1e-8)]
 )
-def test_folds_are_where_two_roots_of_the_complete_search_meet(path, found, family, search, beside):
+def test_two_roots_of_the_complete_search_meet_at_folds(path, found, family, search, offset):
     for node in special(found, family, kinds.FOLD):
-        counts = [len(search(path(node.p + shift))) for shift in (-beside, beside)]
+        counts = [len(search(path(node.p + shift))) for shift in (-offset, offset)]
         assert abs(counts[1] - counts[0]) == 2
 
 
@@ -69,7 +69,7 @@ def test_symmetry_breaks_where_a_multiplier_of_half_a_period_is_minus_one(path, 
         system = path(node.p)
         orbit = next(o for o in orbits_at(path, node.p, node.amplitudes) if o.symmetric)
         assert abs(half_period_multipliers(orbit) + 1).min() < 1e-9
-        # Seen as an asymmetric motion with equal flights it is a multiple root, which no multiplier enters.
+        # As an asymmetric motion with equal flights, the orbit is a multiple root; this uses no multipliers.
         times = node.x[:2, None] + [0, system.period / 2]
         x = np.concatenate([times.ravel(), 8 * node.x[2:] / ((1 + system.epsilon) * system.period)])
         residual, jacobian = AsymmetricOrbits.equations(system, x)
@@ -85,8 +85,8 @@ def test_symmetry_breaks_where_a_multiplier_of_half_a_period_is_minus_one(path, 
         (AsymmetricOrbits, kinds.PERIOD_DOUBLING),
     ],
 )
-def test_a_complex_pair_meets_the_unit_circle_or_a_multiplier_is_minus_one(path, found, family, kind):
-    """By the variational flow of the simulation, which shares no code with exact.floquet."""
+def test_multipliers_are_on_the_unit_circle_at_neimark_sacker_and_period_doubling_points(path, found, family, kind):
+    """The multipliers are those of the Jacobian of a simulation, which shares no code with `exact.orbits.floquet`."""
     for node in special(found, family, kind):
         system = path(node.p)
         mu = np.linalg.eigvals(vi.simulate(system, family.member(system, node.x).state, 1).jacobian)
@@ -97,7 +97,7 @@ def test_a_complex_pair_meets_the_unit_circle_or_a_multiplier_is_minus_one(path,
 
 
 def test_at_grazing_points_orbits_cease_to_be_motions(path, found):
-    """A ten-millionth to one side the simulation repeats the orbit, to the other side it meets a wall in between."""
+    """At a distance of 1e-7 from the point, a simulation repeats the orbit on one side only."""
     for node in special(found, AsymmetricOrbits, kinds.GRAZING):
         repeated = set()
         for p in (node.p - 1e-7, node.p + 1e-7):
@@ -112,7 +112,7 @@ def test_branches_end_where_a_ball_speed_vanishes(found):
             assert node.amplitudes.min() == pytest.approx(0, abs=1e-12)
 
 
-def test_hopf_points_have_a_pair_on_the_imaginary_axis(chapter):
+def test_hopf_points_have_a_pair_of_eigenvalues_on_the_imaginary_axis(chapter):
     path = Path(chapter(), ("f10_hat", "f20_hat"))
     found = {FixedPoints: branches(FixedPoints, path, (0.5, 0.8), [0.6], longest=0.1)}
     for node in special(found, FixedPoints, kinds.HOPF):
@@ -121,8 +121,8 @@ def test_hopf_points_have_a_pair_on_the_imaginary_axis(chapter):
         assert abs(values[values.imag > 0.1].real).min() < 1e-9
 
 
-def test_any_parameter_may_be_followed_up_to_where_it_ends(chapter):
-    """A step towards negative epsilon is shortened; what is reached is a root, and the theory's is 10 epsilon away."""
+def test_a_branch_in_epsilon_stays_at_positive_epsilon(chapter):
+    """Steps to negative epsilon are shortened. Last nodes are roots and within 10 epsilon of a fixed point."""
     system = chapter()
     path = Path(system, ("epsilon",))
     found = branches(SymmetricOrbits, path, (0.01, 0.1), [0.1], longest=0.1)
@@ -134,17 +134,17 @@ def test_any_parameter_may_be_followed_up_to_where_it_ends(chapter):
         assert min(np.linalg.norm(point.C - node.amplitudes) for point in vi.fixed_points(system)) < 10 * node.p
 
 
-# Branch points, closed branches, seeds without an answer
+# Branch points, closed branches, seeds without a solution
 
 
 def crossings(branch, p):
-    """Amplitudes where a branch crosses a value of the parameter, between its nodes."""
+    """Return the amplitudes at which a branch crosses a value of the parameter, interpolated between nodes."""
     pairs = [(a, b) for a, b in pairwise(branch.nodes) if (a.p < p) != (b.p < p)]
     return [a.amplitudes + (p - a.p) / (b.p - a.p) * (b.amplitudes - a.amplitudes) for a, b in pairs]
 
 
 def matched(found, roots):
-    """True if two lists of amplitudes are the same, up to interpolation."""
+    """Return True if two lists contain the same amplitudes, up to errors of interpolation."""
     if len(found) != len(roots) or not roots:
         return len(found) == len(roots)
     gaps = np.abs(np.array(found)[:, None] - np.array(roots)[None]).max(axis=2)
@@ -152,7 +152,7 @@ def matched(found, roots):
 
 
 def roots_at(family, system):
-    """Amplitudes of all members that the searches find, of two mirror images one."""
+    """Return the amplitudes of all members of a family from the complete search, one per pair of mirror images."""
     if family is FixedPoints:
         return [point.C for point in vi.fixed_points(system)]
     symmetric = family is SymmetricOrbits
@@ -164,8 +164,8 @@ def roots_at(family, system):
     ("along", "interval"),
     [(("f10_hat", "f20_hat"), (1.15, 1.5)), (("sigma_e_hat",), (0.3, 0.7)), (("kappa",), (0.37, 0.44))],
 )
-def test_branches_of_identical_machines_pass_the_points_where_they_part(chapter, along, interval):
-    """One motion in step becomes three there, as a search on both sides counts."""
+def test_branches_of_identical_machines_pass_branch_points(chapter, along, interval):
+    """One fixed point with equal modules becomes three at a branch point, as complete searches on both sides show."""
     path = Path(chapter(sigma20_hat=0.0), along)
     found = vi.branches(path.system, along, interval, of="theory")
     for node in special({FixedPoints: found}, FixedPoints, kinds.BRANCH_POINT):
@@ -176,19 +176,19 @@ def test_branches_of_identical_machines_pass_the_points_where_they_part(chapter,
         assert matched([C for one in found for C in crossings(one, p)], roots_at(FixedPoints, path(p)))
 
 
-@pytest.mark.parametrize("beside", [0.0, -1e-9])
-def test_a_seed_at_a_branch_point_finds_its_branches(chapter, beside):
-    """There the search merges the roots that meet, known to half the digits, and each branch still comes once."""
+@pytest.mark.parametrize("offset", [0.0, -1e-9])
+def test_a_seed_at_a_branch_point_finds_its_branches(chapter, offset):
+    """The search merges the roots that meet there and finds them to half the digits. Each branch is listed once."""
     path, interval = Path(chapter(sigma20_hat=0.0), ("kappa",)), (0.37, 0.42)
     known = {FixedPoints: branches(FixedPoints, path, interval, [0.4], 0.01)}
     crossing, *_ = special(known, FixedPoints, kinds.BRANCH_POINT)
-    found = branches(FixedPoints, path, interval, [crossing.p + beside], 0.01)
+    found = branches(FixedPoints, path, interval, [crossing.p + offset], 0.01)
     for p in (0.38, 0.4):
         assert matched([C for one in found for C in crossings(one, p)], roots_at(FixedPoints, path(p)))
 
 
-def test_the_orbit_in_step_is_followed_through_its_branch_point(chapter):
-    """Between 1.2707 and 1.3012 too; there the asymmetric orbits that leave the symmetric ones are found as well."""
+def test_the_orbit_with_equal_modules_is_followed_through_its_branch_point(chapter):
+    """Between the forces 1.2707 and 1.3012, asymmetric orbits that branch off the symmetric ones are found, too."""
     path = Path(chapter(sigma20_hat=0.0), ("f10_hat", "f20_hat"))
     found = vi.branches(path.system, path.names, (1.25, 1.32), of="exact", seeds=2)
     for p in (1.262, 1.285, 1.295, 1.31):
@@ -200,7 +200,7 @@ def test_the_orbit_in_step_is_followed_through_its_branch_point(chapter):
     assert abs(counts[1] - counts[0]) == 2
 
 
-def test_a_closed_branch_is_followed_once_round():
+def test_a_closed_branch_is_followed_exactly_once():
     parameters = dict(epsilon=0.13, kappa=0.75, alpha12_hat=1.13, gamma1_hat=0.26, gamma2_hat=0.26, gamma12_hat=0.29)
     system = vi.System(**parameters, sigma20_hat=0.0, sigma_e_hat=0.0, f10_hat=0.66, f20_hat=0.46)
     found = vi.branches(system, "sigma_e_hat", (-1.5, 1.5), of="theory")
@@ -213,11 +213,11 @@ def test_a_closed_branch_is_followed_once_round():
         assert matched([C for one in found for C in crossings(one, p)], roots)
 
 
-def test_a_seed_at_a_resonance_is_skipped_with_its_reason(chapter):
-    """Undamped boxes at their resonance, sigma_e_hat = 0, have no steady motion; the other seeds find theirs."""
+def test_a_seed_at_a_resonance_is_skipped_with_a_warning(chapter):
+    """Undamped boxes have no steady motion at their resonance, sigma_e_hat = 0. Other seeds find their branches."""
     system = chapter(sigma20_hat=0.0, gamma1_hat=0.0, gamma2_hat=0.0, gamma12_hat=0.0)
-    told = r"^fixed point: skipped the search at sigma_e_hat = 0: [^\n]*resonance[^\n]*$"
-    with pytest.warns(UserWarning, match=told) as caught:
+    message = r"^fixed point: skipped the search at sigma_e_hat = 0: [^\n]*resonance[^\n]*$"
+    with pytest.warns(UserWarning, match=message) as caught:
         found = vi.branches(system, "sigma_e_hat", (-0.1, 0.1), of="theory", seeds=3)
     assert len(caught) == 1
     assert caught[0].filename == __file__
@@ -226,15 +226,15 @@ def test_a_seed_at_a_resonance_is_skipped_with_its_reason(chapter):
         assert matched([C for one in found for C in crossings(one, p)], roots)
 
 
-def test_a_parameter_may_begin_at_the_end_of_its_domain(chapter):
-    """Damping is not negative, so that differences at 0 are one-sided."""
+def test_a_branch_may_start_at_the_end_of_the_domain_of_its_parameter(chapter):
+    """Damping cannot be negative, so that difference quotients at 0 are one-sided."""
     found = vi.branches(chapter(), "gamma12_hat", (0.0, 0.3), of="theory", seeds=2)
     assert kinds.LOST not in {node.kind for branch in found for node in branch.special}
     assert matched([C for one in found for C in crossings(one, 1e-5)], roots_at(FixedPoints, chapter(gamma12_hat=1e-5)))
 
 
 def random_path(seed):
-    """A random system, every third symmetric or nearly so, a path through it and three values there."""
+    """Return a path through a random system, its interval, and three values. Every third system is nearly symmetric."""
     random = np.random.default_rng(seed)
     low = dict(epsilon=0.02, kappa=0.3, alpha12_hat=0.2, gamma1_hat=0.05, gamma2_hat=0.05, gamma12_hat=0.0)
     low |= dict(sigma20_hat=-1.0, sigma_e_hat=-0.8, f10_hat=0.4, f20_hat=0.4)
@@ -251,7 +251,7 @@ def random_path(seed):
 
 
 def check_random_path(seed, of, families):
-    """At any value, the branches are what the searches find; one they do not cross passes no seed on its way."""
+    """Check that branches contain all roots of the complete search, except on branches that pass no seed."""
     path, interval, values = random_path(seed)
     found = vi.branches(path.system, path.names, interval, of=of, seeds=3)
     assert kinds.LOST not in {node.kind for branch in found for node in branch.special}, seed
@@ -267,13 +267,13 @@ def check_random_path(seed, of, families):
             assert matched(known, roots), (seed, family.name, p)
 
 
-def test_branches_of_random_systems_are_the_fixed_points_at_any_value():
+def test_branches_of_random_systems_contain_the_fixed_points_at_any_value():
     for seed in range(10):
         check_random_path(seed, "theory", [FixedPoints])
 
 
 @pytest.mark.thorough
-def test_branches_of_more_random_systems_are_the_motions_at_any_value():
+def test_branches_of_more_random_systems_contain_fixed_points_and_orbits_at_any_value():
     for seed in range(200):
         check_random_path(seed, "theory", [FixedPoints])
         check_random_path(seed, "exact", [SymmetricOrbits, AsymmetricOrbits])

@@ -1,4 +1,4 @@
-"""Regimes that are known by other means: exact orbits with their multipliers, closed forms, longer runs, symmetry."""
+"""Regimes agree with exact orbits and their multipliers, closed forms, longer runs and symmetry."""
 
 import numpy as np
 import pytest
@@ -26,8 +26,8 @@ def test_equal_forces_lead_to_the_stable_asymmetric_orbits(chapter, observation)
     assert {np.sign(regime.flight_asymmetry) for regime in regimes} == {1, -1}
 
 
-def test_asymmetry_sums_both_modules_flights_from_either_wall(chapter):
-    """Against the phases of the exact orbit: the time from wall -1 to wall +1 less that back, of each module."""
+def test_flight_asymmetry_is_the_difference_of_flight_times_summed_over_modules(chapter):
+    """Impact phases of the exact orbit give the time from wall -1 to wall +1 minus the time back, for each module."""
     system, window = chapter(), 24
     for orbit in stable_orbits(system):
         regime, expected = classify_after(system, orbit.state, window, 0.02), 0.0
@@ -50,7 +50,7 @@ def test_an_exact_stable_orbit_is_recognised(chapter, f10, f20, name):
         assert min(np.abs(regime.run.start - one.state).max() for one in orbits) < 1e-9
 
 
-def test_an_unstable_orbit_is_no_regime(chapter):
+def test_a_run_from_an_unstable_orbit_is_unsettled(chapter):
     system = chapter()
     for orbit in vi.orbits(system):
         if orbit.admissible and abs(orbit.multipliers[0]) > 1.5:
@@ -74,8 +74,8 @@ def test_without_impacts_the_boxes_follow_the_linear_response(chapter, observati
     assert regime.mean_amplitudes.tolist() == [0, 0]
 
 
-def test_a_drifting_ball_has_not_settled_though_it_meets_no_wall_in_the_window(chapter):
-    """It will, however slow: at 1e-5 it takes more than 10 000 cycles."""
+def test_drifting_balls_are_unsettled_even_without_an_impact_in_the_window(chapter):
+    """At a speed of 1e-5, a ball needs more than 10 000 cycles to reach a wall."""
     system = chapter(0.05, 0.05)
     settled = vi.simulate(system, np.zeros(8), 300).final.copy()
     assert classify_after(system, settled, 24, 0.02).name == names.NO_IMPACTS
@@ -99,12 +99,12 @@ def test_other_periodic_motions_repeat(chapter, observation):
 
 @pytest.fixture(scope="module")
 def narrow(chapter):
-    """A system with narrow chaos, 0.02 from an attracting motion of two cycles."""
+    """Return a system with narrow chaos at a distance of 0.02 from an attracting motion of two cycles."""
     return chapter(1.5, 1.5, kappa=0.3)
 
 
-def test_narrow_chaos_next_to_an_attracting_motion_is_not_called_periodic(narrow, observation):
-    """Against 10 000 cycles and the exponent after them."""
+def test_narrow_chaos_near_an_attracting_motion_is_not_called_periodic(narrow, observation):
+    """After 10 000 cycles, the largest Lyapunov exponent is still positive."""
     states = starts(12, seed=3)[[0, 2]]
     assert {regime.name for regime in settle(narrow, states, observation)} <= set(names.CHAOS)
     for state in finals(narrow, states, 10_000):
@@ -114,7 +114,7 @@ def test_narrow_chaos_next_to_an_attracting_motion_is_not_called_periodic(narrow
 
 @pytest.mark.parametrize(("nudge", "reached"), [(1e-6, True), (3e-4, True), (5e-3, False), (1e-2, False)])
 def test_a_run_is_periodic_if_it_approaches_the_motion(narrow, nudge, reached):
-    """Near the motion of two cycles: the run itself says, over 1000 cycles, whether it ends there."""
+    """Starts are near the motion of two cycles. The expected results are those of runs over 1000 cycles."""
     motion = vi.periodic_orbit(narrow, [-0.64, 0.358, -0.624, -0.229, -0.75, -0.769, -0.478, -1.126], 2)
     state = motion.state + nudge * np.eye(8)[0]
     later = vi.simulate(narrow, state, 1000).final

@@ -1,4 +1,4 @@
-"""Curves whose folds and zeros are known in closed form."""
+"""Continued curves agree with folds, branch points and zeros in closed form."""
 
 from itertools import pairwise
 
@@ -21,7 +21,7 @@ def anywhere(z):
     return True
 
 
-def test_a_closed_curve_is_followed_round_both_folds():
+def test_a_closed_curve_is_followed_through_both_folds():
     curve = Curve(circle)
     places = list(curve.trace(curve.place(np.array([1.0, 0.0]), np.eye(2)[1]), 0.1, anywhere))
     points = np.array([place.z for place in places])
@@ -32,8 +32,8 @@ def test_a_closed_curve_is_followed_round_both_folds():
     assert abs(angles[-1] - angles[0]) == pytest.approx(2 * np.pi)
 
 
-def test_a_closed_curve_of_an_angle_closes_a_turn_later():
-    """p = cos x has p = 1 at every whole turn of the angle x."""
+def test_a_closed_curve_in_an_angle_closes_after_one_turn():
+    """The curve p = cos x is closed, since x is an angle."""
     curve = Curve(
         lambda x, p: (np.array([p - np.cos(x[0])]), np.array([[np.sin(x[0])]])),
         lambda z, near: [z + 2 * np.pi * np.rint((near - z) / (2 * np.pi)) * [1, 0]],
@@ -66,7 +66,7 @@ def transcritical(x, p):
         (transcritical, [[0.5**0.5, 0.5**0.5], [-(0.5**0.5), -(0.5**0.5)]]),
     ],
 )
-def test_branch_points_are_passed_and_show_all_branches_that_leave_them(equations, off):
+def test_branch_points_are_passed_and_have_arms_along_all_branches(equations, off):
     curve = Curve(equations)
     places = list(curve.trace(curve.place(np.array([0.0, -0.43]), np.eye(2)[1]), 0.1, lambda z: z[1] < 0.4))
     assert places[-1].z == pytest.approx([0, places[-1].z[1]], abs=1e-12)
@@ -79,8 +79,8 @@ def test_branch_points_are_passed_and_show_all_branches_that_leave_them(equation
 
 
 @pytest.mark.parametrize("size", [1e-3, 1e-6, 1e-9])
-def test_curves_that_nearly_cross_are_told_apart(size):
-    """x (p - x^2) + size = 0 from the left: the pitchfork's upper arm, down to a gap of some 1e-6."""
+def test_curves_that_nearly_cross_are_distinguished(size):
+    """From the left, x (p - x^2) + size = 0 leads to the upper arm of the pitchfork, also at gaps of about 1e-6."""
     curve = Curve(lambda x, p: (crossing(x, p)[0] + size, crossing(x, p)[1]))
     start = curve.step(Place(np.array([0.0, -0.43]), np.eye(2)[1], -1.0), 0.0)
     places = list(curve.trace(curve.place(start, np.eye(2)[1]), 0.1, lambda z: z[1] < 0.4))
@@ -89,14 +89,14 @@ def test_curves_that_nearly_cross_are_told_apart(size):
 
 
 def test_a_corner_is_passed():
-    """p = -|x| from the left: up to the corner at 0, and down on the other side."""
+    """From the left, p = -|x| rises to the corner at 0 and falls beyond it."""
     curve = Curve(lambda x, p: (np.array([p + abs(x[0])]), np.array([[1.0 if x[0] > 0 else -1.0]])))
     places = list(curve.trace(curve.place(np.array([-0.43, -0.43]), np.eye(2)[1]), 0.1, lambda z: z[1] > -0.6))
     assert places[-1].z[0] == pytest.approx(-places[-1].z[1], abs=1e-12)
     assert max(place.z[1] for place in places) == pytest.approx(0, abs=1e-5)
 
 
-def test_points_are_roots_with_tangents_along_the_curve_up_to_the_first_outside():
+def test_points_are_roots_with_tangents_along_the_curve_up_to_the_first_point_outside():
     curve = Curve(spiral)
     places = list(curve.trace(curve.place(np.zeros(3), np.eye(3)[2]), 0.05, lambda z: z[2] < 1))
     assert places[-1].z[2] >= 1 > places[-2].z[2]
@@ -107,7 +107,7 @@ def test_points_are_roots_with_tangents_along_the_curve_up_to_the_first_outside(
         np.testing.assert_allclose(place.tangent, along / np.linalg.norm(along), atol=1e-9)
 
 
-def test_zeros_are_as_sharp_as_the_function_also_at_a_fold():
+def test_zeros_are_as_accurate_as_the_function_also_at_a_fold():
     curve = Curve(circle)
     places = list(curve.trace(curve.place(np.array([1.0, 0.0]), np.eye(2)[1]), 0.1, anywhere))
     before, after = next((a, b) for a, b in pairwise(places) if a.z[0] > 0 > b.z[0])

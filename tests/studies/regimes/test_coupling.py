@@ -1,4 +1,4 @@
-"""Both balls asymmetric, from weak to strong coupling: difference of the patterns, ends of ranges, proofs."""
+"""Orbits with two asymmetric balls, from weak to strong coupling: difference of the patterns, stable ranges, proofs."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ HARMONICS = 2 * np.arange(1, 200)
 
 
 def asymmetric_orbits(system):
-    """Stable orbits on which both balls are asymmetric."""
+    """Return the stable orbits on which both balls are asymmetric."""
     return [one for one in vi.orbits(system) if one.admissible and one.stable and pattern(one)]
 
 
@@ -71,7 +71,7 @@ def mirrored(system, root):
 
 
 def apart(system):
-    """Exact in-phase root, and its difference from the antiphase root with ball 2 mirrored."""
+    """Return the exact in-phase root, and its difference from the antiphase root with ball 2 mirrored."""
     roots = [(root, AsymmetricOrbits.member(system, root)) for root in AsymmetricOrbits.roots(system)]
     root = next(
         root for root, one in roots if one.admissible and pattern(one) == IN_PHASE and flight_asymmetry(one)[0] > 0
@@ -83,7 +83,7 @@ def apart(system):
     return root, difference
 
 
-def test_the_derived_term_tells_the_patterns_apart_better_than_in_proportion_to_epsilon():
+def test_the_derived_difference_of_the_patterns_is_exact_to_leading_order():
     """The relative error falls at least at first order in epsilon; both balls are asymmetric at any epsilon here."""
     errors, sizes = [], []
     for epsilon in SMALL:
@@ -94,7 +94,7 @@ def test_the_derived_term_tells_the_patterns_apart_better_than_in_proportion_to_
         sizes.append(np.linalg.norm(exact) / epsilon**2)
     assert max(errors) < 0.02
     assert (np.diff(np.log(errors)) / np.diff(np.log(SMALL)) > 1).all()
-    # Of second order in epsilon: the difference over its square stays within a factor of 3 while that falls 16 times.
+    # The difference is of second order: over epsilon^2, which falls 16-fold, it changes by less than a factor of 3.
     assert max(sizes) < 3 * min(sizes)
 
 
@@ -106,8 +106,8 @@ def test_without_coupling_all_patterns_have_the_same_amplitudes():
     np.testing.assert_allclose(splitting(system, patterns(system)[IN_PHASE]), 0, atol=1e-15)
 
 
-def test_what_an_even_harmonic_passes_through_the_coupling():
-    """By computer algebra: the response of box 1 to a force on box 2, boxes undamped, natural frequency 1."""
+def test_the_response_to_an_even_harmonic_through_the_coupling():
+    """Computer algebra gives the response of box 1 to a force on box 2, for undamped boxes of natural frequency 1."""
     n, K = sp.symbols("n K")
     through = sp.Matrix([[1 - n**2 + K, -K], [-K, 1 - n**2 + K]]).inv()[0, 1]
     assert sp.simplify(through - K / ((n**2 - 1) * (n**2 - 1 - 2 * K))) == 0
@@ -118,7 +118,7 @@ def ranges():
     return list(stable_ranges(TUNED_ALIKE, LIMITS))
 
 
-def test_the_page_says_how_the_stable_ranges_end(ranges):
+def test_stable_ranges_end_in_the_bifurcations_of_the_page_on_coupling(ranges):
     assert [(name, ends) for name, _, _, ends in ranges] == [
         (IN_PHASE, (FOLD, FOLD)),
         (ANTIPHASE, (PERIOD_DOUBLING, NEIMARK_SACKER)),
@@ -127,8 +127,8 @@ def test_the_page_says_how_the_stable_ranges_end(ranges):
     ]
 
 
-def test_stable_ranges_end_where_a_search_from_many_starts_ends_to_find_the_pattern(ranges):
-    """1 % inside and outside of each end, and a multiplier meets the unit circle there."""
+def test_orbits_of_a_pattern_exist_inside_and_not_outside_of_its_stable_range(ranges):
+    """A search looks for orbits at 1 % inside and outside of each end. At bifurcations, a multiplier has modulus 1."""
     for name, _, found, ends in ranges:
         for (value, orbit), end, outwards in zip((found[0], found[-1]), ends, (0.99, 1.01), strict=True):
             if not end:
@@ -140,7 +140,7 @@ def test_stable_ranges_end_where_a_search_from_many_starts_ends_to_find_the_patt
                 assert abs(orbit.multipliers[0]) == pytest.approx(1, abs=0.03)
 
 
-def test_all_stable_patterns_that_the_page_names_are_proved(asymmetric):
+def test_all_stable_patterns_of_the_page_on_coupling_are_proved(asymmetric):
     named = {1.0: (2, 2), 3.0: (2, 2), 14.0: (0, 2), 30.0: (2, 0)}
     found = [pattern(one) for one in asymmetric]
     assert (found.count(IN_PHASE), found.count(ANTIPHASE)) == named[asymmetric[0].system.alpha12_hat]

@@ -1,4 +1,4 @@
-"""The limit of small epsilon: first order everywhere, and the order that is fitted."""
+"""Errors of the theory are of first order in epsilon, and the fitted order of a power law is its exponent."""
 
 import mpmath
 import numpy as np
@@ -9,7 +9,7 @@ from vibroimpact.accuracy.second_term import first_order
 from vibroimpact.studies.regimes.epsilon_limit import distance_to_orbit, order
 
 
-def test_the_order_of_a_power_law():
+def test_the_fitted_order_of_a_power_law_is_its_exponent():
     epsilon = np.geomspace(0.1, 1e-4, 7)
     slope, error = order(epsilon, 3 * epsilon**1.5)
     assert slope == pytest.approx(1.5, abs=1e-12)
@@ -20,7 +20,7 @@ def test_the_order_of_a_power_law():
 
 
 def upper_amplitude(epsilon, kappa, gamma_hat, sigma_e_hat, f_hat):
-    """C of the upper orbit of a single module, from the steady response of one oscillator, by hand, in mpmath."""
+    """Return C of the upper orbit of a single module, from the closed-form response of one oscillator, with mpmath."""
     Omega, gamma = 1 + epsilon * sigma_e_hat, epsilon * gamma_hat
     h = mpmath.pi / Omega
     decay, ringing = gamma / 2, mpmath.sqrt(1 - gamma**2 / 4)
@@ -34,22 +34,22 @@ def upper_amplitude(epsilon, kappa, gamma_hat, sigma_e_hat, f_hat):
     return (1 + epsilon) * (-b + mpmath.sqrt(b * b - 4 * a * c)) / (2 * a)
 
 
-def test_the_second_term_of_a_single_module_in_closed_form(chapter):
-    """Two equal modules that do not feel each other: dC/depsilon at 0 in 60 digits."""
+def test_the_second_term_of_a_single_module_is_that_of_the_closed_form(chapter):
+    """Two equal modules are uncoupled. The closed form gives dC / depsilon at 0, computed with 60 digits."""
     alone = {"alpha12_hat": 0, "gamma12_hat": 0, "sigma20_hat": 0}
     system = chapter(1.5, 1.5, **alone)
     point = max(vi.fixed_points(system), key=lambda p: p.C.min())
     with mpmath.workdps(60):
-        given = [mpmath.mpf(value) for value in (system.kappa, system.gamma1_hat, system.sigma_e_hat, 1.5)]
-        low, high = (upper_amplitude(mpmath.mpf(10) ** -12 * n, *given) for n in (1, 2))
+        parameters = [mpmath.mpf(value) for value in (system.kappa, system.gamma1_hat, system.sigma_e_hat, 1.5)]
+        low, high = (upper_amplitude(mpmath.mpf(10) ** -12 * n, *parameters) for n in (1, 2))
         slope, limit = float((high - low) * mpmath.mpf(10) ** 12), float(2 * low - high)
     np.testing.assert_allclose(point.C, limit, rtol=1e-12)
     np.testing.assert_allclose(first_order(system, point)[0], slope, rtol=1e-6)
 
 
 @pytest.mark.parametrize(("f10", "f20"), [(1.0, 1.0), (0.5, 0.5)])
-def test_errors_shrink_tenfold_with_epsilon(chapter, f10, f20):
-    """The slow flow's eigenvalues, the impact map's multipliers and the fixed points are each right to first order."""
+def test_errors_are_proportional_to_epsilon(chapter, f10, f20):
+    """The errors are those of fixed points, eigenvalues of the slow flow, and multipliers of the impact map."""
     for point in vi.fixed_points(chapter(f10, f20)):
         found = [distance_to_orbit(chapter(f10, f20, epsilon=epsilon), point) for epsilon in (1e-3, 1e-4)]
         distances = [c.distance for c in found]

@@ -1,4 +1,4 @@
-"""How long starts take at equal forces, and balls that stand idle: numbers of findings.md."""
+"""Long runs at equal forces end on the stable pair or with an idle ball, as docs/studies/findings.md states."""
 
 import re
 
@@ -13,8 +13,8 @@ PAGE = " ".join((ROOT / "docs/studies/findings.md").read_text(encoding="utf-8").
 SPEED, CHANGE = 1e-3, 1e-6
 
 
-def test_long_runs_settle_but_for_balls_that_stand_idle(chapter):
-    """The change per cycle of the exact runs themselves, and the distance from the stable orbits, found by Newton."""
+def test_long_runs_settle_except_for_idle_balls(chapter):
+    """Runs have settled if they no longer change per cycle. Newton's method gives the stable orbits of the pair."""
     system = chapter(1.0, 1.0)
     pair = [orbit.state for orbit in vi.orbits(system) if orbit.admissible and orbit.stable]
     early = finals(system, plane(np.zeros(8), 15), 400)
@@ -27,8 +27,8 @@ def test_long_runs_settle_but_for_balls_that_stand_idle(chapter):
         return np.min([np.abs(states - state).max(axis=1) for state in pair], axis=0) > CHANGE
 
     idle = (late[:, [5, 7]] == 0).any(axis=1)
-    told = re.search(r"Of 225 starts at equal forces (\d+) end on this pair; in the (\d+) others a ball rests", PAGE)
-    assert [changing(early), changing(late), np.count_nonzero(idle)] == [int(told[1]), 0, int(told[2])]
+    stated = re.search(r"Of 225 starts at equal forces (\d+) end on this pair; in the (\d+) others a ball rests", PAGE)
+    assert [changing(early), changing(late), np.count_nonzero(idle)] == [int(stated[1]), 0, int(stated[2])]
     np.testing.assert_array_equal(away(late), idle)
     nudged = late[idle]
     nudged[:, [5, 7]] += np.where(nudged[:, [5, 7]] == 0, SPEED, 0.0)

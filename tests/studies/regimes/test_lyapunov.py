@@ -1,4 +1,4 @@
-"""Exponents that are known: of a linear system, of a stable orbit, of neighbouring motions; their sum, their errors."""
+"""Lyapunov exponents, their sum and their errors agree with linear systems, stable orbits and neighbouring motions."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from vibroimpact.system.state import RELEASE, STICK
 BEFORE = [-0.144663794484, -0.352074667389, -0.177170751185, -0.527844451091]
 BEFORE += [-0.047789502435, -0.680079806625, 0.019940921831, -0.827355527541]
 DOUBLE = 20
-"""A state of the strongly modulated response, and the cycle after it in which both balls stick at once."""
+"""BEFORE is a state of the strongly modulated response; in cycle DOUBLE after it, both balls stick at once."""
 
 
 def stable_orbit(system):
@@ -19,17 +19,17 @@ def stable_orbit(system):
 
 
 @pytest.mark.parametrize(("f10", "f20"), [(1.0, 1.0), (1.0, 1.2), (1.3, 1.25)])
-def test_on_a_stable_orbit_it_is_the_log_of_the_largest_multiplier(chapter, f10, f20):
+def test_the_largest_exponent_of_a_stable_orbit_is_the_log_of_its_largest_multiplier(chapter, f10, f20):
     system = chapter(f10, f20)
     orbit = stable_orbit(system)
     blocks, cycles = 400, 10
     found = vi.largest_lyapunov(system, orbit.state, blocks * cycles, 0, blocks).mean
-    # A complex pair turns the perturbation: its length swings by a factor that does not grow with time.
+    # A complex pair rotates the perturbation, so that its length oscillates by a bounded factor.
     assert found == pytest.approx(np.log(abs(orbit.multipliers[0])), abs=3 / (blocks * cycles))
 
 
-def test_chaos_separates_neighbours_at_the_rate_of_the_jacobian(chapter):
-    """Two simulated motions 1e-8 apart, brought together again every cycle; no derivative enters."""
+def test_neighbouring_chaotic_motions_separate_at_the_rate_of_the_jacobian(chapter):
+    """Two simulated motions are set to a distance of 1e-8 before each cycle; no derivatives are used."""
     system = chapter(0.5, 0.5)
     state = vi.simulate(system, [0, 0, 0, 0, 0, 0.5, 0, 0.4], 300).final
     discarded, cycles = 10, 400
@@ -37,7 +37,7 @@ def test_chaos_separates_neighbours_at_the_rate_of_the_jacobian(chapter):
     direction, growth = np.full(8, 8**-0.5), []
     for _ in range(discarded + cycles):
         step = 1e-8 * direction
-        for i in (0, 2):  # the neighbour may not start beyond a wall
+        for i in (0, 2):  # the neighbour must not start beyond a wall
             step = -step if abs(state[i] + step[i] - state[i + 1] - step[i + 1]) > 1 else step
         after, other = vi.simulate(system, state, 1).final, vi.simulate(system, state + step, 1).final
         difference = other - after
@@ -48,7 +48,7 @@ def test_chaos_separates_neighbours_at_the_rate_of_the_jacobian(chapter):
 
 
 def test_the_error_is_the_scatter_over_starts(chapter):
-    """Twelve stretches of the same chaos differ by as much as the error of each says."""
+    """Exponents from twelve starts scatter by about the error of each exponent."""
     system = chapter(0.5, 0.5)
     found = [vi.largest_lyapunov(system, [0, 0, 0, 0, 0, 0.5, 0, 0.3 + 0.01 * k], 200, 300) for k in range(12)]
     scatter = np.std([exponent.mean for exponent in found], ddof=1)
@@ -57,11 +57,11 @@ def test_the_error_is_the_scatter_over_starts(chapter):
 
 
 @pytest.fixture(scope="module")
-def watched(chapter):
-    """The strongly modulated response cycle by cycle: its spectrum, and the same runs by themselves."""
+def spectrum_and_runs(chapter):
+    """Return the spectrum of the strongly modulated response, simulated cycle by cycle, and the run of each cycle."""
     system = chapter(0.5, 0.5)
     state = vi.simulate(system, [0, 0, 0, 0, 0, 0.5, 0, 0.4], 300).final
-    with pytest.MonkeyPatch.context() as patch:  # a run of many cycles rounds differently, and soon is another motion
+    with pytest.MonkeyPatch.context() as patch:  # runs of many cycles round differently and soon differ
         patch.setattr(lyapunov, "CYCLES_PER_RUN", 1)
         found, runs = vi.lyapunov_spectrum(system, state, 600, 0, 0), []
     for _ in range(600):
@@ -70,9 +70,9 @@ def watched(chapter):
     return found, runs
 
 
-def test_volumes_shrink_by_damping_and_impacts_as_in_closed_form(watched):
-    """To the rounding of the Jacobians: a part in 1e16 times their condition."""
-    found, runs = watched
+def test_volumes_shrink_by_the_closed_form_of_damping_and_impacts(spectrum_and_runs):
+    """The tolerance is the rounding error of a Jacobian: ten times the machine epsilon times its condition number."""
+    found, runs = spectrum_and_runs
     free = np.isfinite(found.contraction)
     condition = np.array([np.linalg.cond(run.jacobian) for run in runs])
     off = np.abs(found.growth[free].sum(axis=1) - found.contraction[free])
@@ -82,8 +82,8 @@ def test_volumes_shrink_by_damping_and_impacts_as_in_closed_form(watched):
     np.testing.assert_allclose(determinants, found.contraction[free], rtol=0, atol=1e-6)
 
 
-def test_a_ball_that_sticks_forgets_two_directions(watched):
-    found, runs = watched
+def test_a_ball_that_sticks_removes_two_dimensions(spectrum_and_runs):
+    found, runs = spectrum_and_runs
     stuck = [k for k, run in enumerate(runs) if (run.events["kind"] == STICK).any()]
     assert stuck
     assert np.isneginf(found.contraction[stuck]).all()
@@ -96,8 +96,8 @@ def test_a_ball_that_sticks_forgets_two_directions(watched):
     assert np.isnan(found.errors(10)[0]).sum() == np.isneginf(found.exponents).sum()
 
 
-def test_it_does_not_matter_how_many_cycles_are_simulated_at_a_time(chapter, monkeypatch):
-    """On a stretch of 30 cycles: flights are cut where cycles end, also one with a ball that sticks."""
+def test_spectra_do_not_depend_on_the_number_of_cycles_per_run(chapter, monkeypatch):
+    """In some of the 30 cycles, a run ends during a flight or while a ball sticks."""
     system, found = chapter(0.5, 0.5), []
     for at_once in (1, 7, 1000):
         monkeypatch.setattr(lyapunov, "CYCLES_PER_RUN", at_once)
@@ -109,8 +109,8 @@ def test_it_does_not_matter_how_many_cycles_are_simulated_at_a_time(chapter, mon
         np.testing.assert_allclose(other.growth[DOUBLE:, :4], found[0].growth[DOUBLE:, :4], rtol=0, atol=1e-4)
 
 
-def test_both_balls_stuck_at_once_leave_four_dimensions(chapter):
-    """By the Jacobian, and by differences of neighbouring runs, which know no derivative."""
+def test_both_balls_sticking_at_once_leave_four_dimensions(chapter):
+    """The rank is that of the Jacobian, and that of difference quotients of neighbouring runs."""
     system, h = chapter(0.5, 0.5), 1e-6
     start = vi.simulate(system, BEFORE, DOUBLE).final
     run = vi.simulate(system, start, 1)
@@ -126,8 +126,8 @@ def test_both_balls_stuck_at_once_leave_four_dimensions(chapter):
     assert np.isneginf(found.growth).sum() == 4
 
 
-def test_a_run_that_meets_a_double_stick_measures_the_dimension_of_one_that_does_not(chapter, monkeypatch):
-    """Against the same motion from the cycle behind it on, whose frame has not met it."""
+def test_the_dimension_without_double_sticks_is_that_of_a_run_that_has_none(chapter, monkeypatch):
+    """The reference is the same motion from the cycle after the double stick on, with new perturbation vectors."""
     monkeypatch.setattr(lyapunov, "CYCLES_PER_RUN", 1)
     system, cycles = chapter(0.5, 0.5), 800
     found = vi.lyapunov_spectrum(system, BEFORE, cycles, 0, 0)
@@ -141,13 +141,13 @@ def test_a_run_that_meets_a_double_stick_measures_the_dimension_of_one_that_does
     assert expected.double_sticks == 0
     conditioned = found.without_double_sticks()
     assert len(conditioned.growth) == cycles - 1
-    # what the other 20 cycles and the first ones of either frame may say
+    # the runs differ by 20 cycles, and by transients of the perturbation vectors
     np.testing.assert_allclose(conditioned.exponents[:6], expected.exponents[:6], atol=0.03)
     assert conditioned.dimension == pytest.approx(expected.dimension, abs=0.03)
     assert expected.dimension > 5.4
 
 
-def test_a_table_of_spectra_does_not_jump_at_a_double_stick_but_counts_it(chapter):
+def test_a_table_of_spectra_counts_double_sticks_and_excludes_them_from_the_dimension(chapter):
     system, cycles = chapter(0.5, 0.5), 500
     behind = vi.simulate(system, BEFORE, DOUBLE + 1).final
     found = [spectra.spectra_of(system, [state], cycles, 1) for state in (BEFORE, behind)]
@@ -161,8 +161,8 @@ def test_a_table_of_spectra_does_not_jump_at_a_double_stick_but_counts_it(chapte
 
 
 @pytest.mark.thorough
-def test_both_balls_stick_at_once_some_five_times_in_a_million_cycles(chapter):
-    """Told by the events alone; 4.9 in a million cycles were counted over twenty million of another start."""
+def test_both_balls_stick_at_once_about_five_times_in_a_million_cycles(chapter):
+    """The expected 4.9 in a million cycles were counted in the events of twenty million cycles from another start."""
     system, cycles, met = chapter(0.5, 0.5), 5_000_000, 0
     state = vi.simulate(system, [0, 0, 0, 0, 0, 0.5, 0, 0.3], 300).final
     for _ in range(cycles // 100_000):
@@ -174,8 +174,8 @@ def test_both_balls_stick_at_once_some_five_times_in_a_million_cycles(chapter):
     assert met == pytest.approx(4.9e-6 * cycles, abs=5 * np.sqrt(4.9e-6 * cycles))
 
 
-def test_without_impacts_they_are_real_parts_of_eigenvalues(chapter):
-    """Of boxes, eigenvalues of the damped linear system; perturbations of balls that drift grow with time alone."""
+def test_exponents_without_impacts_are_real_parts_of_eigenvalues(chapter):
+    """The eigenvalues are those of the damped boxes. Perturbations of drifting balls grow linearly: exponent 0."""
     system, cycles = chapter(0.02, 0.02), 400
     found = vi.lyapunov_spectrum(system, np.zeros(8), cycles, 0).exponents
     e, a = system.epsilon, system.epsilon * system.alpha12_hat
@@ -188,7 +188,7 @@ def test_without_impacts_they_are_real_parts_of_eigenvalues(chapter):
     assert found.sum() == pytest.approx(-np.trace(damping) * system.period, abs=1e-12)
 
 
-def test_on_a_stable_orbit_they_are_the_logs_of_all_multipliers(chapter):
+def test_exponents_of_a_stable_orbit_are_the_logs_of_its_multipliers(chapter):
     system = chapter(1.0, 1.0)
     orbit, cycles = stable_orbit(system), 300
     found = vi.lyapunov_spectrum(system, orbit.state, cycles, 0)
@@ -209,12 +209,12 @@ def test_on_a_stable_orbit_they_are_the_logs_of_all_multipliers(chapter):
         ([0.3, -0.1], 2),
     ],
 )
-def test_the_dimension_of_known_spectra(exponents, dimension):
+def test_the_kaplan_yorke_dimensions_of_known_spectra(exponents, dimension):
     assert kaplan_yorke(exponents) == pytest.approx(dimension)
 
 
-def test_the_bootstrap_knows_that_cycles_hang_together():
-    """Growth that remembers the cycle before: the error of its mean in closed form, three times that of white noise."""
+def test_bootstrap_errors_include_the_correlation_between_cycles():
+    """Growth is an autoregressive process. The closed-form error of its mean is three times that of white noise."""
     cycles, memory = 20_000, 0.8
     noise = np.random.default_rng(5).normal(size=(cycles, 8))
     growth = np.zeros_like(noise)
@@ -224,5 +224,5 @@ def test_the_bootstrap_knows_that_cycles_hang_together():
     errors, of_dimension = Spectrum(growth + centres, np.zeros(cycles), np.zeros(cycles)).errors(100)
     expected = 1 / (1 - memory) / np.sqrt(cycles)
     np.testing.assert_allclose(errors, expected, rtol=0.2)
-    # D = 5 + (sum of five) / -lambda_6: five errors, and D - 5 = 1/3 of that of the sixth, over 6.
+    # D = 5 + (lambda_1 + ... + lambda_5) / 6 = 5 + 1/3; lambda_6 = -6 contributes 1/3 of its error, over 6.
     assert of_dimension == pytest.approx(expected * np.sqrt(5 + 1 / 9) / 6, rel=0.2)

@@ -1,4 +1,4 @@
-"""Names of motions that do not repeat: on made-up evidence, on motions that are known, and against longer runs."""
+"""Names of aperiodic motions agree with constructed evidence, known motions and longer runs."""
 
 from collections import Counter
 from dataclasses import replace
@@ -31,14 +31,14 @@ ENDS = {*names.PERIODIC, names.IDLE, names.NO_IMPACTS}
         (-0.012, 0.0001, aperiodic.OPEN),  # a periodic motion that is not reached yet
     ],
 )
-def test_the_sign_of_an_exponent_is_said_where_its_error_allows(mean, error, expected):
+def test_the_sign_of_an_exponent_is_open_if_its_error_is_too_large(mean, error, expected):
     found = Measured(mean, error)
     found.scatter = error
     assert aperiodic.sign(found) == expected
 
 
-def test_growth_with_time_is_neither_chaos_nor_quasi_periodic(chapter):
-    """Of a ball at rest, within 120 cycles after 20: ln(140 / 20) / 120 = 0.016, and hardly any scatter."""
+def test_linear_growth_of_perturbations_leaves_the_sign_open(chapter):
+    """For balls at rest, the exponent over cycles 20 to 140 is ln(140 / 20) / 120 = 0.016, with little scatter."""
     found = vi.largest_lyapunov(chapter(0.02, 0.02), np.zeros(8), 120, 0, 6, 1)
     assert found.mean == pytest.approx(np.log(7) / 120, rel=0.1)
     assert found.mean > 3 * found.scatter > 0
@@ -55,7 +55,7 @@ def test_growth_with_time_is_neither_chaos_nor_quasi_periodic(chapter):
         ((1.0, 0.0), aperiodic.ALWAYS),
     ],
 )
-def test_a_module_that_comes_and_goes_makes_bursts(shares, expected):
+def test_resonance_follows_from_the_share_of_resonant_time_of_each_module(shares, expected):
     assert aperiodic.resonance(shares) == expected
 
 
@@ -63,14 +63,14 @@ def ends(chapter, f10, f20, observation, count=5):
     return [regime.name for regime in settle(chapter(f10, f20), starts(count, seed=1), observation)]
 
 
-def test_what_is_not_driven_decays_and_gets_no_other_name(chapter, observation):
-    """All energy is lost in the end, ever more slowly: nothing but rest is a regime without forcing."""
+def test_unforced_motions_are_at_rest_or_unsettled(chapter, observation):
+    """Energy decays ever more slowly, and the decaying motion does not recur."""
     assert ends(chapter, 0.0, 0.0, observation) == [names.NO_IMPACTS] + 4 * [names.UNSETTLED]
     decaying = vi.simulate(chapter(0.0, 0.0), starts(2, seed=1)[1], 1000)
     assert not aperiodic.recurs(chapter(0.0, 0.0), decaying.final, 1000)
 
 
-def test_weak_forces_make_balls_hop(chapter, observation):
+def test_balls_hop_at_weak_forces(chapter, observation):
     system = chapter(0.03, 0.03)
     regimes = settle(system, starts(4, seed=1)[1:], observation)
     assert {regime.name for regime in regimes} == {names.HOPPING}
@@ -79,7 +79,7 @@ def test_weak_forces_make_balls_hop(chapter, observation):
 
 
 def test_a_torus_is_quasi_periodic(chapter, observation):
-    """Just below the Neimark-Sacker point of the asymmetric pair, from its own surroundings."""
+    """The force is just below the Neimark-Sacker point of the asymmetric pair, and the start is near the pair."""
     pair = [o for o in vi.orbits(chapter(1.0, 0.8181)) if not o.symmetric and abs(o.multipliers[0]) < 1]
     near = pair[0].state + 1e-3 * np.eye(8)[4]
     assert [r.name for r in settle(chapter(1.0, 0.8168), [near], observation)] == [names.QUASI_PERIODIC]
@@ -87,10 +87,10 @@ def test_a_torus_is_quasi_periodic(chapter, observation):
 
 
 def names_now_and_later(system, states, observation, times):
-    """How many starts have each (name, name after a run `times` as long as all rounds of the observation).
+    """Return the number of starts for each pair (name, name after a run `times` as long as all rounds).
 
-    From the starts themselves, without help by Newton's method. A name for a motion that repeats stands if the run
-    repeats after as many cycles to 1e-4: the slowest spirals need 100 000 cycles to 1e-8.
+    The longer runs begin at the starts and do not use Newton's method. A periodic motion keeps its name if the longer
+    run repeats to 1e-4 after the same number of cycles: the slowest spirals repeat to 1e-8 only after 100 000 cycles.
     """
     regimes, counts = settle(system, states, observation), Counter()
     late = finals(system, states, times * observation.cycles * observation.rounds)
@@ -107,8 +107,8 @@ def names_now_and_later(system, states, observation, times):
 
 
 @pytest.mark.thorough
-def test_names_last_fifty_times_as_long(chapter, observation):
-    """The label stability of docs/studies/regimes.md, on a smaller map."""
+def test_names_remain_in_runs_fifty_times_as_long(chapter, observation):
+    """Repeat the test of docs/studies/regimes.md on a smaller map."""
     counts = Counter()
     for f10, f20 in product(centres((0.0, 1.6), 4), repeat=2):
         counts += names_now_and_later(chapter(f10, f20), starts(4, seed=4), observation, times=50)
@@ -122,8 +122,8 @@ def test_names_last_fifty_times_as_long(chapter, observation):
     assert counts[names.STRONGLY_MODULATED, names.STRONGLY_MODULATED] > 15
 
 
-def test_where_the_witness_leaves_the_others_are_not_called_chaotic(chapter, observation):
-    """Chaos of 1600 cycles or so at (1, 0.97): a short look takes it for lasting, a longer one finds it out."""
+def test_transient_chaos_is_not_called_chaotic_after_a_long_retest(chapter, observation):
+    """At forces (1, 0.97), chaos lasts for about 1600 cycles, longer than the short retest."""
     system, states = chapter(1.0, 0.97), starts(12, seed=1)
     short = [r.name for r in settle(system, states, replace(observation, rounds=1, retest=1))]
     long = [r.name for r in settle(system, states, replace(observation, rounds=1))]
@@ -131,8 +131,8 @@ def test_where_the_witness_leaves_the_others_are_not_called_chaotic(chapter, obs
     assert set(long) <= {names.ASYMMETRIC, names.UNSETTLED}
 
 
-def test_from_rest_at_weak_forces_the_chaos_of_the_first_module_ends(chapter, observation):
-    """Ball 2 stays at rest throughout; from some of the starts at least, the first module repeats every cycle then."""
+def test_chaos_of_the_first_module_from_rest_at_weak_forces_ends(chapter, observation):
+    """Ball 2 stays at rest. From at least two of the starts, module 1 finally repeats every cycle."""
     system = chapter(0.5, 0.5)
     states = np.zeros((10, 8))
     states[:, 4] = 1e-6 * np.arange(10)

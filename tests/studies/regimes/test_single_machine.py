@@ -1,7 +1,7 @@
-"""A machine alone: regimes, exponents, sections and sweeps are those of the first module of its twin.
+"""A single machine has the regimes, exponents, sections and sweeps of a module of its twin.
 
-The twin has the same force on the module that takes no part, so that both modules do the same without a word of
-which takes part. What a start says of the idle module does not count, and neither do its parameters.
+The twin has the same force on the other module, so that both modules move alike and both are active. Initial values and
+parameters of the idle module of a single machine have no effect.
 """
 
 import numpy as np
@@ -17,12 +17,12 @@ SECOND = MACHINE.with_(f10_hat=0.0, f20_hat=MACHINE.f10_hat)
 OTHER = MACHINE.with_(sigma20_hat=7.0, gamma2_hat=0.0)
 ALONE = {"first": MACHINE, "second": SECOND, "beside another": OTHER}
 MULTIPLIER = 0.882208
-"""Of the only admissible orbit (Masri's closed form; all others of the twin are no motions)."""
+"""Modulus of the largest multiplier of the only admissible orbit, from Masri's closed form."""
 OF = {1: [0, 1, 4, 5], 2: [2, 3, 6, 7]}
 
 
 def starts(system, count=6):
-    """Starts of module 1 for the one that takes part; the other one moves, too."""
+    """Return starts in which the active module has the states of module 1 in `vi.starts`; the idle one moves, too."""
     states = vi.starts(count, seed=1)
     return states if system.modules == (1,) else states[:, [2, 3, 0, 1, 6, 7, 4, 5]]
 
@@ -44,13 +44,13 @@ def test_the_spectrum_has_the_four_exponents_of_the_orbit(machine):
     found = vi.lyapunov_spectrum(machine, starts(machine)[1], cycles=400)
     [orbit] = [one for one in vi.orbits(TWIN) if one.admissible]
     logs = np.sort(np.log(np.abs(orbit.multipliers)))[::-1]
-    np.testing.assert_allclose(found.exponents, logs[::2], atol=0.01)  # each of them twice in the twin
+    np.testing.assert_allclose(found.exponents, logs[::2], atol=0.01)  # each exponent is twice in the twin
     assert found.exponents.sum() == pytest.approx(logs.sum() / 2, abs=1e-9)
     assert found.dimension == 0
     assert found.errors(20)[0].shape == (4,)
 
 
-def test_a_ball_that_sticks_leaves_two_directions_of_four():
+def test_a_ball_that_sticks_leaves_two_of_four_dimensions():
     machine = MACHINE.with_(epsilon=0.3, kappa=0.1, gamma1_hat=0.3, gamma2_hat=0.3, sigma_e_hat=0.0, f10_hat=9.0)
     state = vi.simulate(machine, np.zeros(8), 200).final
     assert (vi.simulate(machine, state, 1).events["kind"] == STICK).any()
@@ -59,7 +59,7 @@ def test_a_ball_that_sticks_leaves_two_directions_of_four():
     assert vi.largest_lyapunov(machine, np.zeros(8), 400, 200).mean == pytest.approx(found[0], abs=0.02)
 
 
-def test_exponents_of_chaos_have_the_closed_sum():
+def test_exponents_of_chaos_have_the_sum_in_closed_form():
     machine = MACHINE.with_(kappa=0.9, f10_hat=0.2)
     found = vi.lyapunov_spectrum(machine, [0.0, 0.3, 0.0, 0.3, 0.0, 0.5, 0.0, 0.5], 300)
     assert found.exponents[0] > 0.05
@@ -94,7 +94,7 @@ def test_basins_do_not_depend_on_the_idle_module(machine):
     ],
 )
 def test_regimes_have_the_names_of_the_twin(machine, force, kappa, name):
-    """From equal starts of both modules."""
+    """Both modules of the twin start in the state of the active module."""
     [module] = machine.modules
     alone = machine.with_(kappa=kappa, **{f"f{module}0_hat": force})
     twin = TWIN.with_(kappa=kappa, f10_hat=force, f20_hat=force)
@@ -118,8 +118,8 @@ def test_a_section_is_that_of_the_twin():
 
 def test_a_row_of_a_sweep_is_that_of_the_twin(machine):
     observe, [module] = ["regimes", "amplitudes", "energy", "peaks"], machine.modules
-    given = dict(starts=4, seed=1, cycles=700, settle=600, band={"sigma_e_hat": [0.0, 0.1]})
-    [ours], [theirs] = (vi.sweep(system, {"kappa": [0.6]}, observe, **given) for system in (machine, TWIN))
+    settings = dict(starts=4, seed=1, cycles=700, settle=600, band={"sigma_e_hat": [0.0, 0.1]})
+    [ours], [theirs] = (vi.sweep(system, {"kappa": [0.6]}, observe, **settings) for system in (machine, TWIN))
     assert (ours.pop("failed"), theirs.pop("failed")) == ("", "")
     assert ours.pop("from_rest") == theirs.pop("from_rest") == "symmetric"
     for name, value in ours.items():
@@ -131,7 +131,7 @@ def test_a_row_of_a_sweep_is_that_of_the_twin(machine):
     assert ours["symmetric"] == 1.0
 
 
-def test_without_a_force_both_modules_decay_as_before():
+def test_both_modules_of_an_unforced_machine_are_active():
     free = MACHINE.with_(f10_hat=0.0)
     start = [0.2, 0.1, 0.4, 0.3, 0.0, 0.5, 0.0, -0.7]
     assert vi.lyapunov_spectrum(free, start, 50).exponents.shape == (8,)
