@@ -1,4 +1,4 @@
-"""The report, built once for all tests."""
+"""Fixtures of the tests of the report, which is built once."""
 
 from pathlib import Path
 
@@ -9,10 +9,11 @@ from pipeline_trees import Tree, made_once, whole_copy
 
 @pytest.fixture(scope="session")
 def reported(studied, tmp_path_factory) -> Tree:
-    """The project with its studies and its report. Read it, do not change it."""
+    """Return the project with its studies and its report; tests must not change it."""
     return made_once(tmp_path_factory, "reported", lambda path: whole_copy(studied, path), "report")
 
 
 @pytest.fixture(scope="session")
 def site(reported) -> Path:
+    """Return the folder of the report."""
     return reported / "results/report"

@@ -1,4 +1,4 @@
-"""The engine of the page "Play", in a browser, against the library's engine and closed forms."""
+"""The engine of the page "Play", in a browser, agrees with the engine of the library and closed forms."""
 
 from dataclasses import asdict
 
@@ -16,22 +16,22 @@ RUNS = """runs => runs.map(([parameters, start, cycles]) => {
   return { final: run.state, events: run.events };
 })"""
 FORCES = [(1.0, 1.0), (1.0, 0.89), (0.5, 0.5), None]
-"""Of the chapter's cases, and any."""
+"""Forces of the cases of the chapter; None stands for random forces."""
 KAPPAS = [0.65, 0.1, 0.3, None]
-"""That of the chapter, low ones, under which balls chatter and stick, and any."""
+"""Restitution of the chapter, and low ones, with which balls chatter and stick; None stands for a random one."""
 CYCLES, STARTS = 10, 100
 
 
 @pytest.fixture(scope="module")
 def play(browser):
-    """A function that runs [parameters, start, cycles] in the browser."""
+    """Return a function that runs lists of [parameters, start, cycles] in the browser."""
     browser.page.goto("about:blank")
     browser.page.add_script_tag(path=ROOT / "report/live/exact.js")
     return lambda runs: browser.page.evaluate(RUNS, runs)
 
 
 def examples():
-    """Seeded (system, start): every case with every kind of restitution; in every fifth a ball rests on a wall."""
+    """Yield random pairs (system, start) with all FORCES and KAPPAS; in every fifth pair, a ball rests on a wall."""
     rng = np.random.default_rng(1)
     number = 0
     while True:
@@ -48,7 +48,7 @@ def examples():
 
 @pytest.fixture(scope="module")
 def both(play):
-    """(run of the library, run in the browser) of decided runs from seeded starts."""
+    """Return pairs (run of the library, run in the browser) whose certificates in the library are decided."""
     runs = (vi.simulate(system, start, CYCLES) for system, start in examples())
     decided = (run for run in runs if run.certificate.decided)
     ours = [run for run, _ in zip(decided, range(STARTS), strict=False)]
@@ -57,7 +57,7 @@ def both(play):
 
 
 def test_final_states_and_events_are_those_of_the_library(both):
-    """Every impact has its time, place and state."""
+    """Impacts are compared one by one in module, wall, time and state."""
     assert len(both) == STARTS
     for ours, theirs in both:
         np.testing.assert_allclose(theirs["final"], ours.final, rtol=0, atol=1e-6)
@@ -72,8 +72,7 @@ def test_final_states_and_events_are_those_of_the_library(both):
             np.testing.assert_allclose([event[name] for event in found], impacts[name], rtol=0, atol=1e-6)
 
 
-def test_the_starts_have_chatter_sticking_and_release(both):
-    """Else the comparison above would not be about them."""
+def test_the_compared_runs_include_chatter_sticking_and_release(both):
     certificates = [ours.certificate for ours, _ in both]
     assert sum(certificate.chatters > 0 for certificate in certificates) > 10
     kinds = [[event["kind"] for event in theirs["events"]] for _, theirs in both]
@@ -82,8 +81,8 @@ def test_the_starts_have_chatter_sticking_and_release(both):
 
 
 @pytest.mark.parametrize("depth", [1e-3, 1e-6, 1e-10, 1e-13])
-def test_a_shallow_contact_is_neither_missed_nor_invented(play, depth):
-    """A box alone, X = A sin(tau), above a ball at rest: W is greatest at tau = pi/2, 1 + depth or 1 - depth."""
+def test_a_shallow_contact_is_found_and_a_near_miss_is_no_contact(play, depth):
+    """A box moves as X = A sin(tau) and its ball is at rest: W has its maximum 1 + depth or 1 - depth at pi/2."""
     free = dict.fromkeys(PARAMETERS, 0.0) | {"epsilon": 0.1, "kappa": 0.65, "f10_hat": 0.0, "f20_hat": 0.0}
     A = 0.75
     starts = [[0.0, A - 1 - side * depth, 0.0, 0.0, A, 0.0, 0.0, 0.0] for side in (1, -1)]
@@ -92,6 +91,6 @@ def test_a_shallow_contact_is_neither_missed_nor_invented(play, depth):
     np.testing.assert_allclose(missed["final"], starts[1], rtol=0, atol=1e-13)
     first = hit["events"][0]
     assert (first["kind"], first["module"], first["wall"]) == ("impact", 1, 1)
-    rounding = 1e-15 / np.sqrt(depth)  # of 1 - depth, through the arc cosine
+    rounding = 1e-15 / np.sqrt(depth)  # rounding of 1 - depth in the arc cosine
     assert first["tau"] == pytest.approx(np.pi / 2 - np.arccos(1 - depth / A), abs=rounding)
     assert first["speed"] == pytest.approx(np.sqrt(2 * A * depth - depth**2), abs=rounding)

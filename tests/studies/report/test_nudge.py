@@ -1,4 +1,4 @@
-"""A nudged motion departs at the rate of its multiplier, and its flights become unequal."""
+"""A perturbed motion departs at the rate of its multiplier until its flights are unequal."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from vibroimpact.studies.figures import nudge
 EQUAL = system_of("equal")
 
 
-def test_the_distance_grows_with_the_multiplier_until_flights_are_unequal():
+def test_the_distance_grows_by_the_multiplier_until_flights_are_unequal():
     tables = nudge.compute(EQUAL)
     orbit = min(
         (one for one in vi.orbits(EQUAL) if one.symmetric), key=lambda one: np.abs(one.C - [1.0957, 1.8108]).max()

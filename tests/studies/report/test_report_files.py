@@ -1,4 +1,4 @@
-"""The report as files: links lead somewhere, data are those of the build, the PDF holds the findings."""
+"""Files of the report: links have targets, data are those of the build, and the PDF contains the findings."""
 
 import json
 import re
@@ -27,14 +27,15 @@ MEGABYTE = 1e6
 
 @pytest.fixture(scope="module")
 def pages(site):
+    """Return the parsed pages by path."""
     return {path: Markup(path.read_text(encoding="utf-8")) for path in [*site.glob("*.html"), *site.glob("api/*.html")]}
 
 
-def test_all_pages_are_there(site, pages):
+def test_the_report_has_all_pages(site, pages):
     assert {path.stem for path in pages if path.parent == site} == {*PAGES, "search"}
 
 
-def test_links_are_alive_and_none_leads_outside(pages):
+def test_links_have_targets_in_the_report(pages):
     names = {path: [values["id"] for _, values in page.elements if "id" in values] for path, page in pages.items()}
     for path, page in pages.items():
         assert len(page.links) > len(PAGES)  # the navigation at least
@@ -50,8 +51,8 @@ def test_links_are_alive_and_none_leads_outside(pages):
                 assert parts.fragment in names[target], f"{path}: {link} leads to no place on its page"
 
 
-def test_every_page_says_what_it_may_do_and_is_light(site):
-    """Notebooks and the library among them: before it loads anything."""
+def test_every_page_has_a_content_security_policy_and_is_small(site):
+    """The policy precedes everything that a page loads, also in notebooks and in the library reference."""
     pages = list(site.rglob("*.html"))
     assert len(pages) > len(PAGES) + 10
     for path in pages:
@@ -76,7 +77,7 @@ def test_every_figure_is_shown_and_every_table_can_be_downloaded(site, pages):
         assert (site / folder / path.name).read_bytes() == path.read_bytes()
 
 
-def test_numbers_on_a_page_are_those_of_the_results_and_say_where_they_are_from(site):
+def test_numbers_on_a_page_are_those_of_the_results_and_name_their_source(site):
     html = (site / "fixed_points.html").read_text(encoding="utf-8")
     for value in pd.read_csv(site.parent / "fixed_points.csv")["C1"]:
         assert f">{float(f'{value:.5g}'):.15g}<" in html
@@ -92,14 +93,14 @@ def test_numbers_on_a_page_are_those_of_the_results_and_say_where_they_are_from(
     assert source in re.sub("<[^>]+>", "", numbers)
 
 
-def test_the_font_that_is_shipped_has_every_sign_of_a_formula(site):
-    """And every letter in italics too, as which browsers draw it."""
+def test_the_font_of_the_report_has_every_character_of_its_formulas(site):
+    """It also has the letters in italics, since browsers draw the letters of formulas in italics."""
     signs = set(map(chr, TTFont(FONT).getBestCmap()))
     shown = set()
     for path in [*site.glob("*.html"), *site.glob("notebooks/*.html")]:
         for formula in re.findall("<math.*?</math>", path.read_text(encoding="utf-8"), re.DOTALL):
             shown |= set(unescape(re.sub("<annotation.*?</annotation>|<[^>]*>", "", formula)))
-            shown |= {"√"} if "<msqrt" in formula else set()  # drawn by the browser, with the sign of the font
+            shown |= {"√"} if "<msqrt" in formula else set()  # drawn by the browser with this character
     assert len(shown) > 100
     assert [sign for sign in shown - signs if not sign.isspace()] == []
     upright = {unicodedata.normalize("NFKD", sign) for sign in signs if "ITALIC" in unicodedata.name(sign, "")}
@@ -127,7 +128,7 @@ def test_an_equation_of_the_chapter_links_to_its_explanation(site):
     assert list(SETTINGS["equations"]) == [f"10.{n}" for n in range(1, 27)]
     for name in PAGES:
         html = (site / f"{name}.html").read_text(encoding="utf-8")
-        assert not re.search(r"<(h[1-6]|a)\b[^>]*>[^<]*<a [^>]*#equation-", html)  # names in navigation and search
+        assert not re.search(r"<(h[1-6]|a)\b[^>]*>[^<]*<a [^>]*#equation-", html)  # not in headings and links
     links = re.findall(r'href="([^"]+)"[^>]*>\(10\.26\)</a>', (site / "findings.html").read_text(encoding="utf-8"))
     assert set(links) == {"numbers.html#equation-10-26"}
     explained = (site / "numbers.html").read_text(encoding="utf-8").partition('id="equation-10-26"')[2]

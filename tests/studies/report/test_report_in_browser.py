@@ -1,4 +1,4 @@
-"""The report as a reader's browser shows it, and its live pieces."""
+"""Pages of the report in a browser: accessibility, search, and live parts compared with the library."""
 
 import re
 
@@ -20,8 +20,8 @@ PROSE = """[...document.querySelectorAll('article p, article li, article td, art
 ).join('\\n')"""
 
 
-LOOKED_AT = "index", "figures", "claims"
-"""Pages that each run of the tests opens; all with `make test-all`."""
+ALWAYS_TESTED = "index", "figures", "claims"
+"""Pages that are always tested; `make test-all` tests all pages."""
 
 
 def address(site, page):
@@ -29,10 +29,10 @@ def address(site, page):
 
 
 @pytest.mark.parametrize(
-    "page", [*LOOKED_AT, *(pytest.param(page, marks=pytest.mark.thorough) for page in (*PAGES, "api/vibroimpact"))]
+    "page", [*ALWAYS_TESTED, *(pytest.param(page, marks=pytest.mark.thorough) for page in (*PAGES, "api/vibroimpact"))]
 )
-def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site, page):
-    """It asks nobody else; axe finds no barrier, in the dark and on a phone, which it fits; formulas are set."""
+def test_a_page_opens_without_errors_and_is_accessible(browser, site, page):
+    """It loads nothing from other hosts. axe finds no barriers, also in dark mode and on a phone. Formulas are set."""
     browser.open(address(site, page))
     assert browser.problems == []
     assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []
@@ -55,34 +55,33 @@ def test_a_page_opens_without_trouble_and_can_be_read_by_everybody(browser, site
 
 
 @pytest.mark.parametrize(("words", "page"), [("saltation", "engine"), ("(10.26)", "findings"), ("10.24", "derivation")])
-def test_pages_are_found_by_words_and_by_numbers_of_equations(browser, site, words, page):
-    """From a disk, where a browser loads nothing by a program."""
+def test_the_search_finds_pages_by_words_and_equation_numbers(browser, site, words, page):
+    """Pages are opened from a disk, where a browser does not let scripts load files."""
     browser.open((site / "search.html").as_uri() + f"?q={words}")
-    # Results come one after another: waiting for the first of them would race with this one.
+    # Results appear one after another, so that waiting for the first of them is not enough.
     browser.page.wait_for_selector(
         f"#search-results a:is([href='{page}.html'], [href^='{page}.html?'], [href^='{page}.html#'])"
     )
     assert browser.problems == []
 
 
-def test_trouble_on_a_page_would_be_seen(browser, tmp_path):
-    """The checks above can fail: a page with everything wrong on it."""
+def test_errors_and_barriers_on_a_faulty_page_are_found(browser, tmp_path):
     page = tmp_path / "wrong.html"
     page.write_text(
         "<!DOCTYPE html><img src='missing.png'><img src='http://127.0.0.1:9/outside.png'>"
-        "<script>console.error('said'); undefinedFunction();</script>"
+        "<script>console.error('logged'); undefinedFunction();</script>"
     )
     browser.open(page.as_uri())
     found = " ".join(browser.problems)
-    assert all(words in found for words in ("ERR_FILE_NOT_FOUND", "said", "undefinedFunction"))
+    assert all(words in found for words in ("ERR_FILE_NOT_FOUND", "logged", "undefinedFunction"))
     assert any(url.startswith("http://127.0.0.1") for url in browser.requests)
     assert browser.barriers()
 
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("criterion", ["theory", "printed_10_26"])
-def test_the_slider_of_epsilon_shows_what_is_called_stable_and_is(browser, site, criterion):
-    """As counted in the table; by both time scales means by Masri's analysis and the slow flow."""
+def test_the_slider_of_epsilon_shows_the_counts_of_the_table(browser, site, criterion):
+    """The criterion `theory` combines Masri's analysis and the slow flow."""
     browser.open(address(site, "fixed_points"))
     table = pd.read_csv(site.parent / "verdict_grid.csv")
     browser.run(f"document.querySelector('[data-criterion={criterion}]').click()")
@@ -103,12 +102,12 @@ SOME_FRAMES = """new Promise(done => {
   const next = left => left ? requestAnimationFrame(() => next(left - 1)) : done();
   next(20);
 })"""
-"""A loaded machine draws them late, but draws them."""
+"""Wait for 20 frames, which a machine under load draws late."""
 
 
 @pytest.fixture
 def still(browser, site):
-    """The page "Play" as those see it who want less motion: it waits."""
+    """Return a browser with the page "Play" under reduced motion: the animation does not start by itself."""
     browser.page.emulate_media(reduced_motion="reduce")
     browser.open(address(site, "play"))
     yield browser
@@ -121,7 +120,7 @@ def shown(browser, part):
 
 @pytest.mark.thorough
 def test_the_trace_is_the_motion_of_the_library(still):
-    """One step after a start: X2 and W2 at the right end of both lines, by their scales."""
+    """X2 and W2 at the right end of both lines are compared after 30 steps, 1.5 periods after the start."""
     still.page.focus("#play-start")
     still.press("End")
     for _ in range(30):
@@ -150,7 +149,7 @@ def test_the_prediction_is_the_response_at_leading_order(still):
 
 
 def test_a_click_on_the_map_shows_exact_motion_and_theory_with_the_multiplier(still):
-    """At the centre of its cell, against vi.orbits; an arrow key goes on to the next cell."""
+    """The forces are those of the centre of the cell; `vi.orbits` gives the multiplier. An arrow key changes cells."""
     still.page.locator("#play-map").scroll_into_view_if_needed()
     square = still.run(
         "(b => [b.x, b.y, b.width, b.height])(document.querySelector('#play-map .frame').getBoundingClientRect())"
@@ -167,8 +166,8 @@ def test_a_click_on_the_map_shows_exact_motion_and_theory_with_the_multiplier(st
 
 
 @pytest.mark.thorough
-def test_the_nudged_motion_climbs_and_plays_again(browser, site):
-    """Its still is the whole climb: a dot per period, on the line of the multiplier; a press begins anew."""
+def test_the_perturbed_motion_is_drawn_per_period_and_plays_again(browser, site):
+    """Under reduced motion, there is a dot for each period, at first on the line of the multiplier."""
     browser.page.emulate_media(reduced_motion="reduce")
     browser.open(address(site, "findings"))
     dots = """[...document.querySelector('[data-nudge] .even svg').querySelectorAll('circle')].map(

@@ -1,4 +1,4 @@
-"""How the report's text is made: numbers, captions, claims, data of the live pages."""
+"""Texts of the report: numbers, captions, claims, and data of the live parts."""
 
 import json
 import math
@@ -31,7 +31,7 @@ from vibroimpact_pipeline.studies.report.results import Results
         ("2.220446049250313e-16", r"$2.22\cdot 10^{-16}$"),
     ],
 )  # fmt: skip
-def test_a_value_in_the_text(value, text):
+def test_values_are_formatted_as_text(value, text):
     assert digits(value) == text
 
 
@@ -41,14 +41,14 @@ def test_a_table_has_a_line_for_each_row():
     assert cell("a\n b | c") == r"a b \| c"
 
 
-def test_captions_fill_from_the_config():
+def test_captions_contain_values_of_the_config():
     captions = {name: about["caption"] for name, about in figure_texts(CONFIG).items()}
     assert [name for name, text in captions.items() if len(text) < 20 or re.search(r"\{\w+_hat\}", text)] == []
     assert str(CONFIG["cases"]["unequal"]["f20_hat"]) in captions["fig10_09"]
 
 
 def test_numbers_and_figures_of_documents_are_those_of_the_build():
-    """To as many decimals as a document gives, with its sign; where a build has no such value, as it is written."""
+    """Numbers keep the decimals of the document. A number without a value in the build stays as written."""
     values = {"x | a": 0.70984, "x | b": -3.17987, "percent | x | c": 69.16, "x | times": 1313.4}
     pages = Pages(ROOT, SimpleNamespace(value=lambda place: values[place]), CONFIG, {"chapter": ["one"]})
     pages.places = {"a": "x | a", "b-1.0": "x | b", "c": "percent | x | c", "d": "x | d", "e": "x | times"}
@@ -63,13 +63,13 @@ def test_numbers_and_figures_of_documents_are_those_of_the_build():
     assert re.findall(r"\[(\S+)\]\((#number-.*?)\)", shown) == links
     assert pages.number("c") == (69.16, "results/x | c")
     assert pages.number("d") is None
-    assert pages.with_numbers("[900](numbers.yaml#e)", paper=True) == "1300"  # of one machine
+    assert pages.with_numbers("[900](numbers.yaml#e)", paper=True) == "1300"  # run times: two digits
     picture = "```{figure} figures/one.svg\n:alt: What it shows.\n:target: figures/one.svg\n\nOne\n```"
     assert shown.endswith(f"%, 5.\n{picture} \n([see](#one), two)")
     assert pages.with_numbers(text, paper=True).splitlines()[:2] == ["0.71, −3.2; 69 %, 5.", "![One](figures/one.svg) "]
 
 
-def test_a_live_part_stands_in_place_of_its_still_where_its_data_are(tmp_path):
+def test_a_live_part_replaces_its_picture_if_its_data_exist(tmp_path):
     pages = Pages(ROOT, Results(tmp_path), CONFIG, {"nudge": ["nudge"]})
     text = "A\n\n<!-- live: nudge -->\n![Moved](../results/nudge/nudge.png)\n\nB"
     assert "{figure} figures/nudge.svg" in pages.with_numbers(text)
@@ -80,7 +80,7 @@ def test_a_live_part_stands_in_place_of_its_still_where_its_data_are(tmp_path):
     assert "![Moved](figures/nudge.svg)" in pages.with_numbers(text, paper=True)
 
 
-def test_every_number_of_a_document_has_a_place_and_every_place_is_used():
+def test_every_number_of_a_document_has_a_place_in_the_results_and_every_place_is_used():
     documents = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md"))
     places = yaml.safe_load((ROOT / "docs/studies/numbers.yaml").read_text(encoding="utf-8"))
     assert set(re.findall(r"\((?:studies/)?numbers\.yaml#(.*?)\)", documents)) == set(places)
@@ -116,8 +116,7 @@ def test_a_formula_has_its_number_and_one_that_cannot_be_set_is_an_error():
         mathml(r"\nosuchcommand{x}", display=False)
 
 
-def test_the_slider_of_epsilon_knows_points_without_an_orbit():
-    """Called stable, and told apart: the exact orbit is stable, unstable, or there is none."""
+def test_the_slider_of_epsilon_has_the_exact_verdicts_of_points_called_stable():
     exact = ["stable", "unstable", "no orbit", "no orbit"]
     grid = pd.DataFrame({"epsilon": 0.1, "f10_hat": [1.0, 2.0, 3.0, 4.0], "f20_hat": 0.5, "exact": exact})
     grid = grid.assign(printed_10_26=["stable"] * 3 + ["unstable"], theory="unstable")
@@ -129,7 +128,7 @@ def test_the_slider_of_epsilon_knows_points_without_an_orbit():
 
 
 def test_the_page_play_has_the_points_of_all_cases_of_one_system():
-    """With the multipliers of `vi.orbits`; the only point of the case weak is unstable by (10.26)."""
+    """Multipliers are those of `vi.orbits`. The only point of the case weak is unstable by (10.26)."""
     cases = {name: {"f10_hat": f10, "f20_hat": f20} for name, (f10, f20) in FORCES.items()}
     other = {"soft": {"f10_hat": 1.0, "f20_hat": 0.9, "kappa": 0.5}}
     data = json.loads(live_data({"system": PARAMETERS, "cases": cases | other}))
