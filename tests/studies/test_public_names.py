@@ -1,4 +1,4 @@
-"""Branches, sweeps and absorbers by their public names."""
+"""Branches, sweeps and designs through their public names."""
 
 import pickle
 
@@ -18,8 +18,8 @@ vi.lyapunov_spectrum(system, start, 20, 2)
 """
 
 
-def test_a_table_of_nothing_has_the_columns_of_what_could_be_in_it():
-    """So much damping leaves no motion with two impacts per cycle."""
+def test_an_empty_table_of_branches_has_all_columns():
+    """With strong damping, no motion has two impacts per cycle."""
     damped = SYSTEM.with_(gamma1_hat=100.0, gamma2_hat=100.0)
     found, nothing = (vi.branches(one, "kappa", (0.6, 0.7), of="theory", seeds=1) for one in (SYSTEM, damped))
     assert len(found) > 0 == len(nothing)
@@ -27,8 +27,8 @@ def test_a_table_of_nothing_has_the_columns_of_what_could_be_in_it():
         assert vi.to_frame(empty).columns.tolist() == vi.to_frame(found).columns.tolist()
 
 
-def test_a_sweep_as_a_dataset_over_its_grid(tmp_path):
-    """Saved as NetCDF and read again: each value stands where its parameters say."""
+def test_a_dataset_of_a_sweep_has_the_values_at_its_parameters(tmp_path):
+    """The dataset is saved as NetCDF and read again."""
     xarray = pytest.importorskip("xarray")
     axes = {"f10_hat": [0.8, 1.0], "f20_hat": [0.5, 0.7, 0.9]}
     vi.to_dataset(vi.sweep(SYSTEM, axes, ["fixed_points"]), list(axes)).to_netcdf(tmp_path / "sweep.nc", engine="scipy")
@@ -39,17 +39,17 @@ def test_a_sweep_as_a_dataset_over_its_grid(tmp_path):
         assert data["fixed_points"].units == data["f10_hat"].units == "1"
 
 
-def test_a_picture_of_a_design_without_its_extra_says_so(monkeypatch, capsys):
+def test_a_missing_extra_for_pictures_is_reported_in_one_line(monkeypatch, capsys):
     monkeypatch.setattr("vibroimpact.system.extras.find_spec", lambda name: None)
     with pytest.raises(SystemExit) as end:
         main(DESIGN.split())
     assert end.value.code == 2
-    said = capsys.readouterr().err
-    assert "needs matplotlib and pandas: pip install" in said
-    assert said.count("\n") == 1
+    printed = capsys.readouterr().err
+    assert "needs matplotlib and pandas: pip install" in printed
+    assert printed.count("\n") == 1
 
 
 @pytest.mark.thorough
 def test_no_function_is_compiled_late():
-    """All that these need is compiled beforehand with runs and ensembles."""
+    """Functions that CALLS need are compiled in advance with runs and ensembles."""
     assert compiled_late(CALLS) == []

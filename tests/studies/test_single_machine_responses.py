@@ -1,4 +1,4 @@
-"""A single machine in the studies: asymmetric points, proofs of completeness, branches and curves."""
+"""Asymmetric points, proofs and branches of a single machine agree with closed forms and a machine with company."""
 
 import numpy as np
 import pytest
@@ -53,11 +53,11 @@ def test_lists_of_fixed_points_are_proved_complete(machine):
     assert len(skewed.isolated) == len(asymmetric_points.search(machine))
 
 
-# Continuation.
+# Continuation
 
 
 def loaded(machine, C):
-    """Force of the fixed point with a C: |q| of the balance (10.23), which is linear in C."""
+    """Return the force of the fixed point with this C: |q| of the balance (10.23), where q is linear in C."""
     (module,) = machine.modules
     detuning = (module == 2) * machine.sigma20_hat - 2 * machine.sigma_e_hat
     impedance = detuning + 1j * (machine.gamma1_hat, machine.gamma2_hat)[module - 1]
@@ -83,7 +83,7 @@ def test_branches_of_fixed_points_pass_special_points_in_closed_form(machine):
         assert inner.stable == (point.stability.theory == "stable")
 
 
-def test_an_undamped_branch_ends_where_the_ball_has_no_speed_in_phase_with_the_force():
+def test_an_undamped_branch_ends_where_the_ball_speed_vanishes():
     undamped = MACHINE.with_(gamma1_hat=0, gamma2_hat=0, sigma_e_hat=-0.5)
     (branch,) = vi.branches(undamped, "f10_hat", (0.3, 2.0), of="theory", seeds=3)
     (end,) = (node for node in branch.special if node.kind == "speed zero")
@@ -91,7 +91,7 @@ def test_an_undamped_branch_ends_where_the_ball_has_no_speed_in_phase_with_the_f
     assert abs(end.amplitudes[0]) < 1e-9
 
 
-def test_a_path_on_which_the_other_module_is_active_says_so():
+def test_a_branch_on_which_the_other_module_is_active_is_skipped_with_a_warning():
     with pytest.warns(
         UserWarning, match=r"fixed point: skipped the branch through f20_hat = 0: both modules of the system are active"
     ):
@@ -118,7 +118,7 @@ def test_branches_of_orbits_break_their_symmetry_where_the_module_in_company_doe
 
 
 @pytest.mark.parametrize("family", [FixedPoints, SymmetricOrbits, AsymmetricOrbits])
-def test_the_response_of_one_module_is_not_followed_where_both_take_part(family):
+def test_the_response_of_one_module_is_not_continued_to_systems_with_two_active_modules(family):
     root = family.roots(SECOND)[-1]
     assert np.abs(family.equations(SECOND, root)[0]).max() < 1e-9
     with pytest.raises(Lost, match="both modules of the system are active"):
@@ -126,7 +126,7 @@ def test_the_response_of_one_module_is_not_followed_where_both_take_part(family)
     assert all(np.abs(family.equations(SECOND, image)[0]).max() < 1e-9 for image in images(family, SECOND, root, root))
 
 
-def test_an_undamped_resonance_of_the_module_at_rest_is_no_obstacle():
+def test_an_undamped_resonance_of_the_idle_module_has_no_effect():
     for stiffness in (1.0, 9.0):
         resonant = FIRST.with_(gamma2_hat=0, sigma20_hat=(stiffness * FIRST.Omega**2 - 1) / FIRST.epsilon)
         same_numbers(asymmetric_points.search(resonant), asymmetric_points.search(FIRST), 1, ["C", "psi"])

@@ -1,4 +1,4 @@
-"""Exponents, attractors, basins, sections, sweeps and continuation by their public names."""
+"""Exponents, attractors, basins, sections, sweeps and continuation through their public names."""
 
 import doctest
 import sys
@@ -30,8 +30,8 @@ def test_the_example_of_a_docstring_runs(name):
 # Lyapunov exponents
 
 
-def test_growth_with_time_is_not_chaos_within_the_error():
-    """Two balls at rest between moving boxes: a nudge grows with time t, ln(3000 / 1000) / 2000 in the window."""
+def test_linear_growth_is_not_chaos_within_the_error():
+    """With balls at rest, perturbations grow in proportion to time: the exponent is ln(3000 / 1000) / 2000."""
     found = vi.largest_lyapunov(SYSTEM.with_(f10_hat=0.1, f20_hat=0.1), REST)
     assert found == (found.mean, found.error)  # two numbers to unpack
     assert found.mean == pytest.approx(np.log(3) / 2000, rel=0.05)
@@ -41,8 +41,8 @@ def test_growth_with_time_is_not_chaos_within_the_error():
 # Attractors and basins
 
 
-def test_the_basins_of_mirror_images_are_mirror_images():
-    """Starts from near either of the stable asymmetric orbits bear its label; shares count the labels."""
+def test_starts_near_a_stable_orbit_have_its_label():
+    """The orbits are the stable asymmetric orbit and its mirror image; shares are those of the labels."""
     pair = [orbit for orbit in vi.orbits(SYSTEM) if orbit.admissible and orbit.stable]
     states = np.array([pair[0].state, pair[1].state, pair[0].state + 1e-3, pair[1].state + 1e-3])
     found = vi.attractors(SYSTEM, states)
@@ -56,7 +56,7 @@ def test_the_basins_of_mirror_images_are_mirror_images():
         np.testing.assert_allclose(refined.multipliers, orbit.multipliers, atol=1e-9)
 
 
-def test_basins_are_those_of_their_starts_listed():
+def test_basins_are_the_attractors_of_the_listed_starts():
     W1, X2 = [-0.5, 0.3], [0.1, 0.6, 0.9]
     found = vi.basins(SYSTEM, {"W1": W1, "X2": X2}, state=[0.2, 0, 0, 0, 0, 0, 0, 0.4])
     states = [[0.2, 0.2 - w, x, 0, 0, 0, 0, 0.4] for w in W1 for x in X2]
@@ -68,7 +68,7 @@ def test_basins_are_those_of_their_starts_listed():
     assert sum(found.shares.values()) == pytest.approx(1.0)
 
 
-def test_a_start_that_has_no_time_to_settle_is_labelled_minus_one():
+def test_a_start_without_time_to_settle_has_the_label_minus_one():
     short = vi.Observation(cycles=1, rounds=1, blocks=2, block=1, retest=1)
     found = vi.attractors(SYSTEM, starts(3, 2)[1:], short)
     assert found.labels.tolist() == [-1, -1]
@@ -88,14 +88,14 @@ def test_sections_are_the_states_of_single_runs_at_whole_cycles():
 # Sweeps
 
 
-def test_a_row_of_a_sweep_has_python_s_own_numbers():
-    given = dict(starts=2, cycles=30, settle=20, band={"sigma_e_hat": [0.2]})
-    [row] = vi.sweep(SYSTEM, {"f20_hat": np.array([1.0])}, list(OBSERVATIONS), **given)
+def test_a_row_of_a_sweep_has_python_types():
+    settings = dict(starts=2, cycles=30, settle=20, band={"sigma_e_hat": [0.2]})
+    [row] = vi.sweep(SYSTEM, {"f20_hat": np.array([1.0])}, list(OBSERVATIONS), **settings)
     assert row["failed"] == ""
     assert {type(value) for value in row.values()} == {int, float, str}
 
 
-def test_a_sweep_without_cycles_has_numbers():
+def test_a_sweep_has_default_cycles():
     [row] = vi.sweep(SYSTEM, {"f20_hat": [1.0]}, ["amplitudes", "regimes", "peaks"], band={"sigma_e_hat": [0.2]})
     assert row["failed"] == ""
     assert all(np.isfinite(row[name]) for name in ("largest_X1", "rms_X2", "peak", "asymmetric"))
@@ -107,7 +107,7 @@ AXES = {"f20_hat": [1.0]}
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("arguments", "message"),
     [
         ({"observe": ["peaks"]}, "band"), ({"observe": ["peaks"], "band": {"mass": [1.0]}}, "mass"),
         ({"observe": ["peaks"], "band": AXES}, "band"), ({"observe": ["amplitudes"], "cycles": 0}, "cycles"),
@@ -120,9 +120,9 @@ AXES = {"f20_hat": [1.0]}
         ({"observe": ["fixed_points"], "axes": {"mass": [1]}}, "mass"), ({"observe": ["points"]}, "observe"),
     ],
 )  # fmt: skip
-def test_a_wrong_argument_of_a_sweep_is_named_in_one_line(given, told):
-    with pytest.raises(ValueError, match=rf"^{told}: [^\n]+$"):
-        vi.sweep(SYSTEM, **{"axes": AXES} | given)
+def test_a_wrong_argument_of_a_sweep_is_named_in_one_line(arguments, message):
+    with pytest.raises(ValueError, match=rf"^{message}: [^\n]+$"):
+        vi.sweep(SYSTEM, **{"axes": AXES} | arguments)
 
 
 PLANT = vi.PhysicalSystem.single(M=120.0, m=12.0, k=2e5, c=90.0, F=100.0, L=0.005)
@@ -130,7 +130,7 @@ SPECTRUM, SINGLE_CYCLE = (Spectrum(np.zeros((n, 8)), np.zeros(n), np.zeros(n)) f
 
 
 @pytest.mark.parametrize(
-    ("call", "told"),
+    ("call", "message"),
     [
         (lambda: vi.largest_lyapunov(SYSTEM, [0.0] * 7), "state"), (lambda: vi.lyapunov_spectrum(1, REST), "system"),
         (lambda: vi.largest_lyapunov(SYSTEM, REST, 1), "cycles"),
@@ -152,22 +152,22 @@ SPECTRUM, SINGLE_CYCLE = (Spectrum(np.zeros((n, 8)), np.zeros(n), np.zeros(n)) f
         (lambda: vi.branches(SYSTEM, "kappa", (0.5, 0.6), "all"), "of"),
     ],
 )  # fmt: skip
-def test_a_wrong_argument_is_named_in_one_line(call, told):
-    with pytest.raises(ValueError, match=rf"^{told}: [^\n]+$"):
+def test_a_wrong_argument_is_named_in_one_line(call, message):
+    with pytest.raises(ValueError, match=rf"^{message}: [^\n]+$"):
         call()
 
 
-def test_progress_is_told_on_a_terminal_only(monkeypatch, capsys):
+def test_progress_is_printed_on_a_terminal_only(monkeypatch, capsys):
     few = {"states": vi.starts(2, seed=1), "observation": vi.Observation(cycles=10, rounds=2, retest=20)}
 
-    def told(terminal, **given):
+    def printed(terminal, **options):
         monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal)
-        assert list(progress.track([3, 4], "things", **given)) == [3, 4]
-        vi.branches(SYSTEM, "f20_hat", (0.99, 1.01), of="theory", seeds=1, **given)
-        vi.attractors(SYSTEM, **few, **given)
+        assert list(progress.track([3, 4], "things", **options)) == [3, 4]
+        vi.branches(SYSTEM, "f20_hat", (0.99, 1.01), of="theory", seeds=1, **options)
+        vi.attractors(SYSTEM, **few, **options)
         return capsys.readouterr().err
 
-    assert told(False) == told(True, progress=False) == ""
+    assert printed(False) == printed(True, progress=False) == ""
     assert all(
-        words in told(True) for words in ("things 2/2\n", "branches: family 1/1\n", "initial states, round 1: 2/2\n")
+        words in printed(True) for words in ("things 2/2\n", "branches: family 1/1\n", "initial states, round 1: 2/2\n")
     )
