@@ -1,4 +1,4 @@
-"""Linear references against integration of the forces written out by hand, and against closed forms of the textbook."""
+"""Linear references agree with integration of the forces written out by hand, and with closed forms of the textbook."""
 
 import math
 
@@ -18,12 +18,12 @@ BARE = dict.fromkeys(("alpha12_hat", "gamma1_hat", "gamma2_hat", "gamma12_hat", 
 
 
 def hosts(**changes):
-    """Two boxes that are one, twice: undamped and uncoupled."""
+    """Return a system of two identical boxes, undamped and uncoupled."""
     return vi.System(**{**PARAMETERS, **BARE, **changes}, f10_hat=1.0, f20_hat=1.0)
 
 
 def by_hand(system, tuning=None):
-    """Accelerations of X1, X2, Y1, Y2 from the forces of springs and dampers, one by one."""
+    """Return the function of tau and (X1, X2, Y1, Y2, velocities) that sums the forces of springs and dampers."""
     e = system.epsilon
 
     def rates(tau, z):
@@ -64,8 +64,8 @@ def test_steady_amplitudes_are_those_of_integration(linear, rates):
     np.testing.assert_allclose(np.sqrt((run.y[:2, :-1] ** 2).mean(axis=1)), amplitudes / math.sqrt(2), rtol=1e-5)
 
 
-def test_the_textbook_meets_both_fixed_points_at_its_height():
-    """sqrt(1 + 2 / mu) of the static deflection at P and Q, whatever the damper (Den Hartog 1956)."""
+def test_the_textbook_tuning_has_the_known_amplitude_at_both_fixed_points():
+    """At P and Q it is sqrt(1 + 2 / mu) times the static deflection for any damping (Den Hartog 1956)."""
     system = hosts()
     mu, frequency = system.epsilon, textbook_tuning(system).frequency
     for sign in (1, -1):
@@ -75,8 +75,8 @@ def test_the_textbook_meets_both_fixed_points_at_its_height():
             np.testing.assert_allclose(amplitudes / system.forcing, math.sqrt(1 + 2 / mu), rtol=1e-12)
 
 
-def test_the_best_tuning_is_the_exact_one_of_a_single_undamped_box():
-    """The least peak in closed form (Nishihara and Asami 2002), which the textbook exceeds."""
+def test_the_best_tuning_has_the_lowest_possible_peak_of_a_single_undamped_box():
+    """The lowest peak has a closed form (Nishihara and Asami 2002)."""
     system, band = hosts(), (0.6, 1.5)
     mu = system.epsilon
     least = (8 + 9 * mu) ** 2 * (16 + 9 * mu) - 128 * (4 + 3 * mu) ** 1.5
@@ -85,10 +85,10 @@ def test_the_best_tuning_is_the_exact_one_of_a_single_undamped_box():
 
 
 @pytest.mark.parametrize("ratio", [0.01, 0.1, 0.25])
-def test_the_damping_of_the_textbook_is_the_printed_one_in_its_own_unit(ratio):
-    """c / (2 m Omega_n) as printed, Omega_n of the host: the damper itself does not depend on how a ratio is formed.
+def test_the_damping_of_the_textbook_tuning_is_the_printed_one(ratio):
+    """The printed ratio is c / (2 m Omega_n), with the frequency Omega_n of the host.
 
-    It is the mean, of squares, of the two dampings with which the response is level at either fixed point (Brock).
+    It is the root mean square of two dampings: with each of them, the response is level at one fixed point (Brock).
     """
     system = hosts(epsilon=ratio)
     tuning = textbook_tuning(system)
@@ -114,8 +114,8 @@ def test_no_tuning_nearby_is_better_than_the_best():
         assert tuned(CHAPTER, other).peak(band) > lowest * (1 - 1e-4)
 
 
-def test_a_peak_is_the_top_of_all_humps():
-    """A fine grid finds no higher point, however narrow the resonances."""
+def test_a_peak_is_the_maximum_over_all_resonances():
+    """A fine grid around each resonance finds no higher point, also if resonances are narrow."""
     for system in (CHAPTER, CHAPTER.with_(gamma1_hat=1e-4, gamma2_hat=2e-4, gamma12_hat=0.0)):
         linear = without_balls(system)
         poles = np.linalg.eigvals(linear.rate)[:, None]

@@ -1,4 +1,4 @@
-"""Peaks over a band: what one cycle in a hundred exceeds, its standard error, and what windows do to it."""
+"""Peaks over a band: a quantile over cycles, its standard error, and its dependence on the window."""
 
 import numpy as np
 import pytest
@@ -23,14 +23,15 @@ def test_a_peak_is_a_quantile_of_the_cycles_of_certified_runs():
         boxes = np.abs(run.samples[:, [0, 2]]).max(axis=1)
         each.append([boxes[400 * n : 400 * (n + 1) + 1].max() for n in range(10)])
     np.testing.assert_allclose(found.largest[1], each, rtol=1e-4)
-    ordered = np.sort(found.largest[1], axis=None)  # thirty: the quantile is 0.71 of the way between the last two
+    # Among thirty values, the quantile 0.99 is at 0.71 of the way from the second largest to the largest.
+    ordered = np.sort(found.largest[1], axis=None)
     assert peak_of(found.largest)[1] == pytest.approx(0.29 * ordered[-2] + 0.71 * ordered[-1], rel=1e-12)
     assert peak(BAND, states, 30, 20) == (peak_of(found.largest).max(), standard_error(found.largest))
 
 
 @pytest.mark.thorough
-def test_the_peak_of_a_chaotic_response_does_not_grow_with_the_window_as_the_largest_does():
-    """In the mean of ten sets of starts: single runs are chaotic, and rounding decides what they meet."""
+def test_the_peak_of_a_chaotic_response_does_not_grow_with_the_window_unlike_its_largest_displacement():
+    """Means over ten sets of starts are compared, since rounding errors change single chaotic runs."""
     short, long = (
         [
             (by_cycle(CHAOTIC, states, 150 + cycles, 150).largest.max(), *peak(CHAOTIC, states, 150 + cycles, 150))
@@ -44,19 +45,19 @@ def test_the_peak_of_a_chaotic_response_does_not_grow_with_the_window_as_the_lar
     assert np.mean(np.square(long), axis=0)[2] < 0.5 * np.mean(np.square(short), axis=0)[2]
 
 
-def test_the_standard_error_is_the_scatter_of_fresh_starts():
+def test_the_standard_error_is_the_scatter_over_other_starts():
     found = [peak(CHAOTIC, starts(9, seed)[1:], 250, 150) for seed in range(20, 50)]
     values, errors = np.transpose(found)
     assert 0.6 * np.std(values) < np.sqrt(np.mean(errors**2)) < 1.7 * np.std(values)
 
 
-def test_one_start_has_no_error_to_tell_and_equal_ones_have_none():
+def test_the_standard_error_is_nan_for_one_start_and_zero_for_equal_starts():
     one = np.linspace(1.0, 2.0, 20).reshape(2, 1, 10)
     assert np.isnan(standard_error(one))
     assert standard_error(np.repeat(one, 3, axis=1)) < 1e-12
 
 
-def test_runs_that_cannot_be_finished_are_counted_and_left_out():
+def test_unfinished_runs_are_counted_and_excluded():
     states = np.vstack([starts(2, 1), np.full(8, np.nan)])
     found, alone = by_cycle(BAND, states, 12, 8), by_cycle(BAND, states[:2], 12, 8)
     assert (found.unfinished, alone.unfinished) == (len(BAND), 0)
