@@ -1,4 +1,4 @@
-"""The same sweep on two cores and on a Slurm of one machine: the same bytes."""
+"""A sweep has the same bytes on two cores, in any number of tiles, and on a Slurm cluster of one machine."""
 
 import subprocess
 from importlib.util import find_spec
@@ -27,24 +27,24 @@ QUICK = ("--slurm-init-seconds-before-status-checks", "1", "--max-status-checks-
 
 @pytest.fixture
 def slurm(tmp_path):
-    """A Slurm of this machine."""
+    """Return a running Slurm cluster of this machine."""
     if lacking := missing():
-        pytest.skip(f"no Slurm of one machine here: without {', '.join(lacking)} (.ci/run installs it)")
+        pytest.skip(f"Slurm needs {', '.join(lacking)} (.ci/run installs it)")
     if not find_spec("snakemake_executor_plugin_slurm"):
-        pytest.skip("Snakemake has no Slurm plugin here: make cluster-tools")
+        pytest.skip("Snakemake has no Slurm plugin (make cluster-tools installs it)")
     slurm = Slurm(tmp_path / "slurm")
     try:
         try:
             slurm.start()
         except (AssertionError, subprocess.SubprocessError) as error:
-            pytest.skip(f"Slurm is installed and does not start here: {error}")
+            pytest.skip(f"Slurm does not start: {error}")
         yield slurm
     finally:
         slurm.stop()
 
 
 @pytest.mark.thorough
-def test_a_sweep_is_the_same_bytes_on_a_cluster(slurm, tmp_path):
+def test_a_sweep_has_the_same_bytes_on_a_cluster(slurm, tmp_path):
     here, there = (copied(ROOT, tmp_path / name) for name in ("here", "there"))
     for tree in (here, there):
         tree.edit("config/studies.yaml", "sweeps:\n", SWEEP)
@@ -52,15 +52,15 @@ def test_a_sweep_is_the_same_bytes_on_a_cluster(slurm, tmp_path):
     build = there.start(
         *("--workflow-profile", "profiles/slurm", *QUICK, "--set-scatter", "plane=4", "--", TABLE), PATH=slurm.path
     )
-    said = build.communicate(timeout=PATIENCE)[0]
-    assert build.returncode == 0, said
+    printed = build.communicate(timeout=PATIENCE)[0]
+    assert build.returncode == 0, printed
     assert (there / TABLE).read_bytes() == (here / TABLE).read_bytes()
     submitted = "".join(path.read_text() for path in there.path.glob(".snakemake/log/*.log")).count("with SLURM jobid")
-    assert submitted == 4, "what takes a second goes to no scheduler"
+    assert submitted == 4, "only tiles are submitted: other jobs take a second"
 
 
 @pytest.mark.thorough
-def test_a_sweep_is_the_same_bytes_in_any_number_of_tiles(tmp_path):
+def test_a_sweep_has_the_same_bytes_in_any_number_of_tiles(tmp_path):
     tree = copied(ROOT, tmp_path / "tree")
     tree.edit("config/studies.yaml", "sweeps:\n", SWEEP)
     tables = []
