@@ -1,4 +1,4 @@
-"""The data dictionary against the files of both builds, both ways: all they hold is said, and nothing else."""
+"""The data dictionary describes the files, columns, values and keys of both builds, and nothing else."""
 
 import json
 
@@ -32,21 +32,21 @@ def tables(made):
     return found
 
 
-def test_every_file_of_a_build_is_in_the_dictionary_once_and_no_other(made):
+def test_the_dictionary_has_exactly_the_files_of_a_build(made):
     assert len(made) > 100
     assert [name for name in made if sum(file.has(name) for file in FILES) != 1] == []
     assert [path for path in PATHS if not any(stands_for(path, name) for name in made)] == []
 
 
-def test_every_column_is_in_the_dictionary_in_its_place_and_no_other(tables):
+def test_the_dictionary_has_exactly_the_columns_of_each_table_in_their_order(tables):
     assert len(tables) > 50
     for name, (table, file) in tables.items():
         # Columns of a sweep depend on its observations.
-        said = [column for column in file.columns if column in table or not name.startswith("results/sweeps/")]
-        assert said == list(table), name
+        described = [column for column in file.columns if column in table or not name.startswith("results/sweeps/")]
+        assert described == list(table), name
 
 
-def test_columns_hold_the_values_and_units_that_the_dictionary_says(tables):
+def test_columns_have_the_values_and_units_of_the_dictionary(tables):
     listed = set()
     for name, (table, file) in tables.items():
         for column in table:
@@ -68,7 +68,7 @@ def test_every_shared_name_and_unit_is_used():
 
 
 def at(node, path) -> list:
-    """What a path of keys leads to; * stands for every entry."""
+    """Return the nodes at a path of keys, in which * stands for every entry."""
     nodes = [node]
     for key in path:
         if key == "*":
@@ -81,7 +81,7 @@ def at(node, path) -> list:
 @pytest.mark.parametrize(
     "file", [file for file in FILES if file.keys and set(file.paths) - file.on_demand.keys()], ids=lambda f: f.paths[0]
 )
-def test_every_key_is_in_the_dictionary_and_no_other(made, file):
+def test_the_dictionary_has_exactly_the_keys_of_each_file(made, file):
     data = [json.loads(path.read_text(encoding="utf-8")) for name, path in made.items() if file.has(name)]
     paths = [tuple(key.split(".")) for key in file.keys]
     for above in {path[:-1] for path in paths}:

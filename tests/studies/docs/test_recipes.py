@@ -1,4 +1,4 @@
-"""The recipes of docs/howto.md, followed step by step in a copy of the project."""
+"""The recipes of docs/howto.md work if they are followed step by step in a copy of the project."""
 
 import json
 import math
@@ -29,14 +29,14 @@ STEPS = re.compile(
 
 @pytest.fixture
 def project(studied, tmp_path):
-    """A copy of the project after a build, with its tests, which uses its own library."""
+    """Return a copy of the project after a build, with its tests; it uses its own library."""
     tree = whole_copy(studied, tmp_path / "project")
     shutil.copytree(ROOT / "tests", tree / "tests", ignore=shutil.ignore_patterns("__pycache__"))
     return tree
 
 
 def follow(recipe: str, project) -> list[str]:
-    """Do every step of a recipe; returns what its commands print."""
+    """Follow every step of a recipe, and return the output of its commands."""
     printed = []
     for step in STEPS.finditer(RECIPES[recipe]):
         named = STEPS.groupindex.values()
@@ -52,11 +52,11 @@ def follow(recipe: str, project) -> list[str]:
 
 
 def run(command: str, project) -> str:
-    """Run a command of a recipe as a reader would, with the environment of these tests active."""
+    """Run a command of a recipe in the environment of these tests, and return its output."""
     variables = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
     variables |= {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "PYTHONPATH": str(project / "src")}
-    said = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
-    done = subprocess.run(["bash", "-ec", command], cwd=project.path, env=variables, **said, check=False)
+    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    done = subprocess.run(["bash", "-ec", command], cwd=project.path, env=variables, **output, check=False)
     assert done.returncode == 0, done.stdout
     return done.stdout
 
@@ -94,7 +94,7 @@ def test_an_integrator_can_be_added(project):
 
 @pytest.mark.thorough
 @pytest.mark.parametrize("recipe", ["Add a stress test", "Add a claim"])
-def test_what_a_recipe_adds_passes_its_own_checks(recipe, project):
+def test_the_commands_of_a_recipe_pass(recipe, project):
     follow(recipe, project)
 
 
@@ -112,17 +112,17 @@ def test_parameters_can_be_swept(project):
 
 @pytest.mark.thorough
 def test_machines_can_be_designed(tmp_path):
-    """Without a build: closed forms as the page prints them, the peak nearly so.
+    """Numbers in closed form are those of the page; peaks are within 10 % of those of the page.
 
-    Chaotic motions differ from one kind of processor to another, and with them which of several clearances is best.
+    Chaotic motions differ between processors, and so does the best clearance.
     """
     project = copied(ROOT, tmp_path / "project")
     (page,) = re.findall(r"prints:\n\n((?: {4}.*\n)+)", RECIPES["Design a machine"])
     designed, coupled = follow("Design a machine", project)
     number, notes = r"\d+(?:\.\d+)?", r"^.*(?:compiling|had not settled).*\n"
-    lines, told = (re.sub(notes, "", text.replace("    ", ""), flags=re.M).splitlines() for text in (designed, page))
-    assert [re.sub(number, "", line) for line in lines] == [re.sub(number, "", line) for line in told]
-    for one, other in zip(lines, told, strict=True):
+    lines, printed = (re.sub(notes, "", text.replace("    ", ""), flags=re.M).splitlines() for text in (designed, page))
+    assert [re.sub(number, "", line) for line in lines] == [re.sub(number, "", line) for line in printed]
+    for one, other in zip(lines, printed, strict=True):
         if "largest displacement" in one:
             peaks, expected = ([float(n) for n in re.findall(number, line)] for line in (one, other))
             assert peaks == pytest.approx(expected, rel=0.1)

@@ -1,4 +1,4 @@
-"""docs/tutorial.md, its blocks run one after another as a reader would, and what it says of their results."""
+"""The blocks of docs/tutorial.md run one after another, and their results are those that the page states."""
 
 import re
 
@@ -17,7 +17,7 @@ PICTURES = re.findall(r"!\[.*?\]\((.*?)\)", PAGE)
 
 @pytest.fixture(scope="module")
 def followed(tmp_path_factory):
-    """The reader's names, and the folder with the reader's pictures."""
+    """Return the variables after all blocks, and the folder of the pictures that the blocks save."""
     folder, names = tmp_path_factory.mktemp("tutorial"), {}
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
@@ -41,20 +41,20 @@ def test_the_table_of_fixed_points_is_the_printed_one(followed):
         assert cells.split(" | ") == [*numbers, point["fast"], point["slow"], point["theory"]]
 
 
-def test_what_is_said_of_orbits_and_runs(followed):
+def test_orbits_and_runs_are_as_the_page_states(followed):
     names = followed[0]
     stable = [orbit for orbit in names["orbits"] if orbit.stable]
     assert sum(orbit.symmetric for orbit in names["orbits"]) == 3
     assert [orbit.symmetric for orbit in stable] == [False, False]
-    said = [float(value) for value in re.search(r"\$C = \(([\d.]+), ([\d.]+)\)\$", PAGE).groups()]
-    np.testing.assert_allclose([orbit.C for orbit in stable], [said] * 2, atol=5.01e-4)
+    stated = [float(value) for value in re.search(r"\$C = \(([\d.]+), ([\d.]+)\)\$", PAGE).groups()]
+    np.testing.assert_allclose([orbit.C for orbit in stable], [stated] * 2, atol=5.01e-4)
     assert names["certificate"].decided
     assert names["orbits"][int(np.argmin(names["ends"]))] in stable
     assert min(names["ends"]) < 0.02
     assert not names["weak"].certificate.decided
 
 
-def test_what_is_said_of_the_diagram(followed):
+def test_the_diagram_is_as_the_page_states(followed):
     table, branches = followed[0]["table"], followed[0]["branches"]
     exact = table[table["family"] == "asymmetric orbit"]
     lost = exact.loc[exact["special"] == "Neimark-Sacker", "p"].unique()
@@ -68,7 +68,7 @@ def test_what_is_said_of_the_diagram(followed):
 
 @pytest.mark.parametrize("name", PICTURES)
 def test_a_picture_of_the_page_is_the_one_that_its_code_draws(followed, name):
-    """Wherever Matplotlib is the one that drew it: no pixel of the page is far from the reader's."""
+    """Pixels are compared only if this version of Matplotlib drew the picture of the page."""
     shown, drawn = (Image.open(folder / name) for folder in (ROOT / "docs", followed[1]))
     assert (ROOT / "docs" / name).stat().st_size < 50_000
     assert shown.size == drawn.size
