@@ -1,4 +1,4 @@
-"""Texts from the config, results and git that are made to be markup or programs: the report shows them as text."""
+"""The report shows texts from the config, results and git as text, even if they contain markup or programs."""
 
 import re
 
@@ -19,14 +19,14 @@ FILLED_PAGES = sorted(path.stem for path in (ROOT / "report/pages").glob("*.md")
 
 
 def without_library(folder, left_out):
-    """Write one page in place of those of the library, which have no texts from elsewhere and take most of the time."""
+    """Write one page instead of the library reference, which has no external texts and takes most of the time."""
     folder.mkdir()
     (folder / "vibroimpact.rst").write_text("vibroimpact\n===========\n")
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    """The pages that are filled from results, where every text from elsewhere is hostile."""
+    """Return the folder of the pages that are filled from results; every external text in them is hostile."""
     folder = tmp_path_factory.mktemp("hostile") / "site"
     results = hostile_results.results(folder.parent / "results")
     (folder / "figures").mkdir(parents=True)
@@ -44,21 +44,21 @@ def site(tmp_path_factory):
 def test_a_page_of_the_report_shows_texts_as_texts(site, page):
     text = (site / f"{page}.html").read_text(encoding="utf-8")
     markup, article = Markup(text), Markup(text[text.index("<article") : text.index("</article>")])
-    assert_nothing_is_live(markup, scripts=1)  # that of the theme
-    assert markup.text.count(one_line(HOSTILE)) >= 2  # where the build departs from the chapter, and what it is from
+    assert_nothing_is_live(markup, scripts=1)  # the script of the theme
+    assert markup.text.count(one_line(HOSTILE)) >= 2  # differences from the chapter, and source of the build
     if page in ("accuracy", "data", "figures", "fixed_points", "play"):
         assert one_line(HOSTILE) in article.text
 
 
 def test_the_article_shows_texts_as_texts(site):
-    """In Typst, too, a text could be a program, which would fail here: there is nothing for it to read."""
+    """Typst would run a program in a text; this one would fail, since the file that it reads does not exist."""
     first = pdfium.PdfDocument(site / "findings.pdf")[0].get_textpage().get_text_bounded()
     assert "#read('x')" in first
 
 
 @pytest.mark.parametrize(("written", "line", "tag"), [(plain, "| {} |", "td"), (code, "{}\n", "p")])
-def test_any_text_is_shown_by_sphinx_as_it_is(written, line, tag):
-    """Plain also in a cell of a table, which is the narrowest place."""
+def test_sphinx_shows_any_text_unchanged(written, line, tag):
+    """`plain` is tested in a table cell, where a text may not contain a line break or a separator of cells."""
     lines = "\n".join(line.format(written(text)) for text in TEXTS)
     settings = {f"myst_{name}": report.SPHINX[f"myst_{name}"] for name in ("enable_extensions", "disable_syntax")}
     source = f"# Here\n\n{'| head |' if tag == 'td' else ''}\n{'| --- |' if tag == 'td' else ''}\n{lines}\n"
@@ -67,7 +67,7 @@ def test_any_text_is_shown_by_sphinx_as_it_is(written, line, tag):
     assert [" ".join(Markup(text).text.split()) for text in shown] == [one_line(text) for text in TEXTS]
 
 
-def test_values_in_other_places_stay_there():
+def test_hostile_values_cannot_leave_attributes_anchors_and_data():
     assert Markup(f'<p title="{attribute(HOSTILE)}">').elements == [("p", {"title": one_line(HOSTILE)})]
     assert re.fullmatch(r"[\w-]+", anchor(HOSTILE))
     assert data("a", '{"a": "</script>"}').count("<") == 2
