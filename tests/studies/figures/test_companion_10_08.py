@@ -1,4 +1,4 @@
-"""Predicted and simulated flights, against the exact orbits, whose impacts are known without a simulation."""
+"""Flights in the companion of Fig. 10.8 are those of the exact orbits and of the fixed point."""
 
 import numpy as np
 import pytest
@@ -15,13 +15,13 @@ SYSTEM = system_of("equal")
 
 @pytest.fixture(scope="module")
 def pair():
-    """The stable asymmetric orbit and its mirror image."""
+    """Return the stable asymmetric orbit and its mirror image."""
     return [orbit for orbit in vi.orbits(SYSTEM) if not orbit.symmetric and orbit.stable]
 
 
 @pytest.fixture(scope="module")
 def motion(pair):
-    """Samples and events of one of them over three periods."""
+    """Return the samples and events of the first orbit over three periods."""
     return tables_of_run(SYSTEM, pair[0].state, 0, 3, 64)
 
 
@@ -40,14 +40,14 @@ def test_the_flights_are_those_of_the_exact_orbit_and_of_the_fixed_point(pair, t
     np.testing.assert_allclose(theory["W2"], np.resize([1, -1], len(theory)), atol=1e-9)
 
 
-def test_the_grey_line_is_the_other_one_of_the_pair(pair, table):
+def test_the_grey_line_is_the_mirror_image(pair, table):
     image = select(table, "simulation", "mirror image")
     for wall, phase in zip((1, -1), pair[1].impact_phases[1], strict=True):
         np.testing.assert_allclose(np.interp([phase, phase + 1], image["phase"], image["W2"]), wall, atol=1e-6)
     assert image["phase"].between(0, 2).all()
 
 
-def test_the_figure_names_both_motions_and_the_lengths_of_their_flights(table, motion):
+def test_the_figure_labels_both_motions_and_the_lengths_of_their_flights(table, motion):
     figure = companion_10_08.draw(table)
     theory, simulated = ({text.get_text() for text in axes.texts} for axes in figure.axes)
     assert theory == {"", "0.50 $T$"}

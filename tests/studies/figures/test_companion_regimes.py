@@ -1,4 +1,4 @@
-"""Companion figures of the regimes, small: numbers in their tables, line styles, nothing told by colour."""
+"""Small companion figures of the regimes: numbers in tables, line styles, colours and marks."""
 
 import numpy as np
 import pandas as pd
@@ -22,7 +22,7 @@ SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f1
 
 
 def swept():
-    """A small map of regimes, one of its points not observed."""
+    """Return the table of a small map of regimes, in which one point is not observed."""
     axes = [axis([name], (0.2, 1.4), cells=6) for name in ("f10_hat", "f20_hat")]
     grid, spec = Grid(SYSTEMS["equal"], axes), Spec(("regimes", "fixed_points"), 3, 1, observation=OBSERVATION)
     table = pd.DataFrame(rows_of(grid, spec, range(len(grid))))
@@ -69,7 +69,7 @@ def test_the_map_has_every_point_and_shows_those_without_a_value(map_of_regimes)
     assert hatches == ["xxx", None]
 
 
-def test_a_cell_shows_what_most_starts_other_than_rest_end_in(map_of_regimes):
+def test_a_cell_shows_the_regime_of_most_starts_other_than_rest(map_of_regimes):
     cells = map_of_regimes["csv"].dropna(subset="label")
     for cell in cells.to_dict("records"):
         ended = {name: round(3 * cell[name]) - (cell["label"] == name) for name in REGIMES}
@@ -79,8 +79,8 @@ def test_a_cell_shows_what_most_starts_other_than_rest_end_in(map_of_regimes):
     assert set(cells["coexisting"]) >= {1, 2}
 
 
-def test_on_a_border_the_theory_s_number_of_fixed_points_changes(map_of_regimes):
-    """Within the last halving, to the side or upwards; where it crosses the way between two cells."""
+def test_the_number_of_fixed_points_changes_at_a_border(map_of_regimes):
+    """The test compares points one bisection step apart, where a border crosses the line between two cell centres."""
     centres = np.unique(map_of_regimes["csv"]["f10_hat"])
     pieces = map_of_regimes["borders"].query("series == 'fixed points'")
     assert (pieces.groupby("piece").size() == 2).all()
@@ -96,23 +96,23 @@ def test_on_a_border_the_theory_s_number_of_fixed_points_changes(map_of_regimes)
         assert len({count(f10 + dx, f20 + dy) for dx, dy in aside}) > 1
 
 
-def test_hopping_is_not_painted_as_chaos(map_of_regimes):
-    """Each regime in its own colour and, where it is rare, under its own mark; the key has both."""
+def test_a_rare_regime_has_its_own_colour_and_mark(map_of_regimes):
+    """One cell of a chaotic map is set to hopping, which the legend then contains."""
     cells = map_of_regimes["csv"].assign(regime="chaotic")
     cells.loc[3, "regime"] = "hopping"
     figure = regime_map.draw(map_of_regimes | {"csv": cells})
     mesh = figure.axes[0].collections[0]
     painted = mesh.to_rgba(mesh.get_array())[..., :3].reshape(6, 6, 3)
     expected = np.full((6, 6, 3), to_rgb(COLOURS["chaotic"]))
-    expected[3, 0] = to_rgb(COLOURS["hopping"])  # f20_hat, f10_hat; rows of the table the other way
+    expected[3, 0] = to_rgb(COLOURS["hopping"])  # indices: f20_hat, f10_hat; the table varies f20_hat first
     np.testing.assert_allclose(painted, expected)
     (mark,) = (line for line in figure.axes[0].lines if line.get_marker() == MARKS["hopping"])
     assert mark.get_xydata().tolist() == cells[["f10_hat", "f20_hat"]].iloc[[3]].to_numpy().tolist()
     assert "hopping" in {text.get_text() for text in figure.legends[0].get_texts()}
 
 
-def test_lowest_peaks_are_measured_again_at_their_places_with_a_standard_error():
-    """Against runs of the same starts, frequency by frequency and cycle by cycle; the error by leaving starts out."""
+def test_lowest_peaks_are_measured_again_with_a_standard_error():
+    """Runs of the same starts are evaluated cycle by cycle for each frequency; the error is a jackknife over starts."""
     balls = {"band": BAND, "seed": 1, "cycles": 60, "settle": 40}
     balls |= tables_of(SYSTEMS["equal"], OBSERVATION)
     summary = companion_absorber.compute(SYSTEMS["equal"], **balls)["summary"]

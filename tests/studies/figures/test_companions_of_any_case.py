@@ -1,4 +1,4 @@
-"""Companions of a system that has nothing of what they show: a picture without it, and tables that say so."""
+"""Companion figures of systems without the orbits, points or responses that they show are drawn without them."""
 
 import numpy as np
 import pandas as pd
@@ -23,12 +23,12 @@ from vibroimpact.studies.sweeps.spec import Spec
 from vibroimpact.theory.fixed_points.table import fixed_point_table, labelled_points
 
 STILL = vi.System(**PARAMETERS, f10_hat=0.05, f20_hat=0.0)
-"""Too weakly driven for a fixed point, an orbit or an impact."""
+"""The forces are too weak for a fixed point, an orbit or an impact."""
 UNCOUPLED = PARAMETERS | {"alpha12_hat": 0.0, "gamma12_hat": 0.0}
 OBSERVATION = {"cycles": 20, "rounds": 1, "window": 8, "nearness": 0.02, "blocks": 2, "block": 5, "retest": 50}
 
 
-def test_without_orbits_fixed_points_are_left_without_multipliers():
+def test_fixed_points_without_orbits_have_the_verdict_no_orbit():
     system = vi.System(**PARAMETERS, f10_hat=0.5, f20_hat=0.5)
     rows = fixed_point_rows("weak", system, vi.fixed_points(system), orbit_rows("weak", []))
     assert rows[["orbit", "exact"]].to_numpy().tolist() == [["", NO_ORBIT]]
@@ -59,7 +59,7 @@ def test_couplings_without_fixed_points_have_no_errors(monkeypatch):
     companion_coupling.draw(tables)
 
 
-def test_a_path_without_special_points_says_none():
+def test_a_path_without_special_points_has_a_row_none():
     paths = [{"along": [name], "range": [0.01, 0.02]} for name in ("f10_hat", "f20_hat")]
     attractors = {"values": 2, "starts": 1, "seed": 1}
     tables = companion_branches.compute(STILL, paths, 0.1, 1, attractors, OBSERVATION, {})
@@ -86,7 +86,7 @@ def test_no_order_is_fitted_without_a_point_or_to_a_single_epsilon(force, points
 
 
 @pytest.mark.parametrize(("forces", "module"), [((2.0, 0.0), 1), ((0.0, 1.4), 2)])
-def test_a_single_machine_is_drawn_with_a_module_at_rest(forces, module):
+def test_figures_of_a_single_machine_show_one_module_at_rest(forces, module):
     system = vi.System(**UNCOUPLED, f10_hat=forces[0], f20_hat=forces[1])
     points = fixed_point_table("single", system)
     planes = fig10_06.compute(system, points, 2.5)
@@ -104,8 +104,8 @@ def test_a_single_machine_is_drawn_with_a_module_at_rest(forces, module):
     assert (judged["admissible"], judged["exact"]) == (True, orbit["exact"])
 
 
-def test_a_single_machine_is_compared_with_its_orbits():
-    """As epsilon falls the orbit nears the fixed point, and the distance is that of the module in company."""
+def test_fixed_points_of_a_single_machine_are_compared_with_its_orbits():
+    """The orbit converges to the fixed point as epsilon falls. The other module does not change the distance."""
     system = vi.System(**UNCOUPLED, f10_hat=2.0, f20_hat=0.0)
     tables = companion_epsilon.compute({"single": system}, [0.1, 0.001], 5, 0.02)
     assert tables["orders"]["order"].to_numpy() == pytest.approx([1, 1, 1, 2], abs=0.02)

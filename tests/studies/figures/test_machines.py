@@ -1,4 +1,4 @@
-"""Machines in SI units: closed forms in SI, and clearance over force."""
+"""Machines in SI units agree with closed forms in SI units and scale with clearance and force."""
 
 import numpy as np
 import pytest
@@ -17,14 +17,14 @@ def made():
 
 
 def velocities(p, hertz):
-    """Complex amplitudes [m/s] of the boxes without balls, by (10.1) as it is printed, under forces of phase 0."""
+    """Return complex velocity amplitudes [m/s] of the boxes without balls, by (10.1) as printed, forces of phase 0."""
     omega = 2 * np.pi * hertz
     own = [p[f"k{i}"] + p["k12"] + 1j * omega * (p[f"c{i}"] + p["c12"]) - p["M"] * omega**2 for i in (1, 2)]
     link = -p["k12"] - 1j * omega * p["c12"]
     return 1j * omega * np.linalg.solve([[own[0], link], [link, own[1]]], [p["F10"], p["F20"]])
 
 
-def test_without_balls_and_with_balls_that_meet_no_wall_swings_and_power_are_those_of_the_linear_machines(made):
+def test_displacement_and_power_without_impacts_are_those_of_the_linear_machines(made):
     line = made["csv"].query("series == 'without balls'")
     for hertz, swing in line[["frequency", "swing"]].to_numpy()[::50]:
         moving = velocities(SCENE["plant"], hertz)
@@ -37,7 +37,7 @@ def test_without_balls_and_with_balls_that_meet_no_wall_swings_and_power_are_tho
     assert idle["share"] == 0
 
 
-def test_twice_the_force_and_twice_the_clearance_swing_twice_as_far(made):
+def test_doubling_force_and_clearance_doubles_displacements(made):
     plant = SCENE["plant"] | {name: 2 * SCENE["plant"][name] for name in ("F10", "F20")}
     wider = SETTINGS | {"plant": plant, "clearances": [2 * L for L in SCENE["clearances"]]}
     found = machines.compute(**wider)["summary"]
@@ -46,7 +46,7 @@ def test_twice_the_force_and_twice_the_clearance_swing_twice_as_far(made):
         np.testing.assert_allclose(found[name], factor * made["summary"][name], rtol=1e-9)
 
 
-def test_a_ball_meets_its_wall_a_clearance_from_the_middle_of_its_box(made):
+def test_impacts_are_one_clearance_from_the_middle_of_the_box(made):
     motion = made["motion"]
     hits = motion[motion["at_wall"]]
     np.testing.assert_allclose(np.abs(hits["box"] - hits["ball"]), 1000 * SCENE["shown"]["L"], rtol=1e-9)
@@ -55,7 +55,7 @@ def test_a_ball_meets_its_wall_a_clearance_from_the_middle_of_its_box(made):
     assert len(hits) > 20
 
 
-def test_the_figure_names_every_curve_and_the_best_clearance(made):
+def test_the_figure_labels_every_curve_and_the_best_clearance(made):
     response = machines.draw(made).axes[0]
     names = ", ".join(text.get_text() for text in response.texts).split(", ")
     expected = [f"$L = {1000 * L:g}$ mm" for L in SCENE["clearances"]]

@@ -1,4 +1,4 @@
-"""Rules of the studies' figures: arguments of `compute`, what they make."""
+"""Rules of the studies' figures: parameters of the notebook, the set of figures, and figures without settings."""
 
 import papermill
 import pytest
@@ -12,6 +12,7 @@ DRAWN = drawn(REFERENCE)
 
 @pytest.fixture(scope="module")
 def of_the_studies(tmp_path_factory):
+    """Return the rules of the workflow with the studies."""
     return rules(tmp_path_factory.mktemp("studies"))
 
 

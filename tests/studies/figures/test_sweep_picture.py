@@ -1,4 +1,4 @@
-"""The default picture of a sweep: lines and cells at the values of the table, whatever is observed."""
+"""The default figure of a sweep has lines and cells at the values of the table."""
 
 import numpy as np
 import pandas as pd
@@ -13,7 +13,7 @@ PLANE = [{"along": ["epsilon"], "range": [0.001, 1.0], "values": 4, "scale": "lo
 
 
 def table(axes, observe):
-    """Numbers that tell every point and column apart."""
+    """Return a table of a sweep with different numbers in all rows and columns."""
     values = [[0.001, 0.01, 0.1, 1.0], [0.5, 0.8, 1.0]][: len(axes)]
     moved = [values.ravel() for values in np.meshgrid(*values, indexing="ij")]
     made = pd.DataFrame({axis["along"][0]: column for axis, column in zip(axes, moved, strict=True)})
@@ -29,7 +29,7 @@ def test_a_line_has_the_values_of_its_column():
     largest = {line.get_label(): line for line in figure.axes[0].lines}
     np.testing.assert_array_equal(largest["box 2"].get_ydata(), given["largest_X2"])
     np.testing.assert_array_equal(largest["box 2"].get_xdata(), given["kappa"])
-    assert len({line.get_marker() for line in figure.axes[0].lines}) == 2  # told apart without colour
+    assert len({line.get_marker() for line in figure.axes[0].lines}) == 2  # distinguishable without colour
 
 
 @pytest.mark.parametrize("axes", [LINE, PLANE])
@@ -38,7 +38,7 @@ def test_regimes_that_no_start_ends_in_are_left_out(axes):
     assert set(drawn["series"]) == set(REGIMES) - {"unsettled"}
 
 
-def test_a_map_has_a_panel_per_column_cells_around_their_points_and_blanks_where_there_is_no_value():
+def test_a_map_has_a_panel_per_column_with_cells_around_points_and_blanks_for_missing_values():
     given = table(PLANE, ["amplitudes", "fixed_points"]).assign(fixed_points=0.0)  # zeros are drawn
     given.loc[5, "largest_X1"] = np.nan
     figure = sweep.draw(sweep.compute(given, PLANE))
