@@ -1,4 +1,4 @@
-"""The predicted cost of a sweep, and the tiles that it is cut into."""
+"""The predicted cost of a sweep, and the number of tiles."""
 
 import pytest
 
@@ -27,7 +27,7 @@ def test_the_cost_grows_with_points_starts_and_cycles():
 
 
 @pytest.mark.parametrize(("seconds", "number"), [(1e9, 1), (1e-9, 40)])
-def test_there_is_one_tile_at_least_and_one_per_point_at_most(seconds, number):
+def test_there_is_at_least_one_tile_and_at_most_one_per_point(seconds, number):
     assert tiles(request(20), seconds) == number
 
 

@@ -1,4 +1,4 @@
-"""Rows of a sweep against direct calls of the library."""
+"""Rows of a sweep agree with direct calls of the library."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def test_amplitudes_are_those_of_samples_of_single_runs(found):
 
 
 def test_a_peak_is_that_of_the_systems_along_its_band(found):
-    """`peak` itself is held against samples of single runs (absorbers/test_peaks.py)."""
+    """absorbers/test_peaks.py compares `peak` with samples of single runs."""
     places = [-0.5, 0.0, 0.5, 1.0]
     systems = [BASE.with_(sigma_e_hat=value) for value in places]
     peaks, along = (
@@ -50,12 +50,12 @@ def test_a_peak_is_that_of_the_systems_along_its_band(found):
     )
     assert (found[1]["peak"], found[1]["peak_at"]) == (max(peaks), places[int(np.argmax(peaks))])
     assert found[1]["peak"] < max(row[f"largest_X{i}"] for row in along for i in (1, 2))
-    assert found[1]["peak_rms"] > max(row[f"rms_X{i}"] for row in along for i in (1, 2))  # of a start, not all
+    assert found[1]["peak_rms"] > max(row[f"rms_X{i}"] for row in along for i in (1, 2))  # of one start, not of all
     assert found[1]["peak_unfinished"] == 0
 
 
-def test_the_share_of_impacts_is_that_of_the_certified_runs_whose_balls_meet_walls():
-    """At this detuning rest never brings a ball to a wall, and the other starts do: it is counted, and left out."""
+def test_the_share_of_impacts_is_that_of_single_runs_with_impacts():
+    """At this detuning, the run from rest has no impacts. The row counts it and excludes it from the share."""
     system = BASE.with_(sigma_e_hat=-2.0)
     row = observed(system, Spec(("energy",), starts=3, seed=1, cycles=120, settle=60))
     runs = [vi.simulate(system, start, 120) for start in spread_starts(3, 1)]
@@ -70,7 +70,7 @@ def test_the_share_of_impacts_is_that_of_the_certified_runs_whose_balls_meet_wal
     assert from_rest["starts_without_impacts"] == 1
 
 
-def test_regimes_are_where_starts_settle_and_fixed_points_those_of_the_theory(found):
+def test_regimes_and_fixed_points_are_those_of_direct_calls(found):
     system = BASE.with_(f20_hat=0.89)
     names = [regime.name for regime in settle(system, spread_starts(3, 1), Observation(**OBSERVED))]
     assert {name: found[0][name] for name in REGIMES} == {name: names.count(name) / 3 for name in REGIMES}
@@ -78,7 +78,7 @@ def test_regimes_are_where_starts_settle_and_fixed_points_those_of_the_theory(fo
     assert found[0]["fixed_points"] == len(vi.fixed_points(system))
 
 
-def test_a_point_that_cannot_be_observed_says_why_and_costs_no_other(monkeypatch):
+def test_a_failed_point_has_a_reason_and_does_not_affect_other_points(monkeypatch):
     def fail(system, states, spec):
         if system.f20_hat == 1.0:
             raise ArithmeticError("no\nroots")
@@ -90,11 +90,11 @@ def test_a_point_that_cannot_be_observed_says_why_and_costs_no_other(monkeypatch
     assert second == {"point": 1, "f20_hat": 1.0, "failed": "no roots"}
 
 
-def test_runs_that_do_not_finish_are_counted_and_left_out(monkeypatch):
+def test_unfinished_runs_are_counted_and_excluded(monkeypatch):
     outcomes = vi.ensemble(BASE, spread_starts(3, 1), 4)
     broken = outcomes.copy()
     broken["status"][1], broken["largest"][1] = 1, np.nan
-    monkeypatch.setattr(observations, "ensemble", lambda *given, **more: broken)
+    monkeypatch.setattr(observations, "ensemble", lambda *arguments, **options: broken)
     row = observed(BASE, AMPLITUDES)
     assert row["unfinished"] == 1
     assert row["largest_X1"] == outcomes["largest"][[0, 2], 0].max()
