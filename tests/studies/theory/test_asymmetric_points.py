@@ -1,4 +1,4 @@
-"""Asymmetric fixed points: they stand still, their eigenvalues are those of the flow, and none is missed."""
+"""Asymmetric fixed points are equilibria of the slow flow with its eigenvalues, and their lists are complete."""
 
 import functools
 import itertools
@@ -26,7 +26,7 @@ def points(case):
 
 
 def flow(system, point, b):
-    """D_1 b near a point, each N following |b| along its own chart."""
+    """Return D_1 b near a point; each N follows |b| along the chart of its module."""
     known, N = charts(system.kappa), []
     for name, x, size in zip(point.charts, point.x, abs(b), strict=True):
         chart = known[name]
@@ -39,7 +39,7 @@ def flow(system, point, b):
 
 
 @pytest.mark.parametrize("case", ["equal", "both"])
-def test_points_stand_still_and_eigenvalues_are_those_of_the_flow_in_the_plane_of_b(case):
+def test_points_are_equilibria_and_eigenvalues_are_those_of_the_flow_in_the_plane_of_b(case):
     system, step = SYSTEMS[case], 1e-6
     for point in points(case):
         b = point.B * np.exp(-1j * point.psi)
@@ -49,26 +49,26 @@ def test_points_stand_still_and_eigenvalues_are_those_of_the_flow_in_the_plane_o
             ahead, behind = (flow(system, point, b + sign * step * np.array(change)) for sign in (1, -1))
             slope = (ahead - behind) / (2 * step)
             columns.append(np.ravel([slope.real, slope.imag], order="F"))
-        # Compared as characteristic polynomials, whose coefficients have an order.
+        # Characteristic polynomials are compared, since their coefficients have an order.
         np.testing.assert_allclose(np.poly(np.transpose(columns)), np.poly(point.slow_eigenvalues).real, atol=1e-5)
 
 
 @pytest.mark.parametrize("case", SYSTEMS)
-def test_none_is_missed(case):
+def test_lists_of_points_are_proved_complete(case):
     proof = completeness_proof.certify_asymmetric(SYSTEMS[case])
     assert proof.complete
     assert len(proof.isolated) == len(points(case))
 
 
-def test_a_missing_point_and_a_spurious_one_are_found_out(monkeypatch):
+def test_a_list_with_a_missing_or_a_repeated_point_is_not_complete(monkeypatch):
     listed = points("equal")
     for spoilt in (listed[1:], [*listed, listed[0]]):
         monkeypatch.setattr(completeness_proof.asymmetric, "search", lambda system, spoilt=spoilt: spoilt)
         assert not completeness_proof.certify_asymmetric(SYSTEMS["equal"]).complete
 
 
-def test_without_coupling_each_module_is_on_its_own():
-    """A module alone balances |e z + n| = |f beta|: its points times the symmetric ones of the other."""
+def test_points_of_uncoupled_modules_are_combinations_of_points_of_single_modules():
+    """The points of a single module are roots of |e z + n| = |f beta|, on a symmetric or on the asymmetric chart."""
     system = SYSTEMS["equal"].with_(alpha12_hat=0, gamma12_hat=0, f10_hat=0.6)
     e, forces, known = impedances(system)[0], (system.f10_hat, system.f20_hat), charts(system.kappa)
     roots = {}
@@ -83,7 +83,7 @@ def test_without_coupling_each_module_is_on_its_own():
             np.testing.assert_allclose(np.reshape(found, (-1, 2)), np.reshape(expected, (-1, 2)), atol=6e-4)
 
 
-def test_what_is_not_driven_or_not_a_system_is_told():
+def test_unforced_systems_have_no_points_and_other_types_are_rejected():
     assert fixed_points(SYSTEMS["equal"].with_(f10_hat=0.0, f20_hat=0.0)) == []
     with pytest.raises(ValueError, match="system"):
         fixed_points("equal")

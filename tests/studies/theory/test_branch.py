@@ -1,4 +1,4 @@
-"""The asymmetric branch by computer algebra (docs/derivation.md, section 11), and against the ball itself."""
+"""The asymmetric branch agrees with computer algebra (docs/derivation.md, section 11) and with flights of the ball."""
 
 import numpy as np
 import pytest
@@ -12,11 +12,11 @@ v, kappa, u, J, B, C, P, Q = sp.symbols("v kappa u J B C P Q", positive=True)
 x, a, b = sp.symbols("x a b", real=True)
 DIGITS = 30
 PLACES = [(sp.Rational(3, 10), sp.Rational(13, 20)), (sp.Rational(7, 10), sp.Rational(1, 10))]
-"""v and kappa."""
+"""Values of v and kappa."""
 
 
 def motion(place):
-    """Values of all symbols from both walls and both impacts: B cos m = P, B sin m = Q, m half-way between these."""
+    """Return the values of all symbols. P = B cos m and Q = B sin m, where m is halfway between both impacts."""
     difference, restitution = place
     share = (1 - difference) / 2
     cosine, sine = sp.cos(sp.pi * share), sp.sin(sp.pi * share)
@@ -43,7 +43,7 @@ def at(expression, values):
 
 
 @pytest.mark.parametrize("values", MOTIONS)
-def test_the_laws_of_impact_leave_the_branch(values):
+def test_the_impact_laws_give_the_branch(values):
     difference, restitution = float(values[v]), float(values[kappa])
     chart, squared = charts(restitution)[ASYMMETRIC], difference**2
     middle, phases = -chart.z(squared) / chart.beta(squared), branch.impact_phases(difference, restitution)
@@ -52,19 +52,19 @@ def test_the_laws_of_impact_leave_the_branch(values):
     assert [float(values[a]), float(values[b])] == pytest.approx(phases, abs=1e-13)
 
 
-def test_symmetry_breaks_forwards_for_every_kappa():
-    """B grows away from v = 0: the pair begins where the symmetric motion loses its stability."""
+def test_symmetry_breaking_is_supercritical_for_every_kappa():
+    """B increases away from v = 0, so the pair begins where the symmetric motion loses its stability."""
     G0, G2 = (sp.series(2 * v / sp.pi * sp.cot(sp.pi * v / 2), v, 0, 3).removeO().coeff(v, k) for k in (0, 2))
     squared_rho = sp.Symbol("rho", nonnegative=True)
-    # Of log B^2 = log(G^2 + rho^2) - 2 log(1 - v^2 - G) - 2 log cos(pi v / 2), the coefficient of v^2.
+    # Coefficient of v^2 in log B^2 = log(G^2 + rho^2) - 2 log(1 - v^2 - G) - 2 log cos(pi v / 2).
     growth = 2 * G0 * G2 / (G0**2 + squared_rho) + 2 * (1 + G2) / (1 - G0) + sp.pi**2 / 4
     assert growth.subs(squared_rho, 0) > 0
     assert sp.diff(growth, squared_rho).is_positive
 
 
 @pytest.mark.parametrize("values", MOTIONS)
-def test_first_harmonic_of_the_skewed_saw_tooth(values):
-    """By its Fourier integral over both flights; N times U = Re(-i B exp(i x))."""
+def test_the_first_harmonic_of_the_asymmetric_sawtooth_is_that_of_the_chart(values):
+    """The Fourier integral over both flights is N times the amplitude -i B of U = Re(-i B exp(i x))."""
     down, up = -J * (1 - u) * (x - a), -J * (1 - u) * (b - a) + J * u * (x - b)
     antiderivatives = [sp.integrate(sp.expand(flight * sp.exp(-sp.I * x)), x) for flight in (down, up)]
     ends = [(a, b), (b, a + 2 * sp.pi)]
@@ -76,8 +76,8 @@ def test_first_harmonic_of_the_skewed_saw_tooth(values):
 
 
 @pytest.mark.parametrize("values", MOTIONS)
-def test_trace_and_determinant_of_the_impact_map(values):
-    """The map from impact to impact, differentiated, around both flights of the branch."""
+def test_the_trace_of_the_impact_map_is_that_of_the_branch(values):
+    """The derivative of the map from impact to impact is multiplied over both flights. Its determinant is kappa^4."""
     x0, x1, s0 = sp.symbols("x0 x1 s0", real=True)
 
     def derivative(wall, start, end, slope):
@@ -95,7 +95,7 @@ def test_trace_and_determinant_of_the_impact_map(values):
 
 
 @pytest.mark.parametrize("kappa", [0.1, 0.65, 0.95])
-def test_the_branch_begins_where_symmetry_breaks_and_only_grows(kappa):
+def test_the_branch_begins_where_symmetry_breaks_and_grows_monotonically(kappa):
     squared = np.linspace(0, 0.99, 400)
     C, B = branch.amplitudes(squared, kappa)
     assert C[0] == pytest.approx(masri.SYMMETRY_BREAKING_C, rel=1e-14)
@@ -111,15 +111,15 @@ def test_the_branch_is_stable_up_to_a_period_doubling(kappa):
     end = branch.period_doubling(kappa)
     assert (np.diff(branch.trace(np.linspace(0, 1.2 * end, 100), kappa)) < 0).all()
     assert min(abs(branch.multipliers(end, kappa) + 1)) < 1e-9
-    for squared, said in ((0.5 * end, "stable"), (end, "undecided"), (1.01 * end, "unstable"), (-0.01, "unstable")):
-        assert branch.stable(squared, kappa) == said
+    for squared, expected in ((0.5 * end, "stable"), (end, "undecided"), (1.01 * end, "unstable"), (-0.01, "unstable")):
+        assert branch.stable(squared, kappa) == expected
         inside = bool((abs(branch.multipliers(squared, kappa)) < 1).all())
-        assert said == "undecided" or inside == (said == "stable")
+        assert expected == "undecided" or inside == (expected == "stable")
 
 
 @pytest.mark.parametrize(("v", "kappa"), [(0.02, 0.65), (0.3, 0.65), (0.45, 0.3), (0.6, 0.9)])
-def test_overshoot_is_that_of_a_sampled_flight(v, kappa):
-    """The ball stays inside at all but the last."""
+def test_the_overshoot_is_that_of_sampled_flights(v, kappa):
+    """The ball stays between its walls in all motions except the last."""
     C, B = branch.amplitudes(v**2, kappa)
     jump = 4 * C / (np.pi * (1 - v**2))  # of the slope of the saw-tooth at an impact
     a, b = branch.impact_phases(v, kappa)

@@ -1,4 +1,4 @@
-"""The relaxation closure: on the manifold it is the slow flow, it loses balls at the fold and no earlier."""
+"""The relaxation closure is the slow flow on the manifold, and linear where a ball has no impacts."""
 
 import numpy as np
 from scipy.linalg import expm
@@ -25,8 +25,8 @@ def test_describing_function_is_that_of_the_manifold():
             np.testing.assert_allclose(ball(point.B).imag[skewed], from_power[skewed], rtol=1e-4)
 
 
-def test_a_ball_at_rest_leaves_a_linear_motion_to_second_order_in_the_step():
-    """From next to rest under forces too weak to bring the box to the walls: the exponential of the linear flow."""
+def test_the_motion_with_balls_at_rest_is_linear():
+    """The forces are too weak for impacts. The reference is the exponential of the linear flow from the same start."""
     system = EQUAL.with_(f10_hat=0.15, f20_hat=0.1)
     e, K = impedances(system)
     force, rate = np.array([0.15, 0.1]), (np.diag(e + K) - K * np.eye(2)[::-1]) / -2j
@@ -39,7 +39,7 @@ def test_a_ball_at_rest_leaves_a_linear_motion_to_second_order_in_the_step():
     assert found.share.max() < 0.01
 
 
-def test_a_stable_point_holds_both_balls_for_good():
+def test_both_balls_stay_in_resonance_at_a_stable_point():
     system = EQUAL.with_(f20_hat=1.4)
     (point,) = [p for p in fixed_points(system) if p.real and p.slow_verdict() == "stable"]
     b = point.B * np.exp(-1j * point.psi)
@@ -48,8 +48,8 @@ def test_a_stable_point_holds_both_balls_for_good():
     np.testing.assert_allclose(found.largest, point.B, rtol=1e-3)
 
 
-def test_without_force_amplitudes_fall_to_the_fold_at_a_known_time():
-    """One module alone: d B^2 / d tau_1 = -mu rho C^2 - gamma B^2, integrated along the arm by itself."""
+def test_without_forces_balls_leave_resonance_when_amplitudes_reach_the_fold():
+    """For a single module, d B^2 / d tau_1 = -mu rho C^2 - gamma B^2 is integrated along the arm to the fold."""
     system = EQUAL.with_(f10_hat=0.0, f20_hat=0.0, alpha12_hat=0.0, gamma12_hat=0.0)
     C = np.linspace(C_min(R), 1.6, 200001)
     B = B_of_C(C, R)
