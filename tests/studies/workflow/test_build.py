@@ -1,4 +1,4 @@
-"""The build of the studies: nothing to do a second time, after a change what depends on it; checked and archived."""
+"""The build of the studies: jobs after an edit, the figure check, records and the archive."""
 
 import os
 import re
@@ -30,8 +30,8 @@ def test_only_what_depends_on_an_edit_is_planned(restudied):
 
 
 def test_the_figures_are_those_of_the_reference_set(restudied):
-    said = restudied.snakemake("study_check")
-    number, passed = re.search(r"(\d+) figures: (\d+) passed", said).groups()
+    printed = restudied.snakemake("study_check")
+    number, passed = re.search(r"(\d+) figures: (\d+) passed", printed).groups()
     assert number == passed
 
 
@@ -46,7 +46,7 @@ def test_every_result_has_a_record_and_every_record_its_result(studied):
 
 @pytest.mark.thorough
 def test_the_archive_has_both_layers(studied, tmp_path):
-    """After a changed setting, the figures that depend on it are built first."""
+    """After an edit, the archive is planned together with the figures that depend on the edit."""
     tree = checkout(studied, tmp_path / "tree")
     tree.snakemake("archive")
     packed = unpacked(archive_of(tree), tmp_path)

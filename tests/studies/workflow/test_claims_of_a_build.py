@@ -1,4 +1,4 @@
-"""Stability and claims as a build leaves them: orbits, proofs, verdicts as pinned, numbers of the findings."""
+"""Results of a build: completeness proofs, expected verdicts on claims, and numbers of the findings."""
 
 import json
 import re
@@ -19,13 +19,13 @@ SOURCED = [
     (number, PLACES[key])
     for number, key in re.findall(r"\[(−?[\d.]+)\]\((?:studies/)?numbers\.yaml#([\w.-]+)\)", DOCUMENTS)
 ]
-"""Numbers of documents with the place in a build that each is from."""
+"""Numbers of documents, each with its place in the results."""
 CHAOTIC = tuple(f"regimes/{name}.csv" for name in ("modulation", "modulation_onsets", "spectra", "basin_shares"))
 LARGEST_OF_FEW = (
     *(f'absorber.csv | quantity == "peak" and who == "{who}"' for who in ("balls", "balls, best kappa")),
     *(f'absorber.csv | quantity == "{quantity}"' for quantity in ("lowest peak", "greatest", "impact share")),
 )
-"""What comes from a few runs, most of them chaotic."""
+"""Results of a few runs, most of which are chaotic."""
 LONG = tuple(
     f'regimes/{file}.csv | case == "{case}" and start == "spread" and quantity == "{quantity}" | mean'
     for file, case, quantity in (
@@ -35,7 +35,7 @@ LONG = tuple(
         ("spectra", "weak", "sum of exponents"),
     )
 )
-"""Chaotic, over so many cycles that the digits of the findings are those of every build."""
+"""Results of chaotic runs that are long enough for every build to give the digits of the findings."""
 
 
 def test_fixed_points_and_symmetric_orbits_are_proved_complete(studied):
@@ -94,7 +94,7 @@ def test_the_matrix_of_criteria_is_that_of_the_results(studied):
     points = pd.read_csv(studied / "results/fixed_points.csv").set_index(["case", "label"])
     both = points[["fast", "slow"]].eq("stable").all(axis=1).map({True: "stable", False: "unstable"})
     points = points.assign(both=both)[["printed_10_26", "fast", "both", "exact"]]
-    told = re.findall(r"^\| (\w+) ([a-c]) \| (\w+) \| (\w+) \| (\w+) \| (\w+) \|$", FINDINGS, flags=re.MULTILINE)
-    assert {(case, label): verdicts for case, label, *verdicts in told} == dict(
+    rows = re.findall(r"^\| (\w+) ([a-c]) \| (\w+) \| (\w+) \| (\w+) \| (\w+) \|$", FINDINGS, flags=re.MULTILINE)
+    assert {(case, label): verdicts for case, label, *verdicts in rows} == dict(
         zip(points.index, points.to_numpy().tolist(), strict=True)
     )
