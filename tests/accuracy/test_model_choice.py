@@ -93,7 +93,7 @@ def test_points_without_an_exact_orbit_and_unsupported_models_are_refused_in_one
 def test_the_model_determines_the_arithmetic_and_the_case_its_digits():
     system = system_of("equal")
     settings = {"initial_state": [0.0] * 8, "transient_cycles": 0, "window_cycles": 2, "samples_per_cycle": 8}
-    for digits, given in ((None, {}), (50, {"digits": 50})):
-        trusts = [window(system, settings | given | {"model": model}).trust for model in CHOICES["simulation"]]
+    for digits, choice in ((None, {}), (50, {"digits": 50})):
+        trusts = [window(system, settings | choice | {"model": model}).trust for model in CHOICES["simulation"]]
         assert [trust["method"] for trust in trusts] == ["float64", "arbitrary precision"]
         assert trusts[1]["digits"] == [digits or 40, 2 * (digits or 40)]
