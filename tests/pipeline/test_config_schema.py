@@ -24,14 +24,14 @@ def nodes(node):
 
 
 @pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.parent.name)
-def test_it_is_up_to_date(target):
+def test_the_schema_of_a_file_is_up_to_date(target):
     assert target.read_text(encoding="utf-8") == schema(TARGETS[target]), "python -m vibroimpact_pipeline.config.schema"
 
 
-def test_the_editor_is_told_of_the_schema_of_each_file():
+def test_each_file_names_its_schema_for_editors():
     folder = ROOT / "config"
-    told = [re.match("# yaml-language-server: [$]schema=(.*)", path.read_text())[1] for path in folder.glob("*.yaml")]
-    assert {(folder / name).resolve() for name in told} == {*TARGETS}
+    named = [re.match("# yaml-language-server: [$]schema=(.*)", path.read_text())[1] for path in folder.glob("*.yaml")]
+    assert {(folder / name).resolve() for name in named} == {*TARGETS}
 
 
 @pytest.mark.parametrize("model", TARGETS.values())
@@ -54,15 +54,15 @@ def described(node) -> bool:
 
 
 @pytest.mark.parametrize("edits", UNUSUAL)
-def test_what_the_model_accepts_the_schema_accepts(edits):
+def test_the_schema_accepts_what_the_model_accepts(edits):
     assert not [error.message for error in check_of(Config).iter_errors(of_file(edited(edits)))]
 
 
-def test_what_is_wrong_with_one_value_the_schema_refuses():
+def test_the_schema_rejects_single_invalid_values():
     assert refused_by_both(Config, [edited(edits) for edits, _ in TABLE], of_file) > 100
 
 
-def test_entries_without_a_case_take_the_default_and_those_of_a_removed_case_are_left_out():
+def test_entries_without_a_case_get_the_default_case_and_those_of_a_removed_case_are_left_out():
     made = checked(
         edited("cases.equal = ... & default_case = weak & accuracy.problems.transient.case = ... & "
         "figures.mine = {like: fig10_08, model: float64}")
