@@ -15,9 +15,9 @@ SPECS = specs()
 
 def rules(folder: Path, config: dict | None = None) -> dict:
     """Return the rules for a config by name."""
-    given = folder / "config.yaml"
-    given.write_text(yaml.safe_dump(config or GOOD), encoding="utf-8")
-    settings = ConfigSettings(configfiles=[given], replace_workflow_config=True)
+    path = folder / "config.yaml"
+    path.write_text(yaml.safe_dump(config or GOOD), encoding="utf-8")
+    settings = ConfigSettings(configfiles=[path], replace_workflow_config=True)
     with SnakemakeApi() as api:
         workflow = api.workflow(
             resource_settings=ResourceSettings(cores=1),
