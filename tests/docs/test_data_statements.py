@@ -19,6 +19,7 @@ SIDES = ("1_plus", "1_minus", "2_plus", "2_minus")
 
 @pytest.fixture(scope="module")
 def table(built):
+    """Return a function that reads a table of the results by name."""
     return lambda name: read(built / "results" / name)
 
 
