@@ -168,9 +168,9 @@ def test_the_notebook_play_shows_correct_results_and_writes_only_the_animation(t
 
 
 def test_an_unknown_parameter_of_papermill_is_an_error(tmp_path):
-    given = [str(ROOT / "notebooks/fixed_points.ipynb"), "executed.ipynb", "--no-progress-bar", "-p", "kapa", "0.5"]
+    options = [str(ROOT / "notebooks/fixed_points.ipynb"), "executed.ipynb", "--no-progress-bar", "-p", "kapa", "0.5"]
     run = subprocess.run(
-        [sys.executable, "-m", "papermill", *given], cwd=tmp_path, capture_output=True, text=True, check=False
+        [sys.executable, "-m", "papermill", *options], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert run.returncode != 0
     assert "ValueError: parameters: unknown kapa; this notebook has model, C_max, epsilon, kappa" in run.stderr

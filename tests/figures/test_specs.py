@@ -17,22 +17,23 @@ PAGES = {notebook: [one for one in GOOD["figures"] if SPECS[one]["notebook"] == 
 
 @pytest.fixture(scope="module")
 def of_the_chapter(tmp_path_factory):
+    """Return the rules of the workflow."""
     return rules(tmp_path_factory.mktemp("chapter"))
 
 
 @pytest.mark.parametrize("notebook", PAGES)
 def test_rules_set_all_parameters_of_a_notebook(notebook, of_the_chapter):
-    """Parameters of other figures of the same notebook are None."""
+    """Parameters that only other figures of the notebook need have the default None."""
     known = papermill.inspect_notebook(str(ROOT / f"notebooks/{notebook}.ipynb"))
-    given = {}
+    passed = {}
     for figure, page in of_the_chapter[f"pages_{notebook}"].params.pages.items():
         system = {"case": page["case"], **page["system"]} if page["case"] else {}
         settings = {path.rpartition(".")[2] for path in page["config"]} - {page["case"]}
-        given[figure] = {"figure", "alt", "inputs", *system, *settings}
-    assert [*given] == PAGES[notebook]
-    assert set().union(*given.values()) == known.keys()
+        passed[figure] = {"figure", "alt", "inputs", *system, *settings}
+    assert [*passed] == PAGES[notebook]
+    assert set().union(*passed.values()) == known.keys()
     if notebook != "closed_form":
-        for names in given.values():
+        for names in passed.values():
             assert {known[name]["default"] for name in known.keys() - names} <= {"None"}
 
 
