@@ -38,14 +38,14 @@ def elsewhere(archived, tmp_path):
     return unpacked(archive_of(archived), tmp_path)
 
 
-def test_the_name_tells_version_and_commit(archived):
+def test_the_name_contains_version_and_commit(archived):
     commit = git(archived.path, "rev-parse", "HEAD")
     named = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)[1]
     assert archive_of(archived).name == f"vibroimpact-{named}-{commit[:12]}.tar.gz"
 
 
-def test_results_on_demand_stay_out(tmp_path, monkeypatch):
-    """They may be from an older commit. A second output of a needed rule is included."""
+def test_results_on_demand_are_excluded(tmp_path, monkeypatch):
+    """Such results may be from an older commit. A second output of a needed rule is included."""
     monkeypatch.chdir(tmp_path)
     made = {"table.csv": ("solve", []), "figure.png": ("draw", ["table.csv"]), "figure.csv": ("draw", ["table.csv"])}
     for name, (rule, inputs) in (made | {"report.html": ("report", ["figure.png"])}).items():
@@ -55,28 +55,28 @@ def test_results_on_demand_stay_out(tmp_path, monkeypatch):
     assert results_behind(["results/figure.png"]) == sorted(Path("results", name) for name in made)
 
 
-def test_a_config_of_the_command_line_is_not_that_of_the_commit(tree):
+def test_a_config_on_the_command_line_prevents_an_archive(tree):
     """The archive would claim the wrong config, so nothing is built."""
     commit(tree.path)
-    said = tree.dry_run("--config", "figures={fig10_04: {C_max: 3.0}}", "--", "archive")
+    text = tree.dry_run("--config", "figures={fig10_04: {C_max: 3.0}}", "--", "archive")
     assert tree.returncode == 1
-    assert re.search(r"archive: figures.fig10_04.C_max is 3.0, but 2.0 in config/config.yaml\b.*\. Build without", said)
-    assert "Traceback" not in said
+    assert re.search(r"archive: figures.fig10_04.C_max is 3.0, but 2.0 in config/config.yaml\b.*\. Build without", text)
+    assert "Traceback" not in text
 
 
 def test_an_archive_needs_a_commit_and_rebuilds_what_is_out_of_date(rebuilt):
     commit(rebuilt.path)
     rebuilt.edit("config/config.yaml", "C_range: [0.5, 1.1]", "C_range: [0.5, 1.2]")
-    said = rebuilt.dry_run("archive")
+    text = rebuilt.dry_run("archive")
     assert rebuilt.returncode == 1
-    assert "archive: uncommitted changes in config/config.yaml; commit, ignore or remove them first" in said
+    assert "archive: uncommitted changes in config/config.yaml; commit, ignore or remove them first" in text
     commit(rebuilt.path)
     assert {"fig10_05", "archive"} <= (planned := rebuilt.planned("archive"))
     assert "fig10_06" not in planned
 
 
 @pytest.mark.thorough
-def test_the_same_bytes_twice(archived, tmp_path):
+def test_two_archives_of_a_commit_have_the_same_bytes(archived, tmp_path):
     """The second archive is made in another folder, with other settings of the user."""
     tree = whole_copy(archived, tmp_path / "tree")
     shutil.rmtree(tree / "results/archive")
@@ -84,7 +84,7 @@ def test_the_same_bytes_twice(archived, tmp_path):
     assert archive_of(tree).read_bytes() == archive_of(archived).read_bytes()
 
 
-def test_the_commands_of_the_readme_make_a_figure_again(elsewhere):
+def test_the_commands_of_the_page_on_running_rebuild_a_figure(elsewhere):
     before = {path: path.read_bytes() for path in elsewhere.path.glob(f"{FIGURE}.*")}
     done = subprocess.run(
         ["bash", "-e", "-c", "\n".join(commands())],
@@ -102,23 +102,23 @@ def test_the_commands_of_the_readme_make_a_figure_again(elsewhere):
     assert done.stdout.endswith("No differences: this checkout makes the same figure.\n")
 
 
-def test_elsewhere_results_are_there_to_read_and_do_not_count_as_made(elsewhere):
+def test_results_of_an_unpacked_archive_do_not_count_as_built(elsewhere):
     """Without their records, the origin of the results is unknown."""
     assert {"fig10_04", "simulation", "work_precision"} <= elsewhere.planned()
 
 
-def test_the_sums_of_all_files_are_in_the_archive(elsewhere):
+def test_the_archive_contains_the_checksums_of_its_files(elsewhere):
     crate = json.loads((elsewhere / "ro-crate-metadata.json").read_text())["@graph"]
     sums = {entity["@id"]: entity["sha256"] for entity in crate if "sha256" in entity}
     assert {f"{FIGURE}.png", f"{FIGURE}.csv", "config/config.yaml"} <= sums.keys()
     assert sums == {name: hashlib.sha256((elsewhere / name).read_bytes()).hexdigest() for name in sums}
 
 
-def test_elsewhere_there_is_no_archive_without_git(elsewhere):
-    said = elsewhere.snakemake("archive", check=False)
+def test_an_unpacked_archive_cannot_be_archived_without_git(elsewhere):
+    text = elsewhere.snakemake("archive", check=False)
     assert elsewhere.returncode == 1
-    assert "archive: the pipeline is not a git checkout" in said
-    assert "Traceback" not in said
+    assert "archive: the pipeline is not a git checkout" in text
+    assert "Traceback" not in text
 
 
 def test_a_container_has_the_checkout_that_an_archive_needs():

@@ -9,7 +9,7 @@ CONFIG = "config/config.yaml"
 
 
 @pytest.mark.thorough
-def test_own_cases_and_figures_go_through_figures_and_check(rebuilt):
+def test_own_cases_and_figures_are_built_and_checked(rebuilt):
     edit(rebuilt, CONFIG, own)
     rebuilt.snakemake()
     results = rebuilt / "results"
@@ -26,12 +26,12 @@ def test_own_cases_and_figures_go_through_figures_and_check(rebuilt):
     output = rebuilt.snakemake("figure_check", check=False)
     assert rebuilt.returncode == 1
     assert all(f"{figure}: failed: no reference" in output for figure in OWN_FIGURES)
-    status, said = run_module(rebuilt.path, "vibroimpact_pipeline.figure_check.accept", "--reason", "one's own")
-    assert status == 0, said
+    status, printed = run_module(rebuilt.path, "vibroimpact_pipeline.figure_check.accept", "--reason", "one's own")
+    assert status == 0, printed
     rebuilt.snakemake("figure_check")
 
 
-def test_a_single_case_of_another_name_is_planned_to_the_end(rebuilt):
+def test_a_single_case_of_another_name_is_planned_up_to_the_figure_check(rebuilt):
     edit(rebuilt, CONFIG, single)
     rules = rebuilt.planned("all", "figure_check")
     assert {"fig10_06", "index", "figure_check"} <= rules

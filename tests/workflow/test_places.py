@@ -34,7 +34,7 @@ def snakefile(tree):
     return "--snakefile", str(tree / "Snakefile")
 
 
-def test_in_another_directory_and_nothing_is_written_home(tree, built, tmp_path):
+def test_a_build_in_another_directory_writes_nothing_to_the_home_folder(tree, built, tmp_path):
     home, elsewhere = tmp_path / "home", tmp_path / "elsewhere"
     home.mkdir()
     tree.snakemake("--directory", str(elsewhere), "fig10_03", HOME=str(home))
@@ -43,13 +43,13 @@ def test_in_another_directory_and_nothing_is_written_home(tree, built, tmp_path)
     assert not (tree / "results").exists()
 
 
-def test_no_record_tells_a_path_of_this_machine(built):
+def test_no_record_contains_a_path_of_this_machine(built):
     records = [path.read_text() for path in (built / "results").rglob("*.provenance.json")]
     assert [record for record in records if str(built.path) in record or str(ROOT) in record] == []
     assert records
 
 
-def test_from_a_read_only_tree_without_a_home(tree, built, tmp_path):
+def test_a_build_from_a_read_only_tree_without_a_home(tree, built, tmp_path):
     elsewhere = Tree(tmp_path / "elsewhere")
     elsewhere.path.mkdir()
     with_tree_read_only(elsewhere, tree, *snakefile(tree), FIGURE, HOME=os.devnull)
@@ -71,7 +71,7 @@ def with_tree_read_only(elsewhere, tree, *arguments, **environment):
 
 
 @pytest.mark.thorough
-def test_in_a_long_path_with_a_space_and_letters_that_the_locale_lacks(tree, built, tmp_path):
+def test_a_build_in_a_long_path_with_a_space_and_letters_that_the_locale_lacks(tree, built, tmp_path):
     """Names of sockets have at most 107 characters, and the first line of a script 127 or 255."""
     there = Tree(tree.path.rename(long(tmp_path, 150) / "zwei Kästen"))
     temporary = long(tmp_path, 200)
@@ -93,24 +93,24 @@ def interpreter_in(tree):
     return tree / ".venv/bin/python"
 
 
-def test_a_file_on_the_command_line_sets_what_it_names(rebuilt, tmp_path):
-    given = tmp_path / "try.yaml"
-    given.write_text("cases: {weak: {f20_hat: 0.7}}\n")
-    planned = rebuilt.planned("figures", "--configfile", str(given))
+def test_a_config_file_on_the_command_line_overrides_single_values(rebuilt, tmp_path):
+    path = tmp_path / "try.yaml"
+    path.write_text("cases: {weak: {f20_hat: 0.7}}\n")
+    planned = rebuilt.planned("figures", "--configfile", str(path))
     assert planned >= {"fig10_10", "fig10_11"}
     assert "fig10_06" not in planned
 
 
-def test_a_whole_file_on_the_command_line_is_the_config_alone(rebuilt, tmp_path):
+def test_a_whole_config_file_on_the_command_line_can_replace_the_config(rebuilt, tmp_path):
     text = "".join(path.read_text() for path in sorted((rebuilt / "config").glob("*.yaml")))
-    given = tmp_path / "whole.yaml"
-    given.write_text(text.replace("fixed_point: c, periods: 2", "fixed_point: c, periods: 3"))
+    path = tmp_path / "whole.yaml"
+    path.write_text(text.replace("fixed_point: c, periods: 2", "fixed_point: c, periods: 3"))
     rebuilt.edit("config/config.yaml", "kappa: 0.65", "kappa: 0.5")
-    planned = rebuilt.planned("figures", "--configfile", str(given), "--replace-workflow-config")
+    planned = rebuilt.planned("figures", "--configfile", str(path), "--replace-workflow-config")
     assert planned == {"fig10_07", "pages_theoretical_response"}
 
 
-def test_a_directory_with_a_config_of_its_own_follows_it(tree, tmp_path):
+def test_a_working_directory_with_its_own_config_uses_it(tree, tmp_path):
     own = Tree(tmp_path / "own")
     (own / "config").mkdir(parents=True)
     (own / "config/config.yaml").write_text("system: {kapa: 0.6}\n")
@@ -127,8 +127,8 @@ def test_the_report_of_snakemake_needs_no_number_of_cores(built, tmp_path):
     assert "fig10_04" in page.read_text(encoding="utf-8")
 
 
-def test_the_linter_finds_nothing_else(tree):
-    """It does not know that all jobs run in the environment of environment.lock and write a log (`jobs.log_of`)."""
+def test_the_linter_finds_only_two_expected_messages(tree):
+    """The linter does not detect the environment of all jobs, environment.lock, and their logs (`jobs.log_of`)."""
     _, output = run_module(tree.path, "snakemake", "--lint")
     found = {line for line in output.splitlines() if line.startswith("    * ")}
     excepted = "Specify a conda environment or container for each rule.:", "No log directive defined:"
@@ -136,7 +136,7 @@ def test_the_linter_finds_nothing_else(tree):
 
 
 @pytest.mark.thorough
-def test_a_user_without_a_name_or_a_home(tree):
+def test_a_build_of_a_user_without_a_name_or_a_home(tree):
     names = dict.fromkeys(("LOGNAME", "USER", "LNAME", "USERNAME", "XDG_CACHE_HOME"))
     tree.snakemake(FIGURE, prefix=unshared("--user", "--map-user=12345"), HOME="/proc/none", **names)
     assert (tree / f"results/figures/{FIGURE}.png").exists()

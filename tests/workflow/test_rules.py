@@ -24,14 +24,14 @@ def test_a_rule_names_the_code_of_its_script(script, named):
 
 
 @pytest.mark.parametrize("script", sorted({script for script, _ in rules()}))
-def test_nothing_follows_the_work_of_a_job(script):
+def test_no_code_follows_the_block_of_a_job(script):
     """The process ends with the block of `running`; a line below, such as a check's exit status, would not run."""
     last = ast.parse((ROOT / f"workflow/scripts/{script}.py").read_text(encoding="utf-8")).body[-1]
     assert isinstance(last, ast.With)
     assert ast.unparse(last.items[0].context_expr) == "running(snakemake)"
 
 
-def test_all_scripts_of_the_workflow_were_read():
+def test_rules_use_all_scripts_of_the_workflow():
     """`benchmark` and `compile` are excepted, since no rule runs them."""
     folder = ROOT / "workflow/scripts"
     scripts = {path.relative_to(folder).with_suffix("").as_posix() for path in folder.rglob("*.py")}

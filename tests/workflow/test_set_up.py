@@ -321,10 +321,10 @@ def test_the_workflow_names_packages_that_are_not_installed(tree):
     hidden = tree / "hidden/sitecustomize.py"
     hidden.parent.mkdir()
     hidden.write_text("import sys\n\nsys.modules |= {'papermill': None, 'flint': None}\n", encoding="utf-8")
-    said = tree.snakemake("fig10_04", check=False, PYTHONPATH=str(hidden.parent))
+    message = tree.snakemake("fig10_04", check=False, PYTHONPATH=str(hidden.parent))
     assert tree.returncode != 0
-    assert said.splitlines()[-1].startswith("Packages not installed: papermill, flint. Run `make set-up`")
-    assert "Traceback" not in said
+    assert message.splitlines()[-1].startswith("Packages not installed: papermill, flint. Run `make set-up`")
+    assert "Traceback" not in message
 
 
 def compiled_files(tree) -> dict[str, int]:

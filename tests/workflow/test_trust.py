@@ -20,7 +20,7 @@ FIGURE, DRAWING = "fig10_06", "fig10_04"
 """A figure that reads results of other jobs, and a figure that reads none."""
 
 
-def remove_all_that_snakemake_knows(tree):
+def remove_all_records_of_snakemake(tree):
     shutil.rmtree(tree / ".snakemake")
 
 
@@ -29,9 +29,9 @@ def remove_one_record_of_snakemake(tree):
 
 
 @pytest.mark.parametrize(
-    "remove", [pytest.param(remove_all_that_snakemake_knows, marks=THOROUGH), remove_one_record_of_snakemake]
+    "remove", [pytest.param(remove_all_records_of_snakemake, marks=THOROUGH), remove_one_record_of_snakemake]
 )
-def test_another_config_is_seen_without_what_snakemake_has_recorded(rebuilt, remove):
+def test_another_config_is_noticed_without_records_of_snakemake(rebuilt, remove):
     before = pd.read_csv(rebuilt / FIXED_POINTS)["C2"].max()
     remove(rebuilt)
     rebuilt.edit(CONFIG, LINE, OTHER)
@@ -61,7 +61,7 @@ def edited_under_an_old_date(tree):
 
 
 def with_a_record_without_entries(tree):
-    """The date of the record changes too."""
+    """Empty the record, which changes its date, too."""
     (tree / f".snakemake/sums/{FIXED_POINTS}.json").write_text("{}")
 
 
@@ -79,12 +79,12 @@ def without_record(tree):
         ),
     ],
 )
-def test_a_result_that_is_not_what_its_job_wrote_is_made_anew(rebuilt, damage):
+def test_a_result_that_was_modified_since_it_was_built_is_rebuilt(rebuilt, damage):
     right = (rebuilt / FIXED_POINTS).read_bytes()
     damage(rebuilt)
-    said = rebuilt.dry_run(FIGURE)
-    assert FIXED_POINTS in said
-    assert "Nothing to be done" not in said
+    output = rebuilt.dry_run(FIGURE)
+    assert FIXED_POINTS in output
+    assert "Nothing to be done" not in output
     assert (rebuilt / FIXED_POINTS).exists(), "a dry run removes nothing"
     rebuilt.snakemake(FIXED_POINTS)
     assert (rebuilt / FIXED_POINTS).read_bytes() == right
@@ -92,7 +92,7 @@ def test_a_result_that_is_not_what_its_job_wrote_is_made_anew(rebuilt, damage):
 
 @THOROUGH
 @pytest.mark.parametrize("first", ["this", "the other"])
-def test_results_of_another_config_that_are_copied_in_are_made_anew(rebuilt, tmp_path, first):
+def test_results_of_another_config_that_are_copied_in_are_rebuilt(rebuilt, tmp_path, first):
     """They are copied with their dates, which are older or newer, and with everything below results/."""
     other = whole_copy(rebuilt, tmp_path / "other")
     other.edit(CONFIG, LINE, OTHER)
@@ -118,7 +118,7 @@ CHECKOUT = {
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=() if name.endswith("mplstyle") else THOROUGH) for name in CHECKOUT]
 )
-def test_a_file_of_the_checkout_that_is_changed_under_an_old_date_is_seen(rebuilt, name):
+def test_a_change_of_a_file_of_the_checkout_with_an_old_date_is_noticed(rebuilt, name):
     """rsync, tar and cp -p set such dates."""
     rule = CHECKOUT[name]
     assert "Nothing to be done" in rebuilt.dry_run(rule)
@@ -138,7 +138,7 @@ def test_a_page_is_the_same_in_each_build(rebuilt):
     assert ".partial-" not in before
 
 
-def test_a_file_of_somebody_else_stays(rebuilt):
+def test_a_file_of_the_user_is_kept(rebuilt):
     (rebuilt / "results/notes.csv").write_text("mine")
     rebuilt.snakemake(FIGURE)
     assert (rebuilt / "results/notes.csv").read_text() == "mine"
@@ -195,13 +195,13 @@ def test_a_second_build_is_refused_and_the_job_of_a_killed_build_replaces_no_res
 @pytest.mark.parametrize(
     "stop", [signal.SIGINT, pytest.param(signal.SIGKILL, marks=THOROUGH)], ids=lambda stop: stop.name
 )
-def test_a_build_that_was_stopped_is_taken_up_by_the_next(held, built, stop):
+def test_the_next_build_continues_a_stopped_build(held, built, stop):
     build = held.start(FIXED_POINTS)
     wait_for(held / "started", build)
     os.killpg(build.pid, stop)
-    said = build.communicate()[0]
+    output = build.communicate()[0]
     assert build.returncode != 0
-    assert "Traceback" not in said
+    assert "Traceback" not in output
     (held / "go").touch()
     if stop == signal.SIGKILL:
         held.snakemake("--unlock")
@@ -211,45 +211,45 @@ def test_a_build_that_was_stopped_is_taken_up_by_the_next(held, built, stop):
     assert not list((held / "results").rglob(".partial-*"))
 
 
-def test_code_that_changes_while_a_build_goes_on_fails_the_job(held):
+def test_a_job_fails_if_code_changes_during_the_job(held):
     build = held.start(FIXED_POINTS)
     wait_for(held / "started", build)
     held.edit("src/vibroimpact/theory/manifold.py", "def rho(", "def rho_of(kappa):\n    return 0.5\n\n\ndef rho(")
     (held / "go").touch()
-    said = build.communicate()[0]
+    output = build.communicate()[0]
     assert build.returncode != 0
-    assert "the code has changed while this job ran; rerun the build" in said
+    assert "the code has changed while this job ran; rerun the build" in output
 
 
 def origin(tree, figure):
     return run_module(tree, "vibroimpact_pipeline.provenance", str(figure))
 
 
-def test_a_figure_tells_where_it_comes_from(rebuilt):
+def test_the_origin_of_a_figure_is_reported(rebuilt):
     figure = f"results/figures/{FIGURE}.png"
-    status, said = origin(rebuilt.path, figure)
-    assert (status, said.splitlines()[-1]) == (0, "No differences: this checkout makes the same figure.")
+    status, output = origin(rebuilt.path, figure)
+    assert (status, output.splitlines()[-1]) == (0, "No differences: this checkout makes the same figure.")
     rebuilt.edit(CONFIG, LINE, OTHER)
     edited(rebuilt)
-    status, said = origin(rebuilt.path, figure)
+    status, output = origin(rebuilt.path, figure)
     assert status == 1
-    assert "0.97" in said
-    assert f"{FIXED_POINTS}: missing or changed since" in said
+    assert "0.97" in output
+    assert f"{FIXED_POINTS}: missing or changed since" in output
     shutil.copy(rebuilt / figure, rebuilt / "alone.png")
     for file in ("alone.png", "figures/CHANGES.md"):
         assert origin(rebuilt.path, file) == (2, f"{file}: no readable provenance record next to this file\n")
 
 
 @pytest.mark.parametrize("name", [f"{FIGURE}.png", f"{FIGURE}.csv"])
-def test_a_figure_that_was_built_elsewhere_tells_where_it_comes_from(rebuilt, tmp_path, name):
+def test_the_origin_of_a_figure_that_was_built_elsewhere_is_reported(rebuilt, tmp_path, name):
     """Inputs are found relative to the figure, in any working directory, and other files in the checkout."""
     shutil.copytree(rebuilt / "results", elsewhere := tmp_path / "elsewhere/results")
     figure = elsewhere / f"figures/{name}"
     assert origin(rebuilt.path, figure)[0] == 0
     with open(figure, "a") as file:
         file.write("\n")
-    status, said = origin(rebuilt.path, figure)
-    assert (status, said.splitlines()[1:]) == (
+    status, output = origin(rebuilt.path, figure)
+    assert (status, output.splitlines()[1:]) == (
         1,
         [f"{figure}: missing or changed since the figure was made", "1 difference(s)."],
     )
