@@ -15,6 +15,7 @@ SYSTEMS = {case: vi.System(**PARAMETERS, f10_hat=f10, f20_hat=f20) for case, (f1
 
 @pytest.fixture(scope="module")
 def tables():
+    """Return the tables of all cases, from short runs."""
     return modulation_tables(
         SYSTEMS, starts=3, seed=2, cycles=200, blocks=20, block=10, windows=[100, 200], observation=OBSERVATION
     )

@@ -27,6 +27,7 @@ def motion(pair):
 
 @pytest.fixture(scope="module")
 def table(motion):
+    """Return the table of the figure."""
     return companion_10_08.compute(SYSTEM, fixed_point_table("", SYSTEM), *motion)
 
 

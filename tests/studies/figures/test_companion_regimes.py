@@ -32,11 +32,13 @@ def swept():
 
 @pytest.fixture(scope="module")
 def map_of_regimes():
+    """Return the tables of the regime map."""
     return regime_map.compute(swept(), SYSTEMS["equal"], SYSTEMS, 3)
 
 
 @pytest.fixture(scope="module")
 def branched():
+    """Return the tables of the figure of branches, for a path in f20_hat."""
     attractors = {"values": 3, "starts": 3, "seed": 1}
     paths = [{"along": ["f20_hat"], "range": [0.7, 1.2]}]
     return branches.compute(SYSTEMS["unequal"], paths, 0.1, 2, attractors, OBSERVATION, SYSTEMS)

@@ -13,6 +13,7 @@ SETTINGS |= {"frequencies": SCENE["frequencies"] | {"values": 5}, "cycles": 250,
 
 @pytest.fixture(scope="module")
 def made():
+    """Return the tables of the figure of machines, for SETTINGS."""
     return machines.compute(**SETTINGS)
 
 

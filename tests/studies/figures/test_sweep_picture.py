@@ -23,12 +23,12 @@ def table(axes, observe):
 
 
 def test_a_line_has_the_values_of_its_column():
-    given = table(LINE, ["amplitudes", "fixed_points"])
-    figure = sweep.draw(sweep.compute(given, LINE))
+    swept = table(LINE, ["amplitudes", "fixed_points"])
+    figure = sweep.draw(sweep.compute(swept, LINE))
     assert len(figure.axes) == 4
     largest = {line.get_label(): line for line in figure.axes[0].lines}
-    np.testing.assert_array_equal(largest["box 2"].get_ydata(), given["largest_X2"])
-    np.testing.assert_array_equal(largest["box 2"].get_xdata(), given["kappa"])
+    np.testing.assert_array_equal(largest["box 2"].get_ydata(), swept["largest_X2"])
+    np.testing.assert_array_equal(largest["box 2"].get_xdata(), swept["kappa"])
     assert len({line.get_marker() for line in figure.axes[0].lines}) == 2  # distinguishable without colour
 
 
@@ -39,13 +39,13 @@ def test_regimes_that_no_start_ends_in_are_left_out(axes):
 
 
 def test_a_map_has_a_panel_per_column_with_cells_around_points_and_blanks_for_missing_values():
-    given = table(PLANE, ["amplitudes", "fixed_points"]).assign(fixed_points=0.0)  # zeros are drawn
-    given.loc[5, "largest_X1"] = np.nan
-    figure = sweep.draw(sweep.compute(given, PLANE))
+    swept = table(PLANE, ["amplitudes", "fixed_points"]).assign(fixed_points=0.0)  # zeros are drawn
+    swept.loc[5, "largest_X1"] = np.nan
+    figure = sweep.draw(sweep.compute(swept, PLANE))
     panels = [axes for axes in figure.axes if axes.get_xlabel() == r"$\varepsilon$"]
     assert len(panels) == 8
     mesh = panels[0].collections[0]
-    np.testing.assert_allclose(mesh.get_array().filled(np.nan).T.ravel(), given["largest_X1"])
+    np.testing.assert_allclose(mesh.get_array().filled(np.nan).T.ravel(), swept["largest_X1"])
     corners = mesh.get_coordinates()
     np.testing.assert_allclose(corners[0, :, 0], 10.0 ** np.arange(-3.5, 1))
     np.testing.assert_allclose(corners[:, 0, 1], [0.35, 0.65, 0.9, 1.1])

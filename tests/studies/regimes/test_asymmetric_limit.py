@@ -25,6 +25,7 @@ def ways():
 
 @pytest.fixture(scope="module")
 def points():
+    """Return the asymmetric fixed points of the case equal."""
     return search(EQUAL)
 
 

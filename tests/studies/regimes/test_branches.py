@@ -18,11 +18,13 @@ INTERVAL, SEEDS = (0.65, 1.3), (0.89, 1.1)
 
 @pytest.fixture(scope="module")
 def path(chapter):
+    """Return the path of systems along f20_hat."""
     return Path(chapter(), ("f20_hat",))
 
 
 @pytest.fixture(scope="module")
 def found(path):
+    """Return the branches of the path by family."""
     families = SymmetricOrbits, AsymmetricOrbits, FixedPoints
     return {family: branches(family, path, INTERVAL, SEEDS, longest=0.1) for family in families}
 

@@ -39,6 +39,7 @@ def asymmetric_orbits(system):
 
 @pytest.fixture(scope="module", params=[1.0, 3.0, 14.0, 30.0])
 def asymmetric(request):
+    """Return the stable orbits with two asymmetric balls at a coupling."""
     return asymmetric_orbits(coupled(TUNED_ALIKE, request.param))
 
 
@@ -115,6 +116,7 @@ def test_the_response_to_an_even_harmonic_through_the_coupling():
 
 @pytest.fixture(scope="module")
 def ranges():
+    """Return the ranges of coupling with stable patterns."""
     return list(stable_ranges(TUNED_ALIKE, LIMITS))
 
 

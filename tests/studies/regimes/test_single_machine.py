@@ -29,6 +29,7 @@ def starts(system, count=6):
 
 @pytest.fixture(scope="module", params=ALONE)
 def machine(request):
+    """Return each system of ALONE in turn."""
     return ALONE[request.param]
 
 

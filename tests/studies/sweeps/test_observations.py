@@ -25,6 +25,7 @@ AMPLITUDES = Spec(("amplitudes",), starts=3, seed=1, cycles=30, settle=20)
 
 @pytest.fixture(scope="module")
 def found():
+    """Return the rows of GRID with all observations."""
     return list(rows(GRID, SPEC_KEYS, [0, 1]))
 
 
