@@ -44,7 +44,7 @@ def test_the_peak_without_ball_is_that_of_an_oscillator(found):
 
 @pytest.mark.parametrize("drive", [{"base": 1e-4}, {"unbalance": 0.02}])
 def test_responses_to_base_motion_and_unbalance_agree_with_closed_forms(drive):
-    """The forces are those of base displacement and base velocity, and u omega^2 of an unbalance."""
+    """The force is that of the moving base on spring and damper, or u omega^2 of an unbalance."""
     machine = vi.PhysicalSystem.single(M=120.0, m=6.0, k=3e5, c=240.0, omega=1.0, **drive)
     found = vi.design(machine, BAND, **CHOICE)
 
@@ -197,7 +197,7 @@ def test_finer_frequencies_change_neither_the_choice_nor_its_peak(found, monkeyp
 
 
 def test_default_clearances_extend_to_the_amplitude_without_ball(many):
-    """They start at a quarter of F / k M / m and have three digits. Further ones are near the best of the first."""
+    """Eight clearances with three digits start at a quarter of F / k M / m. Others are near the best of these eight."""
     first = [row["clearance_m"] for row in many.candidates[:8]]
     assert len(many.candidates) == 2 * 8 + 2 * 3
     np.testing.assert_allclose(first, np.geomspace(40 / 3e5 * 20 / 4, many.without, 8), rtol=5e-3)

@@ -1,4 +1,4 @@
-"""Asymmetric points, proofs and branches of a single machine agree with closed forms and a machine with company."""
+"""Responses of a single machine agree with closed forms, proofs, and the same machine next to a second one."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ from vibroimpact.theory.masri import SYMMETRY_BREAKING_C
 
 
 @MACHINES
-def test_asymmetric_points_are_those_of_the_module_in_company(machine):
+def test_asymmetric_points_are_those_of_the_machine_next_to_a_second_one(machine):
     (module,), both = machine.modules, company(machine)
     skewed, all_skewed = asymmetric_points.search(machine), asymmetric_points.search(both)
     all_skewed = [point for point in all_skewed if point.asymmetric[module - 1]]
@@ -100,7 +100,7 @@ def test_a_branch_on_which_the_other_module_is_active_is_skipped_with_a_warning(
     assert found
 
 
-def test_branches_of_orbits_break_their_symmetry_where_the_module_in_company_does():
+def test_branches_of_orbits_break_their_symmetry_where_the_machine_next_to_a_second_one_does():
     path, interval = Path(SECOND, ("f20_hat",)), (1.07, 1.12)
     families = SymmetricOrbits, AsymmetricOrbits
     found = [one for family in families for one in branches(family, path, interval, [1.1], 0.05)]

@@ -23,7 +23,7 @@ def hosts(**changes):
 
 
 def by_hand(system, tuning=None):
-    """Return the function of tau and (X1, X2, Y1, Y2, velocities) that sums the forces of springs and dampers."""
+    """Return the time derivative of [X1, X2, Y1, Y2, velocities] as a function; forces are summed one by one."""
     e = system.epsilon
 
     def rates(tau, z):

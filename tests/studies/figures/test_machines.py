@@ -18,7 +18,7 @@ def made():
 
 
 def velocities(p, hertz):
-    """Return complex velocity amplitudes [m/s] of the boxes without balls, by (10.1) as printed, forces of phase 0."""
+    """Return complex velocity amplitudes [m/s] of boxes without balls by (10.1) as printed; forces have the phase 0."""
     omega = 2 * np.pi * hertz
     own = [p[f"k{i}"] + p["k12"] + 1j * omega * (p[f"c{i}"] + p["c12"]) - p["M"] * omega**2 for i in (1, 2)]
     link = -p["k12"] - 1j * omega * p["c12"]

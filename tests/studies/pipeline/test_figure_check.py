@@ -79,7 +79,7 @@ def test_a_change_of_a_column_by_a_tenth_fails(name):
 
 
 def contiguous(column, before, after, cells):
-    """Return a function that replaces a value in consecutive cells with this value."""
+    """Return a function that changes a value of a column from `before` to `after` in consecutive cells."""
 
     def change(table):
         rows = table.index[table[column] == before][100 : 100 + cells]

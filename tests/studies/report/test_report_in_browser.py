@@ -32,7 +32,7 @@ def address(site, page):
     "page", [*ALWAYS_TESTED, *(pytest.param(page, marks=pytest.mark.thorough) for page in (*PAGES, "api/vibroimpact"))]
 )
 def test_a_page_opens_without_errors_and_is_accessible(browser, site, page):
-    """It loads nothing from other hosts. axe finds no barriers, also in dark mode and on a phone. Formulas are set."""
+    """No other hosts are used. axe finds no barriers, even in dark mode and on phones; formulas are typeset."""
     browser.open(address(site, page))
     assert browser.problems == []
     assert [url for url in browser.requests if not url.startswith((site.as_uri(), "data:"))] == []

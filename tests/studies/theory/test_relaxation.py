@@ -61,7 +61,7 @@ def test_without_forces_balls_leave_resonance_when_amplitudes_reach_the_fold():
     assert B_min(R) < B[-1] < 1
 
 
-def test_the_pair_of_fig_10_8_is_lost_where_its_module_passes_the_fold():
+def test_the_pair_of_fig_10_8_loses_its_stability_where_a_module_passes_the_fold():
     (pair,) = [point for point in fixed_points(EQUAL) if abs(point.squared).max() < 0.01]
     factor = lost_at(EQUAL, pair)
     assert 0.92 < factor < 0.93
