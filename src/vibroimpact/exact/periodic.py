@@ -196,7 +196,7 @@ def refined(system, state, periods) -> PeriodicOrbit:
             break
         run = nearer
     if any(size <= least and _gap(run) <= closed for least, closed in _CONVERGED):
-        tau = run.cycles * system.period  # the run starts after tau = 0; one period later, the state is the same
+        tau = run.cycles * system.period  # the run starts after tau = 0, so take the same state one period later
         at_zero = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
         return PeriodicOrbit(system, periods, at_zero[-1].copy() if len(at_zero) else _state_at(run, tau), run)
     grazes = "; a ball grazes a wall" if _grazes(given) or _grazes(run) else ""

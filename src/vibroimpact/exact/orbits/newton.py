@@ -13,8 +13,9 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
     """Return the roots reached from `starts` (n, d), in no particular order and with repetitions.
 
     equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened so that no
-    component of a step exceeds `reach`. A start has converged once its step is below 1e-12 (1 + |x|) or, in the last
-    step, below 1e-8 (1 + |x|). A start gives no root if it does not converge or if the Jacobian becomes singular.
+    component of a step exceeds `reach`. A start has converged once its step is below 1e-12 (1 + |x|) or, in step 30,
+    which is the last, below 1e-8 (1 + |x|). A start gives no root if it does not converge or if the Jacobian becomes
+    singular.
 
     `starts` may have further columns after the d unknowns; they are passed to the equations and returned unchanged.
     """

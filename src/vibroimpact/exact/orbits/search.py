@@ -50,8 +50,8 @@ class Orbit(Representation):
         Ball speeds on the flights that start at each wall, shape (2, 2); some are negative for an inadmissible root.
     multipliers : ndarray
         Complex Floquet multipliers by descending modulus, shape (8,), or (4,) for a single machine. If both modules
-        impact at the same instant and gamma12 is not 0, the multipliers are those of perturbations after which module 1
-        impacts first.
+        impact at the same instant and gamma12 is not 0, the multipliers depend on which module impacts first in the
+        perturbed motion; they are computed for module 1 first.
     state : ndarray
         State at tau = 0, shape (8,); if there is an impact at tau = 0, the state just after it.
     passage : Passage
@@ -185,9 +185,9 @@ def orbits(system: System) -> list[Orbit]:
     Returns
     -------
     list of Orbit
-        Orbits, including roots that are not motions of the system (see Orbit.admissible). Symmetric orbits come first.
-        Both groups are sorted by the sum of the two ball speeds of module 1, then of module 2, then by the phases. An
-        asymmetric orbit is next to its mirror image.
+        Orbits, including roots that are not motions of the system (see Orbit.admissible). Symmetric orbits come first,
+        then asymmetric orbits. Each group is sorted by the sum of the two ball speeds of module 1, then of module 2,
+        then by the phases. An asymmetric orbit is next to its mirror image.
 
     Raises
     ------
@@ -205,7 +205,7 @@ def orbits(system: System) -> list[Orbit]:
 def search(system: System) -> OrbitSearch:
     """Return the orbits that `orbits` finds, and the effort of the search for asymmetric orbits.
 
-    The effort indicates how likely an orbit was missed.
+    The effort indicates how likely it is that an orbit was missed.
 
     Raises
     ------
@@ -231,7 +231,8 @@ def prove(orbit: Orbit):
     Returns
     -------
     OrbitProof
-        Half-width of the box with exactly one root, error bounds and verdicts.
+        Verdicts, error bounds, and the half-width of intervals, centred at the numbers of the orbit, in which exactly
+        one root lies.
 
     Raises
     ------
@@ -314,8 +315,8 @@ def _orbit(system, times, changes, fractions, sign):
 
     fractions (2,): durations of the flights from wall +1, as fractions of the period.
 
-    sign: -1 for a symmetric orbit, in which the impacts of each module are one train of alternating impulses; +1 if the
-    impacts at each wall are one train of equal impulses.
+    sign: -1 for a symmetric orbit, in which the impacts of each module form one train of alternating impulses; +1 for
+    an asymmetric orbit, in which the impacts of each module form two trains of equal impulses, one at each wall.
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
     state = inactive_at_rest(system, _state(system, times, changes, speeds, sign))
@@ -370,10 +371,10 @@ def _state(system, times, changes, speeds, sign):
 
 
 def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
-    """Return the largest |X_i - c Y_i|, c = `balls`, at the extrema of X_i - c Y_i inside the free flights, (2,).
+    """Return the largest |X_i - c Y_i| of each module at the extrema of X_i - c Y_i inside the free flights, (2,).
 
-    The result is 0 if X_i - c Y_i has no extremum there. With c = 1 the result is the largest |W_i|, with c = 0 the
-    largest |X_i|.
+    The factor c is `balls`: c = 1 gives the largest |W_i|, and c = 0 the largest |X_i|. The result is 0 for a module
+    without such extrema.
     """
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))

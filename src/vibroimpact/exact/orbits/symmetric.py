@@ -3,16 +3,16 @@
 Ball i meets wall +1 at tau_i and wall -1 half a period later. With C_i = 1 - U_i(tau_i), as in (10.12), the ball flies
 the distance 2 C_i / (1 + epsilon) in half a period: its speed is V_i = 4 C_i / ((1 + epsilon) T). Each impact reverses
 the ball, which changes the velocity of box i by -2 epsilon V_i at wall +1 and by +2 epsilon V_i at wall -1. The motion
-of the boxes is the sum of the forced response and the responses to both trains of impulses. Module i has two
-conditions: the ball meets the wall, and Newton's rule. These are the imaginary and the real part of
+of the boxes is the sum of the forced response and the responses to both trains of impulses. Each module has two
+conditions: the ball meets the wall, and Newton's rule. They are the imaginary and the real part of its component of
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
-with a complex 2 x 2 matrix P and the forced amplitudes a. For a given delta these four real equations are linear in
-C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Their solution turns c^2 + s^2 = 1 into one equation for delta
-alone. Multiplied by the squared determinant of the linear system, this equation has no poles. It is analytic except at
-the kinks delta = 0 and T/2, so that Chebyshev interpolants between the kinks give all roots to rounding. An inactive
-module (see `System.modules`) has tau_i = C_i = 0.
+with the imaginary unit i, C = (C_1, C_2), a complex 2 x 2 matrix P and the forced amplitudes a_1, a_2. For a given
+delta these four real equations are linear in C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Their solution
+turns c^2 + s^2 = 1 into one equation for delta alone. Multiplied by the squared determinant of the linear system, this
+equation has no poles. It is analytic except at the kinks delta = 0 and T/2, so that Chebyshev interpolants between the
+kinks give all roots to rounding. An inactive module (see `System.modules`) has tau_i = C_i = 0.
 """
 
 import math
@@ -26,7 +26,7 @@ from vibroimpact.system.amplitude import path_of
 from vibroimpact.system.matrices import stiffness_matrix
 
 _DEGREE = 32
-_PIECES_AT_ONCE = 256  # pieces computed at once, a fixed number, so that memory does not grow with the period
+_PIECES_AT_ONCE = 256  # pieces of the range of delta computed at once; memory then does not grow with the period
 _RADIANS_PER_PIECE = 1.0  # radians of the fastest oscillation; interpolation of degree 32 is then exact to rounding
 _NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are due to rounding
 _NEAR = 1e-3  # tolerance for the imaginary part of a real root; a double root may be computed as a complex pair
@@ -61,10 +61,10 @@ class SymmetricConditions:
         self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
 
     def matrix(self, times: np.ndarray):
-        """Return P and dP, both (..., 2, 2) complex, of P C + i (1, 1) = forced response, for impact times (..., 2).
+        """Return the matrix P, (..., 2, 2) complex, of the conditions at impact times (..., 2), and its derivatives.
 
-        P C collects all terms with the saw-tooth amplitudes C in the conditions of the modules. An entry (m, k) of P
-        depends only on tau_m - tau_k, and dP contains the derivative of each entry with respect to this difference.
+        The conditions are P C + i (1, 1) = forced response, where C contains the saw-tooth amplitudes. An entry (m, k)
+        of P depends only on tau_m - tau_k, and its derivative is with respect to this difference.
         """
         x, v, a = self._response.between(times, _BOXES)
         own = np.eye(2)
@@ -162,7 +162,7 @@ def _uncoupled_starts(conditions, modules):
 
 
 def _coupled_starts(system, conditions):
-    """Return the Newton starts of coupled modules, from the real roots delta of c^2 + s^2 = 1 (`linear_system`)."""
+    """Return the Newton starts of coupled modules: those of `_line_starts` for each root of `_roots_of_condition`."""
     delta, force = _roots_of_condition(system, conditions)
     C1, C2, c, s = np.moveaxis(_line_starts(*conditions.linear_system(delta, force)), -1, 0)
     time = np.arctan2(s, c) / conditions.omega
@@ -219,8 +219,8 @@ def _line_starts(matrices, constant):
 
     The first start is the solution of the linear system. The second and the third start are the two points
     with c^2 + s^2 = 1 on a line through this solution, along the right singular vector of the smallest singular value.
-    If the line has no such points, the second and the third start are its point with the smallest c^2 + s^2. Starts
-    that do not exist are NaN.
+    If the line has no such points, the second and the third start are the point of the line with the smallest
+    c^2 + s^2. A start is not finite if its computation divides by zero.
 
     The second and the third start are needed if the matrix is singular or almost singular, for example for identical
     modules in phase. If the matrix is singular, all points of the line are solutions.

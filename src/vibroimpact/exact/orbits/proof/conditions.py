@@ -1,9 +1,10 @@
 """Evaluate the equations of asymmetric.py in interval arithmetic.
 
-The six equations for p_1, q_1, p_2, q_2, I_1, I_2 are smooth as long as the order of the impacts stays the same.
-Symmetric orbits are roots too; a symmetric orbit is its own mirror image. The motion of the boxes is the steady
-response to the forcing and to trains of impulses. An inactive module has p_i = q_i = I_i = 0. Impacts are numbered from
-0 to 3: those of module 1 at wall +1 and -1, then those of module 2.
+The six unknowns are p_1, q_1, p_2, q_2, I_1, I_2: ball i hits wall +1 at the time p_i and wall -1 at q_i, and its
+velocity changes by I_i at p_i. The equations are smooth as long as the order of the impacts stays the same. Symmetric
+orbits are roots too; a symmetric orbit is its own mirror image. The motion of the boxes is the steady response to the
+forcing and to trains of impulses. An inactive module has p_i = q_i = I_i = 0. Impacts are numbered from 0 to 3: those
+of module 1 at wall +1 and -1, then those of module 2.
 """
 
 import itertools
@@ -20,17 +21,19 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 
 
 class SteadyBoxes:
-    """Steady motion [X1, X2, X1', X2'] of the boxes; the system's float64 matrices and forcing are taken as exact.
+    """Steady motion [X1, X2, X1', X2'] of the boxes under the forcing and under trains of unit impulses.
 
-    omega, period: frequency and period of the forcing. rate (4, 4): rate matrix of free motion. start (4, 2): state
-    just after an impulse; column j is for a train of impulses on box j (sign +1: equal impulses, one per period; -1:
-    impulses of alternating sign, one every half period). amplitude (4, 1): without impulses the state is
-    Im(amplitude exp(i omega tau)).
+    The float64 matrices and the forcing of the system are taken as exact.
+
+    sign: +1 for trains of equal impulses, one per forcing period; -1 for trains of impulses of alternating sign, one
+    every half period. omega, period: frequency and period of the forcing. rate (4, 4): rate matrix of free motion.
+    start (4, 2): column j is the state just after an impulse +1 of the train on box j, without forcing. amplitude
+    (4, 1): without impulses the state is Im(amplitude exp(i omega tau)).
 
     Raises
     ------
     ValueError
-        If the boxes have an undamped resonance at a harmonic of the train or at the forcing frequency.
+        If the boxes have an undamped resonance at a harmonic of a train or at the forcing frequency.
     """
 
     def __init__(self, system, sign: int):
@@ -56,12 +59,14 @@ def identity(size: int) -> arb_mat:
 
 
 class EnclosedConditions:
-    """The six equations of asymmetric.py; the system's float64 matrices and forcing are taken as exact.
+    """The six equations of asymmetric.py in interval arithmetic.
+
+    The float64 matrices and the forcing of the system are taken as exact.
 
     Raises
     ------
     ValueError
-        If the boxes have an undamped resonance at a harmonic of the impacts.
+        If the boxes have an undamped resonance at the forcing frequency or a multiple of it.
     """
 
     def __init__(self, system):

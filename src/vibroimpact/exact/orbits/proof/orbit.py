@@ -39,9 +39,9 @@ class OrbitProof:
     Attributes
     ----------
     radius : float
-        Half-width of a box, centred at the listed impact times and changes of ball velocity, in which exactly one root
-        lies. The root is proved to be symmetric if `Orbit.symmetric` is True, and asymmetric otherwise. The half-width
-        is 0 if nothing is proved.
+        Half-width of six intervals around the listed impact times and changes of ball velocity. The equations of
+        asymmetric.py have exactly one root in these intervals. The root is proved to be symmetric if `Orbit.symmetric`
+        is True, and asymmetric otherwise. The half-width is 0 if nothing is proved.
     error : float
         Bound on the error of the listed impact phases and speeds; inf if no root is proved.
     motion : str
@@ -140,19 +140,20 @@ def _near(listed, proved, spoilt):
 
 
 def _distance(enclosures, listed):
-    """Return an upper bound on the distances between listed numbers and the enclosed numbers, rounded up."""
+    """Return an upper bound on the distances of the listed numbers from the exact numbers in `enclosures`."""
     gaps = [abs(value - number).upper() for value, number in zip(enclosures, listed, strict=True)]
     return max(math.nextafter(float(gap), math.inf) for gap in gaps)
 
 
 def krawczyk(equations, approximate: np.ndarray):
-    """Return an enclosure of a root near a float64 root, and the half-width of a box without any other root.
+    """Return intervals that enclose a root near `approximate` (n,), and the half-width of wider intervals.
 
-    The box is centred at the float64 root. If the test fails for every box, the result is (None, 0.0).
+    The wider intervals are centred at `approximate` and contain no other root. Several half-widths are tried, from the
+    largest to the smallest, until the intervals pass Krawczyk's test. If no half-width passes, the result is
+    (None, 0.0).
 
     equations(x) returns the residual (n, 1) and Jacobian (n, n) for a list x of n intervals, or None if residual and
-    Jacobian are not defined on all of x. Boxes are tried in order of decreasing width. The image of the first box that
-    passes Krawczyk's test is narrowed further and returned.
+    Jacobian are not defined on all of x.
     """
     centre = [arb(value) for value in approximate.tolist()]
     for exponent in range(_WIDEST, _NARROWEST, -1):
@@ -165,7 +166,10 @@ def krawczyk(equations, approximate: np.ndarray):
 
 
 def _image(equations, box):
-    """Return the image of a box under Krawczyk's operator, or None on failure; it contains every root in the box."""
+    """Return the image of a list of intervals under Krawczyk's operator, or None on failure.
+
+    The image contains every root of the equations that lies in the intervals.
+    """
     found, at = equations(box), equations([value.mid() for value in box])
     if found is None or at is None:
         return None

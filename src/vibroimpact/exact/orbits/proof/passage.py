@@ -23,10 +23,11 @@ _MOST = 2000  # largest number of pieces of a flight
 
 
 class EnclosedPassage:
-    """The motion at a root of `EnclosedConditions`; the root is given by intervals for the six unknowns.
+    """Enclosure of the periodic motion that belongs to a root of `EnclosedConditions`.
 
-    rate (10, 10): rate matrix of free flight. phases: times of the impacts in forcing periods. speeds: ball speeds on
-    the flights after the impacts. phases and speeds are dictionaries with the number of the impact as key.
+    unknowns: intervals that contain the root. rate (10, 10): rate matrix of free flight. phases: times of the impacts
+    in forcing periods. speeds: ball speeds on the flights after the impacts. The keys of phases and speeds are the
+    numbers of the impacts.
     """
 
     def __init__(self, system, conditions, unknowns):
