@@ -35,12 +35,12 @@ def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
 
     The amplitude C and the phase theta [rad] are constant.
 
-    Returns columns panel, series ("Z" or "impacts"), tau0, Z. The points of the line include its corners.
+    Returns columns panel, series ("Z" or "impacts"), tau0, Z. The points of Z include its corners.
 
     Raises
     ------
     ValueError
-        If amplitude is not above 0, or the window contains no impact.
+        If amplitude is not above 0, or if no impact lies in [0, tau0_max].
     """
     if not amplitude > 0:
         raise ValueError(f"amplitude: {amplitude} is not above 0")

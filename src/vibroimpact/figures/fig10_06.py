@@ -88,7 +88,7 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
         module i end at 1.1 times the largest C_i of a fixed point.
 
     Returns columns panel (label and module: "a1", "a2", ...), series ("SIM stable", "SIM unstable", "P_i", "S_i", and
-    "S_i beyond" for singular points with C_i > C_max), C, B. Without fixed points the planes show the manifold alone.
+    "S_i beyond" for singular points outside the planes), C, B. Without fixed points the planes show the manifold alone.
 
     Raises
     ------

@@ -77,7 +77,7 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
     Parameters
     ----------
     scenes : dict
-        For each figure, keyed by its name, a dict. The keys of this dict are module (name of the Python module),
+        One dict per figure, keyed by the name of the figure. Each dict has the keys module (name of the Python module),
         notebook (name of the notebook), model (model in use), system (parameters) and settings (of the figure or of
         its simulation, see `vibroimpact.accuracy.window.window`).
     seconds : float

@@ -110,4 +110,4 @@ def _method(axes, method, rows):
     x, wrong = good["error_state"].clip(SMALLEST, LARGEST), good["missed"] + good["spurious"] > 0
     lane = axes.plot(np.full(failed.sum(), NO_RESULT), rows["seconds_per_cycle"][failed], **mark(method))
     curve = draw_method(axes, method, x, good["seconds_per_cycle"], wrong)
-    return lane, curve  # `name_curves` writes the name of the method at `lane` and at `curve`
+    return lane, curve  # `name_curves` writes the method's name at the markers of failed runs and at the curve

@@ -21,7 +21,7 @@ def plain(text) -> str:
 
 
 def code(text) -> str:
-    """Return a text as inline code; it may contain any number of backticks."""
+    """Return a text, which may contain any number of backticks, as inline code."""
     text = one_line(text)
     fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
     return f"{fence} {text} {fence}" if "`" in text else f"{fence}{text}{fence}"

@@ -76,11 +76,13 @@ class _Names:
                 self.avoided[leader] = _outline(leader, self.point)
 
     def _place(self, half, own, others):
-        """Return the place of a name near its curve, and both ends of the leader line.
+        """Return the centre of a name near its curve, and both ends of the leader line from the name to the curve.
 
         The nearest place without a defect (UNCLEAR or OVERLAPS) is chosen. If there is no such place near the curve, a
-        place with a defect is chosen. The name fills a box of half-size `half`. `own` are the discs (`_outline`) that
-        cover the curve of the name, `others` those of all other named curves.
+        place with a defect is chosen.
+
+        half: half the width and height of the name. own: discs that cover the curve (see `_outline`). others: discs
+        that cover all other named curves.
         """
         frame, margin = self.axes.get_window_extent(), half + GAP * self.point
         x = np.arange(frame.x0 + margin[0], frame.x1 - margin[0], STEP * self.point)
@@ -128,6 +130,6 @@ def _outline(line, point):
 
 
 def _gaps(place, half, points):
-    """Return the distances of the discs `points` (n, 3) from a box with its centre at `place` and half-size `half`."""
+    """Return the distances of the discs `points` (n, 3) from a rectangle with centre `place` and half-size `half`."""
     apart = np.maximum(np.abs(points[:, :2] - place) - half, 0.0)
     return np.hypot(apart[..., 0], apart[..., 1]) - points[:, 2]

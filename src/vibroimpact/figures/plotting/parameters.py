@@ -10,7 +10,7 @@ OF_ALL = ("figure", "alt", "case", "inputs")
 
 
 def refuse_unknown(shell, known) -> None:
-    """Check the names that are assigned in the last run of the cells with parameters.
+    """Check the names that the parameter cells of a notebook assigned when they were last run.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Return package versions: `drawing_versions` to compare pictures, `recorded_versions` to record with a figure."""
+"""Return the package versions on which the pixels of a picture depend, and those recorded with a figure."""
 
 import platform
 from importlib.metadata import version
