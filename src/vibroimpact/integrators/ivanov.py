@@ -1,10 +1,10 @@
 """Ivanov's transformation, extended to two walls: coordinates in which impacts are continuous.
 
-The box is unfolded (Zhuravlev 1976) into a row of boxes n = 0, +-1, +-2, ... on a line s: W = T(s), where T is a
+The box is unfolded (Zhuravlev 1976) into a row of cells n = 0, +-1, +-2, ... on a line s: W = T(s), where T is a
 triangular wave of slope +1 or -1 with walls at odd s. On this line the ball passes through the walls. The coordinate v
-for the speed of the ball has a factor R that jumps at the walls (Ivanov 1994): W' = T'(s) R v with
+replaces the velocity of the ball: W' = T'(s) R v, where the factor R jumps at the walls (Ivanov 1994),
 
-    R = 1 + k sgn(v) p,   k = (1 - kappa) / (1 + kappa),   p = s - 2n in [-1, 1] in box n,   T = (-1)^n p,
+    R = 1 + k sgn(v) p,   k = (1 - kappa) / (1 + kappa),   p = s - 2n in [-1, 1] in cell n,   T = (-1)^n p,
 
 so that R falls from 1 + k to 1 - k when the ball passes through a wall. The ratio (1 - k) / (1 + k) is kappa, so that
 v is continuous. With the acceleration a of W in flight,
@@ -60,7 +60,7 @@ class Ivanov(Method):
 
 
 def unfolded(state, epsilon: float, k: float) -> np.ndarray:
-    """Return the unfolded coordinates of a state (8,), with both balls in box n = 0.
+    """Return the unfolded coordinates of a state (8,), with both balls in cell n = 0.
 
     The coordinates, shape (8,), are s, v, centre of mass and its velocity, for module 1 and then for module 2.
     """
@@ -71,7 +71,7 @@ def unfolded(state, epsilon: float, k: float) -> np.ndarray:
 
 
 def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
-    """Return the state (8,) for unfolded coordinates (8,), given the box n of each ball."""
+    """Return the state (8,) for unfolded coordinates (8,), given the cell n of each ball (`boxes`)."""
     s, v, centre, rate = z.reshape(2, 4).T
     p, sign = s - 2.0 * boxes, 1.0 - 2.0 * (boxes % 2)
     W, W_rate = sign * p, sign * (1.0 + k * np.sign(v) * p) * v
@@ -83,9 +83,9 @@ def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
 
 @disk_cached(error_model="numpy")
 def _rates(tau, z, q, k, boxes, signs, d):
-    """Write the derivative of the unfolded coordinates into d, for given boxes and signs of v (`signs`).
+    """Write the derivative of the unfolded coordinates into d, for given cells (`boxes`) and signs of v (`signs`).
 
-    The formula is smooth even where the actual boxes and signs at z differ from the given ones.
+    The formula is smooth even where the actual cells and signs at z differ from the given ones.
     """
     share, s = q[9] / (1.0 + q[9]), np.empty(8)
     for i in range(2):
@@ -103,7 +103,7 @@ def _rates(tau, z, q, k, boxes, signs, d):
 def _step(tau, z, h, q, k, boxes, signs, locate):
     """Return the coordinates after a step of length h.
 
-    If `locate` is True, each stage uses the boxes and signs at its own position instead of the given ones.
+    If `locate` is True, each stage uses the cells and signs of v at its own position instead of `boxes` and `signs`.
     """
     rates, ahead, at = np.empty(8), z.copy(), z.copy()
     for stage in range(4):
@@ -118,9 +118,9 @@ def _step(tau, z, h, q, k, boxes, signs, locate):
 
 @disk_cached()
 def _locate(z, boxes, signs):
-    """Write the box of each ball into `boxes`, and the sign of each v into `signs`.
+    """Write the cell n of each ball into `boxes`, and the sign of each v into `signs`.
 
-    A ball on a wall belongs to the box that it enters.
+    A ball on a wall belongs to the cell that it enters.
     """
     for i in range(2):
         signs[i] = 1.0 if z[4 * i + 1] >= 0.0 else -1.0
@@ -130,7 +130,7 @@ def _locate(z, boxes, signs):
 
 @disk_cached()
 def _impact(tau, i, box, direction, speed, k):
-    """Return the row (tau, module, wall, speed) of the impact at which a ball leaves a box of the unfolded line."""
+    """Return the row (tau, module, wall, speed) of the impact at which ball i leaves cell n = `box`."""
     return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * direction, (1.0 + k) * abs(speed)
 
 
@@ -138,8 +138,8 @@ def _impact(tau, i, box, direction, speed, k):
 def _march_across_jumps(q, k, z, tau0, h, count):
     """Take `count` steps across jumps, without locating them.
 
-    Return coordinates and boxes at the end, impacts, number of steps, and nan. `_march_to_jumps` returns the time of an
-    endless chatter in place of nan; this function does not detect chatter.
+    Return coordinates and cells at the end, impacts, number of steps, and NaN. `_march_to_jumps` returns the time of an
+    endless chatter instead of NaN; `_march_across_jumps` does not detect chatter.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, signs = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
@@ -160,7 +160,8 @@ def _march_across_jumps(q, k, z, tau0, h, count):
 def _march_to_jumps(q, k, z, tau0, h, count):
     """Take `count` steps, each of which is divided at the jumps within it.
 
-    Return coordinates and boxes at the end, impacts, number of steps, and the time of an endless chatter, or nan.
+    Return coordinates and cells at the end, impacts, number of steps, and the time of an endless chatter (NaN if there
+    is none).
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     boxes, signs, idle, steps = np.zeros(2, np.int64), np.ones(2), 0, 0

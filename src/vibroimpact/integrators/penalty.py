@@ -86,7 +86,11 @@ class PowerLaw(Penalty):
 
 
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
-    """Return [n, m, K, D at speed 1, power of 1 / V in D, |W| at p = 0, |W| at which contact begins]."""
+    """Return the numbers of a contact law K p^n + D p^m p' as an array, shape (7,).
+
+    The numbers are n, m, K, D for a contact at speed 1, the power of 1 / speed in D, |W| at p = 0, and the |W| at
+    which a contact begins.
+    """
     # If D is proportional to (1 / V)**power, kappa is the same at every speed V.
     power = (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
     return np.array([law.stiffness, law.damping, stiffness, damping, power, float(law.walls), contact])
@@ -156,7 +160,7 @@ def _step(stages, tau, s, h, contact):
 
 @disk_cached()
 def _reach(s, i, law):
-    """Return |W| of ball i minus the |W| at which contact begins; it is negative in flight."""
+    """Return |W| of ball i minus the |W| at which contact begins, a negative value in flight."""
     return abs(s[2 * i] - s[2 * i + 1]) - law[6]
 
 
@@ -193,7 +197,10 @@ def _march(q, law, stages, s, tau, end, limit):
 
 @disk_cached()
 def _until_contact(stages, tau, s, h, ahead, contact, touching):
-    """Shorten a step so that it ends just after its first contact begins; return the new length and end state."""
+    """End a step just after the first contact within the step begins; return the length and the state at the end.
+
+    A step in which no contact begins is not changed.
+    """
     least = 0.0
     for _ in range(HALVINGS):
         if not _begins(ahead, contact[1], touching) or least == h:

@@ -30,7 +30,7 @@ def acceleration(tau, s, q, walls, i):
 def guard(tau, s, q, walls, i):
     """Return the value of the function that falls below zero at the next event of module i.
 
-    This function is 1 - |W| for a flying ball, and the contact force for a sticking ball.
+    This function is 1 - |W| for a flying ball, and the contact force divided by epsilon for a sticking ball.
     """
     if walls[i] != 0.0:
         return walls[i] * acceleration(tau, s, q, walls, i)
@@ -70,7 +70,7 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 
 @inlined()
 def first_sample_time(tau, s, q, walls, step):
-    """Return the time from `tau` to the first sample of a flight, so short that no short flight is missed.
+    """Return the time from `tau` to the first sample of a flight, chosen so that no short flight is missed.
 
     This time is `step` or, if shorter, half the expected duration of a flight that begins at a wall at `tau`.
     """
@@ -114,7 +114,10 @@ class Contacts:
         self.resolve(tau, s, [-1])
 
     def resolve(self, tau, s, due):
-        """Update the state (8,) in place at an event of the modules `due`, an impact or a vanishing contact force."""
+        """Update the state `s` (8,) in place, and the contact states, at an event of the modules `due`.
+
+        The event is an impact, or the contact force becomes zero.
+        """
         for module in due:
             rows, count = resolve(tau, s, self.numbers, self.walls, module, np.empty((2, 4)), 0, self.slow)
             self.impacts += map(tuple, rows[:count])
