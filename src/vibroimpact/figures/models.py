@@ -166,7 +166,7 @@ def _plotted(table, column):
 def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
     """Return four statistics of a run with bursts of resonance (`modulation.bursts`) [percent].
 
-    The first is the share of the time that is in bursts of ball 2. The others are the smallest, the mean and the
+    The first is the share of the time that belongs to bursts of ball 2. The others are the smallest, the mean and the
     largest amplitude of X_2, relative to the range of X_2 in `reference`; each forcing period has one amplitude.
     """
     impacts = run.events[(run.events["module"] == 2) & (run.events["kind"] == "impact")]

@@ -1,4 +1,4 @@
-"""Use the chapter's leading-order solution, (10.9)-(10.12), as a method, without integration and transient."""
+"""Use the chapter's leading-order solution, (10.9)-(10.12), as a method that needs no integration and no transient."""
 
 from functools import partial
 

@@ -89,7 +89,7 @@ def newton_or_middle(t, value, slope, low, high):
     """Return t - value / slope, the result of a Newton step, or the middle of [low, high] if the result lies outside.
 
     A function falls below zero within [low, high]; `value` and `slope` are its value and slope at t. If `value` is 0
-    and `slope` is not, t is returned.
+    and `slope` is not 0, the result is t.
     """
     after = t - value / slope if slope != 0.0 else math.inf
     return after if low <= after <= high else 0.5 * (low + high)

@@ -173,7 +173,7 @@ def _roots_of_condition(system, conditions):
     """Return the roots delta of c^2 + s^2 = 1 in [0, T], and the index of the force for each root.
 
     c and s are taken from the solution of `linear_system` at delta. The condition is interpolated by Chebyshev
-    polynomials on pieces of the interval. Of a root that is nearly real, the real part is returned.
+    polynomials on pieces of the interval. For a root that is nearly real, the real part is returned.
     """
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     pieces = 2 * math.ceil(system.period / 2 * fastest / _RADIANS_PER_PIECE)
@@ -237,7 +237,7 @@ def _line_starts(matrices, constant):
 
 
 def wrapped(value, modulus):
-    """Return value modulo modulus, always below the modulus, also after rounding."""
+    """Return `value` modulo `modulus`; the result is below `modulus` even after rounding."""
     value = np.mod(value, modulus)
     return np.where(value >= modulus, 0.0, value)
 

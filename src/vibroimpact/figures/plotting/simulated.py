@@ -46,12 +46,12 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame
 def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
     """Return statistics of the amplitudes of each box.
 
-    An amplitude is half the peak-to-peak displacement of a box in one forcing period.
+    An amplitude is half the peak-to-peak displacement of a box in one forcing period. A modulation period is the time
+    from one swell of the amplitude to the next (`exact.measures.modulation.swells`).
 
     Returns columns displacement ("X1", "X2"), smallest amplitude, largest amplitude, amplitude variation (standard
-    deviation divided by mean), modulation periods (their number), mean length in cycles (mean length of the modulation
-    periods; NaN if there are none). A modulation period is the time from one swell of the amplitude to the next
-    (`exact.measures.modulation.swells`).
+    deviation divided by mean), modulation periods (number of modulation periods), mean length in cycles (mean length of
+    a modulation period in forcing cycles; NaN if there are none).
     """
     per_cycle = samples_per_cycle(samples["tau"].to_numpy(), system.period)
     amplitudes = {name: modulation.cycle_amplitudes(samples[name], per_cycle) for name in ("X1", "X2")}
