@@ -10,7 +10,7 @@ from vibroimpact.integrators.right_hand_side import coefficients
 
 
 class MoreauJean(Method):
-    """Implicit midpoint rule in which the restitution law relates the velocities before and after a step in contact.
+    """Trapezoidal rule in which the restitution law relates the velocities before and after a step with a contact.
 
     The setting is the number of steps per cycle.
     """
