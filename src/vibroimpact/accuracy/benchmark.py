@@ -48,9 +48,9 @@ def methods_table(seconds: float) -> list[dict]:
 
 
 def scenes() -> dict[str, tuple]:
-    """Return the scenes by description; a scene is a set of n motions.
+    """Return a dictionary of scenes, which are sets of n motions; each key is the description of a scene.
 
-    Each scene is given as a tuple (one system or n systems, initial states (n, 8), number of cycles).
+    Each value is a tuple (one system or n systems, initial states (n, 8), number of cycles).
     """
     equal, weak = (System(**PARAMETERS, **CASES[case]) for case in ("equal", "weak"))
     sweep = [
@@ -70,9 +70,9 @@ def scenes() -> dict[str, tuple]:
 def scenes_table(seconds: float) -> list[dict]:
     """Return the time per impact [us] on one core: for each scene, one row for `ensemble` and one for single runs.
 
-    The row of `ensemble` also contains an error. To measure this error, SINGLE_RUNS motions of the scene are computed
-    twice over SHORT cycles: in an ensemble and by single runs. For each motion, the largest difference of a coordinate
-    between the two final states is taken. The error is the median of these differences.
+    The row of `ensemble` also contains an error. To measure the error, some motions of the scene are computed twice
+    over a few cycles: in an ensemble and by single runs. The difference for one motion is the largest difference
+    between the coordinates of the two final states. The error is the median of the differences for all these motions.
 
     Parameters
     ----------

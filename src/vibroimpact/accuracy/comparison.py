@@ -16,13 +16,13 @@ OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDL
 def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
     """Return one row per method, in the order of `work_precision`: relative cost, and results of the stress tests.
 
-    A run solves a problem if it has an error of at most 1e-6 and no missed or spurious impacts. The cost of a method is
-    the shortest time per cycle of its runs that solve the problem. Columns:
+    A run solves a problem if it has an error of at most 1e-6 and no missed or spurious impacts. The cost of a method
+    for a problem is the shortest time per cycle of the method's runs that solve the problem. Columns:
 
     - method, family;
     - problems: number of solved problems;
-    - times: cost divided by the cost of the first method, for the problem with the largest quotient; blank unless
-      the method solves all problems;
+    - times: cost divided by the cost of the first method, largest value over all problems; blank unless both methods
+      solve all problems;
     - right: number of stress tests with a right result;
     - wrong: number of stress tests with a wrong result for which the method reports no error or doubt;
     - stopped: number of stress tests that end with an error or do not finish;
@@ -51,7 +51,7 @@ def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFram
 
     `compared` is the result of `methods_table`. Methods without stress tests in `compared` are left out. Columns:
     problem, error (largest allowed error of the final state), choice (1 or 2), method, setting, seconds_per_cycle, and
-    the columns wrong and tests of `compared`.
+    two columns copied from `compared`: wrong and tests.
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]

@@ -66,7 +66,7 @@ def _near(times, others, window) -> np.ndarray:
 
 
 def _align(expected, found, window):
-    """Pair the times of two ascending sequences, in order, where they differ by at most `window`.
+    """Pair the times of two ascending sequences, in order; the two times of a pair differ by at most `window`.
 
     Return (largest difference in a pair, number of expected times without a pair, list of found times without a pair).
     """

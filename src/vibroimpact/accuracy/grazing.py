@@ -16,10 +16,10 @@ NEWTON_STEPS = 12
 def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float, ...]:
     """Return an initial state (8,) from which ball 1 clears the wall +1 by `clearance` at its first approach.
 
-    Before the first impact the boxes do not depend on the ball, so that W_1 = X_1 - Y_1 is stationary where X_1' equals
-    the velocity of the ball. The initial position of the ball is set so that W_1 = 1 - clearance at the time when W_1
-    is stationary. With a negative clearance the ball hits the wall. Rounding the state to float64 changes the clearance
-    by up to 1e-16.
+    W_1 = X_1 - Y_1 has its maximum when X_1' equals the velocity of the ball. Before the first impact, the motion of
+    the boxes and the velocity of the ball do not depend on the initial position of the ball. This position is set so
+    that the maximum of W_1 is 1 - clearance. With a negative clearance the ball hits the wall. Rounding the state to
+    float64 changes the clearance by up to 1e-16.
 
     Parameters
     ----------

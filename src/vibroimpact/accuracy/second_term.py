@@ -47,7 +47,9 @@ def at_zero(slope):
 
 
 def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
-    """Return the system with the given epsilon, and the root (4,) of its SymmetricConditions next to a fixed point.
+    """Return the system with the given epsilon, and the symmetric orbit (4,) of this system next to a fixed point.
+
+    The orbit is given as a root of SymmetricConditions: [impact times, amplitudes C].
 
     Raises
     ------
@@ -64,7 +66,7 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 
 
 def offsets(system, point, roots) -> np.ndarray:
-    """Return the differences between orbits and a fixed point: of C (row 0) and of the impact phases [rad] (row 1).
+    """Return C (row 0) and impact phases [rad] (row 1) of orbits, minus those of a fixed point.
 
     `roots` (..., 4) are the roots of SymmetricConditions that describe the orbits. The result has the shape
     (..., 2, 2); entries of an inactive module are NaN.

@@ -99,7 +99,7 @@ def reference_of(test: StressTest):
     if test.reference_cycles is None:
         return proven_run(test.system, test.state, test.cycles, exact_floats=False).run
     times = [(test.reference_cycles - 1) * test.system.period]
-    # An attracting motion loses no digits, so that `proven_run` can start with few digits.
+    # Near an attracting motion errors do not grow, so that `proven_run` can start with few digits.
     few = {"digits": 40, "sample_times": times, "exact_floats": False}
     run = proven_run(test.system, test.state, test.reference_cycles, **few).run
     change = abs(run.samples[0] - run.final).max()
@@ -129,8 +129,8 @@ def _row(test, method, reference):
 def grazing(system: System, side: int, digits: int) -> StressTest:
     """Return the test in which ball 1 barely misses or barely hits a wall, by 10^-digits.
 
-    If `side` is 1, the ball misses the wall by 10^-digits; if `side` is -1, the ball would go beyond the wall by
-    10^-digits without an impact. A method must find even the slowest impact.
+    If `side` is 1, the gap between ball and wall falls to 10^-digits and increases again. If `side` is -1, the ball
+    hits the wall; without the wall, the ball would go 10^-digits farther. A method must find even the slowest impact.
     """
     start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
     name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"
@@ -140,6 +140,7 @@ def grazing(system: System, side: int, digits: int) -> StressTest:
 def _crossing(system, periods):
     """Return a state from which ball 1 reaches a wall after `periods` forcing periods, up to rounding.
 
-    In this state both boxes are at rest, and ball 2 rests in the middle of its box. `system` must have no forcing.
+    In this state both boxes are at rest, and ball 2 rests in the middle of its box. The forcing amplitudes of `system`
+    must be 0, so that the boxes stay at rest until the impact.
     """
     return (0.0, 0.0, 0.0, 0.0, 0.0, -1.0 / (periods * system.period), 0.0, 0.0)

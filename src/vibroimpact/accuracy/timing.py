@@ -1,4 +1,4 @@
-"""Measure the run time of functions by repeated calls; the fastest call is least disturbed by other work."""
+"""Measure the run time of functions: the time of the fastest of several calls, since other work disturbs it least."""
 
 import platform
 import time

@@ -20,12 +20,13 @@ DIGITS = 40
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """Window of a simulation.
+    """Part of a simulation after the transient (the window), with a record of the whole run once per cycle.
 
     samples: tau and the state at evenly spaced times, both ends of the window included. events: tau, module, wall, kind
     and the state just after each event in the window. strobe: tau and the state at the start of every forcing cycle of
-    the whole run and at the end of the run. trust: the method of the simulation; for float64 also the certificate of
-    the run, for the reference arithmetic the digits of two runs and the largest difference between these runs.
+    the whole run and at the end of the run. trust: the method of the simulation, and evidence of its accuracy. For
+    float64, the evidence is the certificate of the run. For the reference arithmetic, the evidence is the largest
+    difference between two runs and the digits of these runs.
     """
 
     samples: pd.DataFrame

@@ -32,7 +32,8 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
     Parameters
     ----------
     seconds : float
-        Time [s] for which each setting is repeated, in turn with the other settings, after a first call that compiles.
+        Time [s] for which the run with each setting is repeated. Runs with different settings take turns. Code is
+        compiled before the timing starts.
     short : bool, default False
         Use only every second setting of each method.
     """
@@ -70,7 +71,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 def _measured(problem, setting, run, time, reference):
     """Return the columns of a run: errors, time, numbers of steps and evaluations, outcome and reason.
 
-    The reason is the cause of a failure or what the method reports as undecided; otherwise it is empty.
+    The reason states the cause of a failure, or the doubt that the method itself reports; otherwise it is empty.
     """
     return {
         "setting": str(setting),

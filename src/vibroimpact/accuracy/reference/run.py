@@ -129,7 +129,7 @@ def proven_run(system_parameters, state, cycles, digits=None, sample_times=None,
     Raises
     ------
     ArithmeticError
-        If no two successive runs with up to MAX_DIGITS agree.
+        If no two successive runs agree before the number of digits exceeds MAX_DIGITS.
     """
     digits = digits or int(40 + 0.33 * float(to_fraction("cycles", cycles)))
     coarse, agreement = None, np.inf

@@ -9,8 +9,8 @@ from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
 from vibroimpact.system import System
 
-# Largest product of a step and the norm of the rate matrix. Longer steps need more Taylor terms and lose digits to
-# cancellation (e^REACH); shorter steps are more numerous.
+# Largest product of a step and the norm of the rate matrix. Longer steps need more Taylor terms and lose more digits,
+# since cancellation can amplify rounding errors by e^REACH. With shorter steps, a run has more steps.
 REACH = 4
 
 
@@ -52,7 +52,7 @@ class ExactSystem:
     def of(cls, parameters, exact_floats: bool = False) -> "ExactSystem":
         """Return the coefficients for a System, or for a mapping from its ten parameters to numbers or decimal strings.
 
-        Floats are read as in `to_fraction`. With exact floats, Omega is rounded to a float, as in the engine.
+        Floats are read as in `to_fraction`. If `exact_floats` is True, Omega is rounded to a float, as in `simulate`.
 
         Raises
         ------
@@ -82,7 +82,7 @@ def _coupled(one, two, coupling):
 
 
 class Flow:
-    """Power series of X1 and X2 in the time since an initial state, for one contact state.
+    """Power series of X1 and X2 in the time since an initial state, for a fixed set of sticking balls.
 
     The motion is linear: with s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)] and s' = A s, the k-th coefficient
     is given by the first two rows of A^k s / k!. No eigenvalues are used, so that repeated, defective, undamped and

@@ -135,9 +135,9 @@ class Trajectory:
         self.record.append((self.tau, module, self.balls[module].wall, kind, tuple(self.state())))
 
     def _point(self, value):
-        """Return the midpoint of an enclosure, as start of the next flight."""
+        """Return the midpoint of an enclosure; the next flight starts from it."""
         if not value.rad() < self.tolerance:
-            raise Undecidable(f"the state after a flight is only known to {value.rad()}; use more digits")
+            raise Undecidable(f"the state after a flight is known only to within {value.rad()}; use more digits")
         return value.mid()
 
     def _advance(self, series, step, arriving):
@@ -363,11 +363,11 @@ def _force(ball, motion):
 
 
 def _parabola_hint(distance, longest):
-    """Return the time `hint` for the call of `first_root` that searches the root of `distance`, or None.
+    """Return the argument `hint` with which `first_root` finds the root of `distance` faster, or None.
 
-    The time is twice the root of the linear part of `distance`. In a short flight of a chatter, `distance` is almost
-    linear, so that one split at this time suffices to find its root. The result is None if the time is not positive or
-    exceeds a quarter of `longest`.
+    In a short flight of a chatter, `distance` is almost linear, and its root is near the root of its linear part. The
+    hint is twice the root of the linear part, so that `first_root` needs only one split. The result is None if the hint
+    would not be positive, or if it would be at least a quarter of `longest`.
     """
     height, slope = distance[0], distance[1]
     if not (height > 0 and slope < 0):
@@ -377,7 +377,7 @@ def _parabola_hint(distance, longest):
 
 
 def _earliest(found, tolerance):
-    """Return the pairs (key, interval) of `found` whose root may be at most `tolerance` after the earliest root."""
+    """Return `found` without pairs (key, interval) whose root is certainly more than `tolerance` after another root."""
     if not found:
         return []
     first = min(ball.upper() for _, ball in found)
