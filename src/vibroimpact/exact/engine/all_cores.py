@@ -13,7 +13,7 @@ WORKER = threading.local()
 
 
 def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], progress: bool) -> list:
-    """Return the list of `work(*piece)` for each piece, in order, or raise the first error of a piece.
+    """Return the list of `work(*piece)` for all pieces, in order; if `work` raises an exception, pass the exception on.
 
     Parameters
     ----------

@@ -42,9 +42,9 @@ class Errors(NamedTuple):
     """Estimated errors of a state, in units of the constant UNIT (the float64 epsilon).
 
     independent: covariance (8, 8) of independent rounding errors. repeated: sums (8, 6) of rounding errors that recur
-    with the same value, one column for each source. Columns 0 and 2: errors of the flow tables that make the motion of
-    box 1 or 2 grow. Columns 1 and 3: errors of the flow tables that rotate the motion of box 1 or 2 in its phase plane.
-    Columns 4 and 5: errors of restitution that change the rebound of ball 1 or 2.
+    with the same value. Each column belongs to one source. Columns 0 to 3 are due to rounding of the flow tables
+    (precomputed free motion of the boxes), which changes the amplitude of box 1 (column 0) and box 2 (column 2), and
+    the phase of box 1 (column 1) and box 2 (column 3). Columns 4 and 5 are due to rounding at impacts of ball 1 and 2.
     """
 
     independent: np.ndarray
@@ -56,8 +56,8 @@ def errors_of(flow, flights, events, limit):
     """Return the estimated errors of the state at the start and end of every flight, and at the end of the run.
 
     The errors of the flights have shape (m + 1, 2) for m events. An error is the square root of the sum of the mean
-    square errors of all components. If it exceeds `limit` after an event, all later errors are inf. If it exceeds
-    `limit` at the end of the run, the error at the end of the run is inf.
+    square errors of all components. If the error after an event exceeds `limit`, all later errors are inf. An error
+    above `limit` at the end of the run is replaced by inf.
     """
     q = flow.coefficients
     estimates, largest = np.full((len(flights), 2), math.inf), limit / UNIT
@@ -76,7 +76,7 @@ def errors_of(flow, flights, events, limit):
         else:
             _end(q, flights[n], 0.0, errors, product[0])
         root = _root(errors)
-        if not root <= largest:  # also True if the root is nan, as after an impact without velocity
+        if not root <= largest:  # also True if the root is nan, as after an impact with velocity 0
             return estimates, math.inf
     return estimates, UNIT * root
 
@@ -139,7 +139,7 @@ def _fly(flow, flight, errors, matrix, product):
     left = flight[LENGTH]
     while left > 0.0:
         flight[LENGTH] = min(left, flow.longest)
-        # Shorter flights use the first entry of the table, the identity, which has no rounding error.
+        # A flight of at most half a table spacing uses the first entry, the identity, which has no rounding error.
         if flight[LENGTH] > 0.5 * flow.spacing:
             _add_table(flow.coefficients, flight[BEFORE:AFTER], errors.repeated)
         fill_flight(flow, flight, matrix)
@@ -297,9 +297,9 @@ class Certificate(Representation):
         Estimated error of the final state (root mean square), from a unit rounding error after every event, propagated
         by the variational flow; inf if the run ends beyond `horizon`.
     horizon : float
-        Time tau of the first event (or the end) at which the estimated error exceeds 1e-3; inf if no estimate exceeds
-        1e-3. Beyond the horizon, the trajectory is a possible motion of the system, but not the motion from the given
-        initial state.
+        Time tau at which the estimated error first exceeds 1e-3, at an event or at the end of the run; inf if no
+        estimate exceeds 1e-3. Beyond the horizon, the trajectory is a possible motion of the system, but not the motion
+        from the given initial state.
 
     Notes
     -----

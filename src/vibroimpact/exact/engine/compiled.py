@@ -1,9 +1,9 @@
 """Decorators that compile the inner loops with Numba, cache them on disk and release the interpreter lock.
 
-Rounding: functions that compute a step of a run round every operation as written. The same formula then gives the same
-bits for floats and for the lanes of an ensemble (`vectors`). There is one exception: in functions decorated by
-`compiled`, and in `inlined_source` functions that they call, the compiler may fuse a product and a sum into one
-operation with a single rounding.
+Rounding: in functions that compute a step of a run, the compiler must not combine or reorder operations. Then a formula
+gives the same bits for floats and for the vectors with which an ensemble advances several runs together. There is one
+exception: in functions decorated by `compiled`, and in `inlined_source` functions that they call, the compiler may fuse
+a product and a sum into one operation with a single rounding.
 
 Inlining: functions that run at every event are inlined into the loop. Otherwise passing a motion and its Taylor
 polynomials (about 30 numbers) would cost more than the computation. Most functions with a single caller are inlined as

@@ -1,6 +1,6 @@
 """Apply a free flight, or all events of one instant, to a motion: impacts, completed chatters, sticks and releases.
 
-The impact law is defined in `vibroimpact.system.restitution`, which lists its other implementations.
+The impact law is defined in `vibroimpact.system.restitution`, where all implementations of the law are listed.
 
 Each event is a row of a table: [time since the start, module, wall, kind, state after the event, forcing phase,
 approach (see `record`), sine and cosine of the phase]. The phase is that of the instant at which the row is written.
@@ -167,9 +167,10 @@ def box_accelerations(q, walls, boxes, sine):
 def _contact_push(q, jets, boxes, i, wall, sticking):
     """Return a number > 0 if the wall pushes ball i, at rest on it, and < 0 if the wall would have to pull the ball.
 
-    The number is the contact force or, if the force is zero within rounding, its first nonzero derivative. There is one
-    exception: a sticking ball with a negative force that increases at the rate `change` would, if released, rise only
-    by 2 |force|^3 / (3 change^2). If this height is below rounding, `change` is returned.
+    The sign of the number is that of the contact force or, if the force is zero within rounding, of the first nonzero
+    derivative of the force. There is one exception: the force on a sticking ball is negative but increases at the rate
+    `change` > 0. If released, the ball would rise to the height 2 |force|^3 / (3 change^2). If this height is below
+    rounding, `change` is returned, so that the ball stays stuck.
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -193,7 +194,7 @@ def _hop(q, motion, i, wall):
 
 @inlined_source
 def _end_of_chatter(flow, motion, i, counters):
-    """Return the time until the chatter of ball i ends, or -1 if the chatter may not be completed now.
+    """Return the time until the chatter of ball i ends, or -1 if the chatter cannot be completed at this instant.
 
     With u and a from `_hop`, each hop is shorter than the one before by the factor kappa, so that the chatter ends
     after T = 2 u / (a (1 - kappa)). Completing the chatter at once conserves the momentum of box and ball. It neglects
@@ -262,7 +263,7 @@ def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
     """Apply the impact of the flying ball i if the ball has reached a wall; return (motion, soon).
 
     due: True if the impact is due now. soon: True if a chatter that begins with this impact would end within half of
-    `remaining` and within half of LOOKAHEAD * flow.unit. (A proof excludes events for at most LOOKAHEAD * flow.unit.)
+    `remaining` and within half of LOOKAHEAD * flow.unit, the longest time for which one proof can exclude events.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
