@@ -1,4 +1,4 @@
-"""Compile in advance the code for simulations, results of a Run, and ensembles: `python -m vibroimpact.compile`.
+"""Compile the code of `simulate`, `ensemble` and `Run` before its first use: `python -m vibroimpact.compile`.
 
 Numba caches the code in NUMBA_CACHE_DIR if this is set. Otherwise it uses the first of these folders that is writable:
 the folder of the library, the user's cache, a temporary folder.

@@ -86,8 +86,8 @@ def _fixed_points(system, options):
 def _orbits(system, options):
     """Return one row per admissible orbit.
 
-    Phases [forcing periods] are those of the impacts at walls +1 and -1. Speeds are those of the ball on the flights
-    that start at these walls. modulus_1 is the largest modulus of a Floquet multiplier.
+    For each module and wall, the columns contain the phase of the impact [forcing periods] and the speed of the ball
+    after the impact. modulus_1 is the largest modulus of a Floquet multiplier.
     """
     measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
     columns = ("symmetric", "C1", "C2", *measures, "modulus_1", "residual", "exact")
