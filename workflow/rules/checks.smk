@@ -2,7 +2,7 @@
 
 
 # The figure check has no output file, so that it always runs. It also prints the result on the terminal. With
-# STRICT=1 in the environment, it also fails if other versions of Matplotlib make pictures incomparable.
+# STRICT=1 in the environment, it also fails if a picture differs from a reference that other library versions drew.
 rule figure_check:
     input:
         [getattr(rules, name).output for name in (*config["figures"], *CHARTS)],

@@ -1,4 +1,5 @@
-# Index page: for each figure, a comment on the exact system; links to all results, including results of the studies.
+# Index page of the results. It shows the figures with comments on the exact system, and links to all results, including
+# those of the studies.
 
 
 rule index:

@@ -1,7 +1,8 @@
 """Compute fixed points and exact 1:1 responses for one case, with verdicts of all criteria and proofs; write CSV.
 
-search.json describes the search for asymmetric orbits. It contains the number of orbits found, the number of Newton
-starts and, for the orbit that was reached from the fewest starts, the number of these starts.
+A 1:1 response has one impact at each wall per forcing period. search.json describes the search for asymmetric
+responses. It contains the number of asymmetric responses found, the number of Newton starts, and the smallest number of
+starts that led to one of the responses (mirror images count as one).
 """
 
 import json

@@ -66,7 +66,8 @@ def execute(notebook, executed, parameters: dict):
 def parameters_of(config: dict) -> dict:
     """Return the parameters of a notebook by name; `config` contains the config entries of its figure by key path.
 
-    A parameter has the last key of the path as its name. Each entry of a case or of `plant` is a separate parameter.
+    The name of a parameter is the last key of the path. If a config entry is a case or a `plant`, each of its values
+    becomes a separate parameter.
     """
     given = {}
     for path, value in config.items():

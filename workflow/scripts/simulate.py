@@ -17,8 +17,9 @@ from vibroimpact.system.state import KINDS, NAMES
 def summarise(simulated: Window, settings: dict) -> dict:
     """Return a summary of the window after the transient.
 
-    The summary contains the start and end time, the number of events by kind and module, the largest change of a
-    coordinate over 1, 2, 3 and 4 cycles (at most the length of the window), and the final state.
+    The summary contains the start and end time, the number of events by kind and module, and the final state. It also
+    contains the largest change of a coordinate over n cycles, for each n from 1 to 4 that does not exceed the number of
+    cycles in the window.
     """
     events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {

@@ -7,9 +7,9 @@ include: "common.smk"
 # For each figure, the arguments of its function `compute`:
 # - case: path of the config entry with the name of a case. The system of this case is an argument.
 # - systems: True if the systems of all cases are an argument.
-# - settings: paths of config entries. Each entry is an argument with the name of the last key of the path. At the end
-#   of a path, * stands for all settings of a section except `case`.
-# - inputs: path of each table by the name of the argument.
+# - settings: paths of config entries. Each entry is an argument, whose name is the last key of the path. A * at the end
+#   of a path stands for all settings of a section except `case`.
+# - inputs: dictionary of table paths. Each table is an argument, whose name is the key of its path.
 # `outputs` replaces the usual outputs. A figure is omitted if the config lacks one of the entries above or an entry in
 # `needs`.
 COMPANIONS = {
@@ -67,7 +67,7 @@ COMPANIONS = {
 }
 
 
-# Machines in SI units, each with its own page like a figure of the chapter.
+# Each machine in the config (in SI units) has a companion figure and a page.
 for name in config["machines"]:
     SCENES[name] = config["machines"][name] | {"like": "machines"}
     COMPANIONS[name] = {"settings": [f"machines.{name}.*"]}

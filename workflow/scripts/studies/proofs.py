@@ -23,7 +23,7 @@ CERTIFIED = {
 
 
 def proofs_of(system, search) -> dict:
-    """Return three proofs of completeness for one case, and the content of search.json in the file `search`."""
+    """Return three proofs of completeness for one case, and the content of the file `search` (search.json)."""
     proofs = {name: prove(system) for name, prove in CERTIFIED.items()}
     return {
         **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},

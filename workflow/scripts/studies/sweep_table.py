@@ -1,4 +1,4 @@
-"""Join the tiles of a sweep into one table with one row per point; write CSV, and NetCDF on the grid of the axes."""
+"""Join the tables of all tiles (parts of a sweep, one job each); write CSV, and NetCDF on the grid of the axes."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Compute one tile of a sweep, and write it as CSV with one row per point."""
+"""Compute one tile of a sweep (a subset of the grid points), and write a CSV table with one row per point."""
 
 from vibroimpact_pipeline.jobs import running
 
