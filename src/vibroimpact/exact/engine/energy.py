@@ -1,8 +1,8 @@
 """Energy balance of a run: work of the forces, dissipation in dampers and impacts, stored energy.
 
 Work and dissipation are integrals of quadratic forms along the flights. Each term is computed independently, so that
-the balance tests all terms. The stick that completes a chatter dissipates the remaining energy of the relative motion,
-in place of the impacts of the chatter that are not simulated.
+the balance tests all terms. A stick event that completes a chatter replaces the remaining impacts, which are not
+simulated, and dissipates the remaining energy of the relative motion.
 
 In flight, z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. With damping, a quadratic form z G z is the rate of change
 of a potential z S z + c t, where A^T S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation). The integral is then the
@@ -110,7 +110,7 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @lru_cache(maxsize=64)
 def squares_of(system) -> Squares:
-    """Return the potentials for the integrals of the quadratic forms OBSERVED.
+    """Return the potentials for the integrals of the quadratic forms in `OBSERVED`.
 
     If differences of these potentials would lose digits, return NO_POTENTIALS.
     """
@@ -254,9 +254,10 @@ def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
 
 @inlined
 def _add_quadrature(flow, mode, motion, length, row):
-    """Add to a row the integrals of the forms OBSERVED over a flight, by Gauss's rule.
+    """Add to a row the integrals of the quadratic forms in `OBSERVED` over a flight, by Gauss's rule.
 
-    length: of the flight, at most `flow.longest`. The forms are X_1^2, X_2^2 and the terms of the energy balance.
+    length: duration of the flight, at most `flow.longest`. The forms are X_1^2, X_2^2 and the terms of the energy
+    balance.
     """
     for j in range(int(length * flow.density + 0.5) + 1):
         jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)

@@ -63,7 +63,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
         due, step, width, safe, doubt = _first_event(q, now, jets, bound, horizon, short)
-        step = step if step >= -t else 0.0  # an event is not before the start of the flight
+        step = step if step >= -t else 0.0  # an event dated before the start of the flight happens now
         met, boxes, end = due >= 0 and abs(step) <= short, now.boxes, t + step
         if met:
             counters[contact.UNDECIDED] += doubt
@@ -87,7 +87,7 @@ def _first_event(q, motion, jets, bound, horizon, short):
     The event happens in `module` at `time` +- `width`. No event happens in either module before `safe`. The module is
     -1 if no event is certainly the first. doubt: `undecided` from `module_time` for the first event.
     """
-    # first check the module whose ball, at constant relative velocity, would reach the wall ahead of it earlier
+    # first check the module whose ball, at constant relative velocity, would be the first to hit a wall
     (x1, x2, v1, v2), (y1, y2, u1, u2) = motion.boxes, motion.balls
     gap1, gap2 = 1.0 - math.copysign(1.0, v1 - u1) * (x1 - y1), 1.0 - math.copysign(1.0, v2 - u2) * (x2 - y2)
     one = 0 if gap1 * abs(v2 - u2) <= gap2 * abs(v1 - u1) else 1
@@ -143,16 +143,17 @@ ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096
 MOST_AT_ONCE = 8  # most events at one instant: for each module an impact, a stick, a release and the end of a chatter
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 need more."""
-INTERRUPT_INTERVAL = 200_000  # number of exclusions between two checks for an interrupt, about 20 ms
+INTERRUPT_INTERVAL = 200_000  # number of proofs that no event happens, between two checks for an interrupt; about 20 ms
 PATIENCE = 100_000  # number of successive flights of zero duration after which a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
-"""Terms of the limit on the number of exclusions in a run: constant, per event and per time `Flow.unit`."""
+"""A run may use MOST_PROOFS proofs that no event happens, plus MOST_PROOFS_PER_EVENT per event and MOST_PROOFS_PER_UNIT
+per time `Flow.unit`."""
 ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages
 EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
 """Indices in the array of a run, (RUN_LENGTH,). The array contains the state in the order of `contact.pack`, the
 other fields of `Progress`, the number of events in earlier rows (EARLIER_EVENTS), the phase at the start with its
-rounding remainder and the number of forcing cycles (from SPAN on), and the time on the sample clock at the start
-(CLOCK)."""
+rounding remainder and the number of forcing cycles (from SPAN on), and the start time of the run, measured from the
+same origin as the sample times (CLOCK)."""
 
 
 class Progress(NamedTuple):
@@ -178,14 +179,15 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """Continue a run to its end or to a pause; return the status.
 
     numbers, series, rotations: from `flow.tables_of`. run, rows, counters: from `memory`; they are updated, and run[:8]
-    is the state reached. times (n,): ascending sample times, measured so that the run starts at run[CLOCK]. samples
-    (n, 8): filled with the states at these times; a sample at the time of an event is the state after the event.
+    is the state reached. times (n,): ascending sample times, measured from the same origin as the start time run[CLOCK]
+    of the run. samples (n, 8): filled with the states at these times; a sample at the time of an event is the state
+    after the event.
 
     The status is PAUSED if `rows` may be too short for the events of the next instant. It is also PAUSED after
-    INTERRUPT_INTERVAL exclusions, so that the interpreter can handle an interrupt. To continue, call the function
-    again. If `rows` was too short, first replace it by new rows, add the number of its events to run[EARLIER_EVENTS],
-    and set counters[EVENTS] to 0. Only a number is returned, because an interrupt during the conversion of a tuple
-    would leave the tuple incomplete.
+    INTERRUPT_INTERVAL exclusions (proofs that no event happens), so that the interpreter can handle an interrupt. To
+    continue, call the function again. If `rows` may be too short, first add counters[EVENTS] to run[EARLIER_EVENTS],
+    set counters[EVENTS] to 0, and replace `rows` by a new array. Only a number is returned, because an interrupt during
+    the conversion of a tuple would leave the tuple incomplete.
     """
     boxes, balls = (run[0], run[2], run[4], run[6]), (run[1], run[3], run[5], run[7])
     motion = Motion(boxes, balls, (int(run[8]), int(run[9])), (int(run[10]), int(run[11])), 0.0, 1.0)
@@ -205,7 +207,7 @@ def memory(state, phase, tail, cycles, clock):
     """Return new arrays for a run over `cycles` cycles: (array of the run, rows of events, counters).
 
     state (8,): initial state in the order of `contact.pack`. phase, tail: initial forcing phase in [0, 2 pi) and its
-    rounding remainder. clock: start of the run on the clock of the sample times.
+    rounding remainder. clock: start time of the run, measured from the same origin as the sample times.
     """
     run, room = np.zeros(RUN_LENGTH), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     run[:8], run[12:15], run[SPAN:] = state, (-1.0, phase, tail), (phase, tail, cycles, clock)
@@ -216,11 +218,12 @@ def memory(state, phase, tail, cycles, clock):
 def run_until(flow, progress, span, sampling, log, earlier, interval):
     """Continue a run to its end or to a pause; return (progress, status).
 
-    The run pauses if `log.rows` may be too short for the next instant, or after more than `interval` exclusions.
+    The run pauses if `log.rows` may be too short for the events of the next instant, or after more than `interval`
+    exclusions (proofs that no event happens).
 
-    span: (forcing phase at the start of the run, its rounding remainder, number of forcing cycles). sampling: (time at
-    the start of the run, ascending sample times (n,) on the same clock, array (n, 8) to which the sampled states are
-    written). earlier: number of events that were written to earlier arrays of rows.
+    span: (forcing phase at the start of the run, its rounding remainder, number of forcing cycles). sampling: (start
+    time of the run, ascending sample times (n,) measured from the same origin, array (n, 8) to which the sampled states
+    are written). earlier: number of events that were written to earlier arrays of rows.
     """
     q = flow.coefficients
     (first, first_tail, cycles), (start, sample_times, samples) = span, sampling

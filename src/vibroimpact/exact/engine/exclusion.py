@@ -17,7 +17,7 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import inlined, inlined_source
 from vibroimpact.exact.engine.flow import half_curvature, jet, mode_of, slope, value
 
-SHORTEST_TIME = 1e-300  # `safe_time` returns 0 if not even this time is proved
+SHORTEST_TIME = 1e-300  # if no proof succeeds for a time longer than this, `safe_time` returns 0
 
 
 @inlined
@@ -148,14 +148,14 @@ def spread(c, remainder, t):
 
 
 RESOLUTION = 4.0 * np.finfo(float).eps
-ZERO_FACTOR = 2.0  # in units of the margin; a smaller constraint is taken as 0, since proofs would need tiny steps
+ZERO_FACTOR = 2.0  # a constraint of up to 2 times its rounding error is taken as 0, since proofs would need tiny steps
 DOUBT_FACTOR = 2.0 * ZERO_FACTOR
 """Distance, in units of the rounding error of a gap (`gap_rounding`), below which rounding decides whether a ball hits
 or misses a wall. If the motion is computed again with other steps, as in a lane of an ensemble, the decision may
 differ."""
 LOOKAHEAD = 2.5
 ZERO_FORCE_MARGIN = 1e-300  # margin for a force that stays zero
-SHORT = 0.02  # in units of `Flow.unit`; over shorter times a jet is exact to rounding
+SHORT = 0.02  # in units of `Flow.unit`; over shorter times the Taylor polynomials of the boxes are exact to rounding
 
 
 @inlined
@@ -209,9 +209,10 @@ def gap_rounding(q, boxes, balls, i):
 
 @inlined
 def gap(p, position, velocity, w):
-    """Return the Taylor polynomial (8,) of the gap between a free ball and wall w, from the jet p (8,) of the box.
+    """Return the Taylor polynomial (8,) of the gap between a free ball and wall w.
 
-    position, velocity: of the ball, at the origin of the jet.
+    p (8,): Taylor polynomial of the box displacement. position, velocity: position and velocity of the ball at time 0
+    of this polynomial.
     """
     near, approach = 1.0 - w * (p[0] - position), -w * (p[1] - velocity)
     return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
@@ -252,9 +253,9 @@ def _safe_time(c, bound, margin, horizon):
 def _time_from_zero(c, bound, margin, horizon, rises):
     """Return a time over which a constraint that is initially zero within rounding is certainly satisfied.
 
-    If the constraint rises, its polynomial is divided by t to remove the zero at the start. In two cases, the
-    constraint is only proved to stay above -margin over the returned time: if the constraint does not rise, or if the
-    time from the divided polynomial is short only because of the remainder bound.
+    If the constraint rises, its polynomial is divided by t to remove the zero at the start. If the constraint
+    does not rise, it is only proved to stay above -margin over the returned time. The same holds if the remainder bound
+    more than halves the time that follows from the divided polynomial.
     """
     time = 0.0
     if rises:
@@ -289,8 +290,8 @@ def module_time(q, motion, i, jets, bound, horizon, short):
     event has just been passed. `undecided` is True if rounding decides whether the constraint reaches zero (tangential
     contact).
 
-    jets: Taylor polynomials of both boxes; bound: `remainder` up to the horizon; short: longest time over which a jet
-    is exact to rounding.
+    jets: Taylor polynomials of both boxes. bound: from `remainder`, valid up to the horizon. short: longest time over
+    which the Taylor polynomials are exact to rounding.
     """
     if motion.walls[i] != 0:
         return _sticking_time(q, motion, i, jets, horizon, short)

@@ -151,16 +151,18 @@ def unpacked(numbers, series, rotations):
 
 @inlined
 def jet_at(flow, mode, boxes, sine, cosine, j):
-    """Return the jets of both boxes (see `jet`) a time j * flow.spacing after the start of a free flight.
+    """Return the Taylor coefficients (see `jet`) of both boxes about the time t = j * flow.spacing of a free flight.
 
-    boxes, sine, cosine: boxes and forcing phase at the start of the flight.
+    boxes, sine, cosine: boxes and forcing phase at the start of the flight, t = 0.
     """
     return weighted_sum(flow.series, mode, j, (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine))
 
 
 @inlined
 def acceleration(q, inverses, positions, velocities, forces):
-    """Return the accelerations of both boxes; inverses: 1 / moving mass of each module.
+    """Return the accelerations of both boxes.
+
+    inverses: inverse mass of each box, with its ball if the ball sticks (`inverse_masses`).
 
     Given the k-th time derivatives of positions, velocities and forces, the result is the k-th time derivative of the
     accelerations.
@@ -232,14 +234,14 @@ def half_curvature(p, t):
 
 @inlined
 def evaluate(jets, t):
-    """Return the boxes (X1, X2, X1', X2') at a short time t, of either sign, after the origin of `jets`."""
+    """Return the boxes (X1, X2, X1', X2') at a short time t, of either sign, from their Taylor polynomials `jets`."""
     one, two = jets
     return value(one, t), value(two, t), slope(one, t), slope(two, t)
 
 
 @inlined
 def rotate_phase(flow, sine, cosine, j):
-    """Return sine and cosine of the forcing phase a time j * flow.spacing later."""
+    """Return sine and cosine of the forcing phase after the time j * flow.spacing."""
     ca, sa = flow.rotations[j, 0], flow.rotations[j, 1]
     return sine * ca + cosine * sa, cosine * ca - sine * sa
 
@@ -260,14 +262,14 @@ def advance(flow, mode, boxes, sine, cosine, t):
 
 @dataclass(frozen=True)
 class Instant:
-    """Exact time offset + 2 pi turns, for example the end of a run; offset and turns are rational numbers.
+    """Exact time offset + 2 pi * turns with rational numbers offset and turns, for example the end of a run.
 
     float(instant) is the nearest float.
 
     Attributes
     ----------
     offset, turns : Fraction
-        The two numbers in offset + 2 pi turns.
+        The two numbers in offset + 2 pi * turns.
     reached : bool
         True if this is the end time of a run; a run that starts here continues that run.
     """
@@ -321,7 +323,7 @@ def _two_pi(bits):
 
 
 def _arctan(inverse, one):
-    """Return arctan(1 / inverse) as an integer multiple of 1 / one, accurate to a few units."""
+    """Return arctan(1 / inverse) multiplied by `one`, as an integer with an error of a few units."""
     power = total = one // inverse
     k = 1
     while power:

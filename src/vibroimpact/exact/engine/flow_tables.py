@@ -21,9 +21,11 @@ ORDERS = 8  # number of coefficients in a Taylor polynomial
 def exact_rates(parameters):
     """Return (rate matrices, velocity changes, fastest rates) of n systems.
 
-    parameters: (n, 10), in the order of `flow.PARAMETERS`. Rate matrices: one for each contact state, in pairs,
-    (n, 2, 4, 6, 6). Velocity changes: (1 + kappa) / (1 + epsilon) as pairs, (n, 2), the velocity change of a ball at an
-    impact per unit of relative velocity. Fastest rates: due to stiffness and due to damping, (n, 2).
+    parameters: (n, 10), in the order of `flow.PARAMETERS`.
+
+    The rate matrices, one for each contact state, are double-double numbers (n, 2, 4, 6, 6). The velocity changes are
+    double-double numbers (n, 2): the ratio (1 + kappa) / (1 + epsilon) of the velocity change of a ball at an impact to
+    its relative velocity before the impact. The fastest rates are those due to stiffness and due to damping, (n, 2).
 
     If the entries of the rate matrices were rounded to single floats, the forces of a stiff coupling would not cancel
     exactly when both boxes move equally. This would shift the lower natural frequency.
@@ -79,7 +81,8 @@ def _ratio(high, low, other, other_low):
 def tables(rates, spacing, count):
     """Return (series, rotations): tables of the flow z' = A z at the times j h, j < count, for k rate matrices A.
 
-    rates: the matrices A in pairs, (2, k, 6, 6). spacing: the time step h, a power of two. count: at least 2.
+    rates: the matrices A as double-double numbers, (2, k, 6, 6). spacing: the time step h, a power of two. count: at
+    least 2.
 
     series (k, count, 6, 16): Taylor coefficients of both boxes for each initial unit vector z. The coefficient of order
     m is at index m for X_1 and at 8 + m for X_2. The coefficients of order 0 and 1 (positions and velocities) are the
@@ -95,7 +98,7 @@ def tables(rates, spacing, count):
 def fill_table(rates, mode, spacing, series, rotations, step, change):
     """Write series[mode] and rotations as in `tables`, and exp(A t) - I at t = step * spacing to `change`.
 
-    change: a matrix in pairs, (2, 6, 6).
+    change: a matrix of double-double numbers, (2, 6, 6).
     """
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
@@ -183,7 +186,9 @@ def _expand(coefficients, powers, series, mode):
 
 @inlined_source
 def _multiply(powers, last, many):
-    """Append `many` powers of P = exp(A h) to P, ..., P^last: the products of P^last with P, ..., P^many.
+    """Extend the powers P, ..., P^last of P = exp(A h) by `many` more powers.
+
+    The new powers are the products of P^last with P, ..., P^many.
 
     The forcing phase does not depend on the boxes. The rows of P for the phase are therefore zero in the columns for
     the boxes. Products with these zeros are left out.

@@ -29,7 +29,7 @@ from vibroimpact.exact.engine.variation import FORCING, LENGTH, completes_chatte
 from vibroimpact.system.state import IMPACT, RELEASE
 
 SHORTEST = 1e-9  # shortest piece of a flight, in units of `Flow.unit`; the motion in a shorter piece is below rounding
-TURN_TOLERANCE = 1e-10  # for the time of a turn, in units of `Flow.unit`; the effect on the gap is about its square
+TURN_TOLERANCE = 1e-10  # tolerance for the time of a least gap or force, in `Flow.unit`; the gap is then exact to 1e-20
 NEGLIGIBLE_DOUBT = 1e-17  # a smaller bound on the error of a gap or contact force is below rounding
 MOST_STEPS = 60
 GAP, FORCE, DOUBTS = 0, 1, 2
@@ -59,9 +59,10 @@ def turning_points(flow, flights):
 
 @inlined_source
 def _search(flow, motion, length, least_of):
-    """Update `least_of` with the turns in a flight of length <= flow.longest; return the final boxes and balls.
+    """Update `least_of` with the minima of gaps and contact forces in a flight; return the final boxes and balls.
 
-    least_of (3,): row of the flight in the result of `turning_points`.
+    length: duration of the flight, at most `flow.longest`. least_of (3,): row of the flight in the result of
+    `turning_points`.
     """
     q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
@@ -97,8 +98,8 @@ def _rate(q, jets, boxes, balls, walls, i, bound):
     """Return the Taylor polynomial (8,) of a rate in module i, and bounds (8,) on the error of its coefficients.
 
     If the ball flies, the rate is X_i' - Y_i', which is the rate of the gap up to the sign. If the ball sticks, the
-    rate is that of the acceleration X_i''. Just after a release X_i' - Y_i' is 0; its derivative is then also set to 0
-    if the derivative is 0 within rounding.
+    rate is X_i''', which is the rate of the contact force (per ball mass) up to the sign. Just after a release,
+    X_i' - Y_i' is 0. If X_i'' is then 0 within rounding, the coefficient of t is set to 0.
     """
     p = jets[0] if i == 0 else jets[1]
     if walls[i] != 0:

@@ -400,7 +400,7 @@ def simulate_many(
 def _run(system, state, cycles, begin, times, clock):
     """Return a run, given checked arguments, or raise an ArithmeticError if the run failed.
 
-    times: sample times on a clock that shows `clock` at the start of the run.
+    times: sample times. clock: start time of the run, measured from the same origin as `times`.
     """
     status, run = attempt(system, state, cycles, begin, times, clock)
     if status != event_loop.FINISHED:
@@ -412,7 +412,7 @@ def _run(system, state, cycles, begin, times, clock):
 
 
 def attempt(system, state, cycles, begin, times, clock):
-    """Return (status, run up to its end or failure), given checked arguments; `clock` as in `_run`."""
+    """Return (status, run), where the run ends early if it fails; the arguments are those of `_run`."""
     run, rows, counters = event_loop.memory(state, *phase_at(begin, system.Omega), cycles, clock)
     tables, samples, pieces = tables_of(system), np.empty((len(times), 8)), []
     while (status := event_loop.integrate(*tables, run, times, samples, rows, counters)) == event_loop.PAUSED:

@@ -289,7 +289,8 @@ def _fill_identity(matrix):
 def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     """Write the derivative (8, 8) of the state after a stick of ball i with respect to the state before.
 
-    For a completed chatter, inward = u and push = a as in `contact._hop`; otherwise both are 0.
+    inward, push: 0, except for a completed chatter. Then inward is the relative speed u at which the ball leaves the
+    wall, and push is the acceleration a of the box towards the ball (`contact._hop`).
 
     Box and ball keep their momentum and centre of mass. During the chatter, springs and dampers act on the box at its
     actual position, not at the centre of mass. The effect on the velocities is included to first order in the

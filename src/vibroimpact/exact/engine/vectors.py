@@ -91,7 +91,7 @@ def _wide(context, builder, value, kind):
 def _operation(function, operand, result, generate):
     """Register code for an operation on one or two operands of the type `operand`.
 
-    If this type is Lanes, one of two operands may be a scalar.
+    If `operand` is LANES, an operation on two operands also accepts a scalar for one of them.
     """
     kind, scalar = type(operand), (types.Float | types.Integer if operand is LANES else Mask)
 
