@@ -156,8 +156,8 @@ def _combined(systems, states):
         shape = np.broadcast_shapes(systems.shape, states.shape[:-1])
     except ValueError:
         raise ValueError(
-            f"states: the shape {states.shape}, without its last axis, must broadcast with the shape of systems, got "
-            f"{systems.shape} for systems"
+            f"states: needs shape (..., 8), where the axes before the last broadcast with the shape {systems.shape} of "
+            f"systems, got {states.shape}"
         ) from None
     numbers = np.array(numbers, dtype=int).reshape(systems.shape)
     return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))
@@ -203,11 +203,11 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 
 
 def _single_run(system, state, begin, stages, final, statistics):
-    """Compute a run outside the lanes; return its status, and write final states (k, 8) and statistics (k, STATISTICS).
+    """Compute a run with the event loop alone; write final states (k, 8) and statistics (k, STATISTICS).
 
-    Lanes cannot simulate two kinds of systems. In the first kind, the frequencies of boxes and forcing are very
-    different, so that a flight in a lane would consist of too many steps. In the second kind, integrals would lose
-    digits if computed as differences of potentials (`energy.Squares`).
+    Return the status of the run. Two kinds of systems are not simulated in vector lanes. In the first kind, the
+    frequencies of boxes and forcing are very different, so that a flight in a lane would consist of too many steps. In
+    the second kind, integrals would lose digits if computed as differences of potentials (`energy.Squares`).
     """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]

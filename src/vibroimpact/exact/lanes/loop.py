@@ -1,4 +1,4 @@
-"""Run many initial states in eight lanes; pass events that the lanes cannot handle to the event loop."""
+"""Simulate many runs, eight at a time in vector lanes; pass events that the lanes cannot handle to the event loop."""
 
 import math
 from typing import NamedTuple
@@ -48,14 +48,16 @@ class Piece(NamedTuple):
 class Memory(NamedTuple):
     """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
-    Fields with an entry for each lane. runs, constants: values in the rows defined in `rows`. members: index of the
-    initial state, or -1. slots: index of the slot that the lane uses. counters: counters of the event log.
+    The following fields have an entry for each lane. runs, constants: arrays with one column for each lane; the module
+    `rows` lists their rows. members: index of the initial state, or -1. slots: index of the slot that the lane uses.
+    counters: counters of the event log.
 
-    Fields with an entry for each slot, which contains the flow tables of one system. owners: index of the system, or
-    -1. made: True for each contact state whose tables are computed. series, rotations: tables as from
+    The following fields have an entry for each slot; a slot contains the flow tables of one system. owners: index of
+    the system, or -1. made: True for each contact state whose tables are computed. series, rotations: tables as from
     `flow_tables.tables`. known: constants of the system, to be copied to a column of `constants`.
 
-    Other fields. begun: number of initial states begun or skipped. work, log, statistics, change: workspace.
+    The last fields belong to all lanes. begun: number of initial states begun or skipped. work, log, statistics,
+    change: workspace.
     """
 
     runs: np.ndarray
@@ -98,7 +100,7 @@ def memory() -> Memory:
 
 @compiled
 def run_lanes(piece, memory):
-    """Run the initial states of a piece; write status, final states and statistics.
+    """Simulate the runs of a piece of work in vector lanes; write status, final states and statistics.
 
     Initial states whose status is not FINISHED before the first call are skipped.
 
@@ -129,7 +131,7 @@ def run_lanes(piece, memory):
 
 @inlined_source
 def _fill_lanes(piece, m):
-    """Begin the next runs in free lanes; return the number of lanes in use."""
+    """Begin the next runs in free vector lanes; return the number of lanes in use."""
     alive = 0
     for lane in range(WIDTH):
         while m.members[lane] < 0 and m.begun[0] < len(piece.starts):
@@ -145,7 +147,7 @@ def _fill_lanes(piece, m):
 
 @inlined_source
 def begin_run(piece, n, lane, m):
-    """Begin run n of a piece in a lane."""
+    """Begin run n of a piece of work in a vector lane."""
     owner, settle, runs = piece.owners[n], piece.stages[0], m.runs[:, lane]
     slot = _slot_of(piece, owner, m)
     m.members[lane], m.slots[lane], m.counters[lane] = n, slot, 0.0

@@ -37,7 +37,7 @@ from vibroimpact.system.state import IMPACT
 PIECE = 4
 """Length of a piece of a flight, in spacings of the flow table. A box turns at most once in a piece, unless the box is
 almost at rest."""
-STEPS = 4  # number of Newton steps to find a turn
+STEPS = 4  # number of Newton steps to find the time at which a box reverses its motion
 
 
 @compiled
@@ -151,8 +151,8 @@ def _add_flight(flow, squares, motion, end, length, statistics):
 def _add_piece(p, low, high, i, wall, statistics):
     """Update the statistics of module i with the motion of box i between the times `low` and `high`.
 
-    If the box turns, its largest displacement is updated. If the ball sticks to the box, the length of their common
-    path is added to the path length of the ball.
+    If the box reverses its motion, its largest displacement is updated. If the ball sticks to the box, the length of
+    their common path is added to the path length of the ball.
 
     p (8,): Taylor polynomial of the box.
     """
@@ -172,8 +172,8 @@ def _add_piece(p, low, high, i, wall, statistics):
 def observe(runs, c, work, integrals, flight, hits, early, arrival):
     """Add the statistics of a flight in each lane and of the impact at its end, if there is one.
 
-    flight: mask of the lanes with a flight, length of the last step, duration of the flight, and five times a bound on
-    the error of Hermite's polynomial in the last step.
+    flight: mask of the lanes whose flight ends now, length of the last step, duration of the flight, and five times a
+    bound on the error of Hermite's polynomial in the last step.
 
     hits: masks of the lanes with an impact, one mask for each module.
 
@@ -212,7 +212,7 @@ def _add(runs, mask, place, value):
 
 @inlined
 def may_turn_beyond(record, x, v, later, v_later, third):
-    """Return True in lanes where a box turns in a step and a middle Bernstein coefficient is above `record`.
+    """Return True in lanes where a box reverses its motion and a middle Bernstein coefficient exceeds `record`.
 
     record: largest displacement of the box so far, minus a margin for errors. x, v, later, v_later: position and
     velocity of the box at both ends of the step. third: a third of the step.
@@ -222,16 +222,16 @@ def may_turn_beyond(record, x, v, later, v_later, third):
 
 @inlined
 def keep_turns(runs, c, work, turns, wrong, early, late, step):
-    """Store a turn of a box if the displacement at this turn may be the largest displacement of the box so far.
+    """Store a turning point of a box if its displacement there may be the largest so far.
 
-    If the displacement at an already stored turn may be larger than at the new turn, all stored turns are computed
-    first.
+    If the displacement at a turning point stored earlier may be larger, the displacements at all stored turning points
+    are computed first.
 
     early, late: boxes and forcing before and after the step. wrong: five times a bound on the error of Hermite's
     polynomial.
 
-    Hermite's polynomial is split near its turn, since the Bernstein coefficients of the two parts are close bounds on
-    the displacement at the turn.
+    Hermite's polynomial is split near the turning point, since the Bernstein coefficients of the two parts are close
+    bounds on the displacement there.
     """
     wrong = 0.2 * wrong
     for i in range(2):
@@ -257,10 +257,11 @@ def keep_turns(runs, c, work, turns, wrong, early, late, step):
 
 @in_place
 def find_turns(runs, c, work):
-    """Compute the displacements of the boxes at the stored turns, and update the largest displacements.
+    """Compute the displacements of the boxes at the stored turning points, and update the largest displacements.
 
-    The time of a turn is computed by Newton's method with the first terms of the Taylor polynomials. The displacement
-    is computed with all terms, and corrected to the vertex of a parabola.
+    The time of a turning point is computed by Newton's method with the first terms of the Taylor polynomials. The
+    displacement and velocity at this time are computed with all terms. The result is the displacement at the vertex of
+    a parabola with these values.
     """
     for i in range(2):
         row, first = rows.TURNS_AT + rows.TURN * i, rows.SECOND * i

@@ -79,7 +79,7 @@ def advance_lanes(runs, c, work, enough):
         ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
         if count(alive & ~ok) >= enough:
             break
-        # store the turns at which a box may reach its largest displacement
+        # store the turning points at which a box may reach its largest displacement
         wrong, s_later, k_later = 1.0 - limit, s + fused(k, sa, s * ca), k + fused(k, ca, -s * sa)
         turns1 = ok & may_turn_beyond(most1 - wrong, x1, v1, a1, b1, third)
         turns2 = ok & may_turn_beyond(most2 - wrong, x2, v2, a2, b2, third)
@@ -330,7 +330,7 @@ def _limit(c, size, t, rounding):
 
 @inlined
 def _change(c, k, x1, x2, v1, v2, s, cosine):
-    """Return the change of component k of [X1, X2, X1', X2'] in a step: row k of exp(A h) - 1 times the state."""
+    """Return entry k of (exp(A h) - I) z, the change of z = [X1, X2, X1', X2', sin, cos] in a step h; k < 4."""
     low = _of_boxes(c, rows.LOW_PARTS + 4 * k, x1, x2, v1, v2)
     return _rough_change(c, k, x1, x2, v1, v2, s, cosine, low)
 
