@@ -66,16 +66,16 @@ def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None
     displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
     later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
-    # the numbers of periods after which the displacements are again those of the first sample
+    # every n for which the sample after n periods is within the tolerance of the first sample
     back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)
     return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 
 def mirror_distance(displacements, per_cycle: int) -> float:
-    """Return the largest |x(tau + T/2) + x(tau)| of any displacement x in the window; 0 for a symmetric motion.
+    """Return the largest |x(tau + T/2) + x(tau)| over all displacements x in the window; 0 for a symmetric motion.
 
-    The equations of motion stay the same if the sign of the state changes and time shifts by half a period. A motion is
-    symmetric if the motion also stays the same under this change.
+    The equations of motion do not change if the state changes its sign and time is shifted by half a period T/2. A
+    symmetric motion does not change either.
 
     Raises
     ------
