@@ -24,7 +24,7 @@ TRIES, LAST_STEP = 60, 1e-14
 
 
 class RungeKutta4(Method):
-    """Classical Runge-Kutta method; the setting is the number of steps per cycle."""
+    """Classical Runge-Kutta method; `setting` is the number of steps per cycle."""
 
     name, family, knob = "RK4, compiled", "Runge-Kutta", "steps per cycle"
     settings = (16, 32, 64, 128, 256, 512, 1024, 2048)
@@ -56,7 +56,7 @@ def _step(tau, s, q, walls, h, slopes, there):
 
 @inlined()
 def _event(tau, s, q, walls, i, high, slopes, event):
-    """Return the length of the step, at most `high`, after which the `guard` of module i is zero.
+    """Return the length, at most `high`, of the step at whose end the event function `guard` of module i is zero.
 
     The state after this step is written to `event`.
     """
@@ -75,9 +75,9 @@ def _event(tau, s, q, walls, i, high, slopes, event):
 
 @disk_cached(error_model="numpy", fastmath={"contract"})
 def _march(q, s, tau, end, step, limit):
-    """Integrate to `end` in at most `limit` steps; return the last state, rows of impacts, number of steps and time.
+    """Integrate to `end` in at most `limit` steps.
 
-    A row is [time, module, wall, speed].
+    Return the final state, one row [time, module, wall, speed] per impact, the number of steps, and the time reached.
     """
     walls, slopes = np.zeros(2), np.empty((4, 8))
     there, event, found = np.empty(8), np.empty(8), np.empty(8)

@@ -9,12 +9,12 @@ from vibroimpact.integrators.rigid_contact import Contacts, first_sample_time, g
 from vibroimpact.system.state import BALLS, BOXES
 
 ABSOLUTE = 1e-2  # ratio atol / rtol
-LOST = "its interpolant misses the impact that its step has found"
+LOST = "the interpolant of a step misses the impact that the step contains"
 PATIENCE = 100  # largest number of successive events without progress in time
 
 
 class SolveIvp(Method):
-    """One method of solve_ivp, with compiled right-hand side and Jacobian; the setting is rtol.
+    """One method of solve_ivp, with compiled right-hand side and Jacobian; `setting` is the relative tolerance rtol.
 
     The first step after an impact is at most half the expected duration of the flight, so that no impact of a chatter
     is stepped over.
