@@ -34,9 +34,10 @@ class Linear:
     scale: Callable = np.ones_like
 
     def amplitudes(self, Omega) -> np.ndarray:
-        """Return the amplitude of X_1 and of X_2 in the steady response, (..., 2), at the frequencies `Omega`, (...).
+        """Return the amplitudes of X_1 and X_2 in the steady response at the frequencies `Omega`.
 
-        The root mean square of X_i is its amplitude divided by sqrt(2).
+        The result has the shape of `Omega` with a last axis of length 2 for the boxes. The root mean square of X_i is
+        the amplitude of X_i divided by sqrt(2).
 
         Raises
         ------
@@ -46,7 +47,9 @@ class Linear:
         return np.abs(self._responses(Omega)[..., :2])
 
     def strokes(self, Omega) -> np.ndarray:
-        """Return the stroke of each absorber, the amplitude of X_i - Y_i, (..., 2), at the frequencies `Omega`, (...).
+        """Return the stroke of each absorber, the amplitude of X_i - Y_i, at the frequencies `Omega`.
+
+        The result has the shape of `Omega` with a last axis of length 2 for the absorbers.
 
         Raises
         ------

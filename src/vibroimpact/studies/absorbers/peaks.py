@@ -24,9 +24,9 @@ QUANTILE = 0.99
 class CycleMaxima:
     """Displacements of the boxes in the observed cycles of runs, for m systems from n initial states each.
 
-    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: largest root
-    mean square of X_1 or X_2 over the observed cycles of a run, among all finished runs. unfinished: number of
-    unfinished runs.
+    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: root mean
+    square of a box displacement over the observed cycles of a run; the largest value of both boxes and all finished
+    runs. unfinished: number of unfinished runs.
     """
 
     largest: np.ndarray
@@ -78,9 +78,9 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
 
 
 def peak_of(largest: ArrayLike) -> np.ndarray:
-    """For each system, return the quantile QUANTILE of `CycleMaxima.largest` over the cycles of all starts.
+    """For each system, return the peak: the 0.99 quantile of `CycleMaxima.largest` over the cycles of all starts.
 
-    The quantile is nan for a system without finished runs.
+    The peak is nan for a system without finished runs.
     """
     largest = np.asarray(largest)
     return np.array(
@@ -91,8 +91,9 @@ def peak_of(largest: ArrayLike) -> np.ndarray:
 def standard_error(largest: ArrayLike) -> float:
     """Return the standard error of the highest peak of all systems (see `peak_of`), by a jackknife over the starts.
 
-    The jackknife leaves out one start at a time. It assumes that the starts are independent, but not that the cycles of
-    one start are. The error is large if a single start determines the highest peak, and nan for fewer than 2 starts.
+    The jackknife leaves out one start at a time. It assumes that runs from different starts are independent, but allows
+    correlated cycles within a run. The error is large if a single start determines the highest peak, and nan for fewer
+    than 2 starts.
     """
     largest = np.asarray(largest)
     count = largest.shape[1]

@@ -54,9 +54,9 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
 def textbook_tuning(system) -> Tuning:
     """Return the linear absorbers tuned by Den Hartog's rule, each with the mass of a ball.
 
-    The response of a single undamped box passes through two points for every damping of its absorber. The rule makes
-    both points equally high, sqrt(1 + 2 / epsilon) times the static deflection, and the peaks almost as low as the
-    points. It treats each box separately, so that it is approximate for damped or coupled boxes.
+    For every damping of its absorber, the response curve of a single undamped box passes through the same two points.
+    The rule makes both points equally high, sqrt(1 + 2 / epsilon) times the static deflection, and the peaks almost as
+    low as these points. The rule treats each box separately, so that it is approximate for damped or coupled boxes.
 
     Notes
     -----
