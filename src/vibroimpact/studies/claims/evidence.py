@@ -10,7 +10,7 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 
 @dataclass(frozen=True, eq=False)
 class Simulation:
-    """Window of a direct integration: samples and events, with a row per instant, and a summary."""
+    """Part of a simulation after the transient: tables with one row per sample or event, and a summary."""
 
     samples: pd.DataFrame
     events: pd.DataFrame
@@ -44,7 +44,7 @@ class Evidence:
 
     @property
     def system(self) -> System:
-        """System of the case "equal", for the parameters that all cases of the chapter share."""
+        """System of the case "equal"; checks take from it the parameters that all cases of the chapter share."""
         return self.systems["equal"]
 
     def points(self, case: str) -> pd.DataFrame:

@@ -52,7 +52,7 @@ def _plain(value):
 
 
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
-    """Return the Finding on a statement as printed, with the verdict on the corrected statement among its numbers.
+    """Return the Finding on a statement as printed; its `numbers` also contain the verdict on the corrected statement.
 
     holds: True if the printed statement holds. corrected: True if the corrected statement holds.
     """

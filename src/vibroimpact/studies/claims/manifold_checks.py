@@ -99,8 +99,8 @@ def _limits_of_the_captions(evidence):
     below the limit at each other point. All limits in the interval are also below the fold of the manifold, so that a
     part of the left arm is stable.
 
-    With the labels of a case in another order, the interval would be the same or empty, since the points above any
-    limit are those with the largest min(C_1, C_2).
+    If the labels of the fixed points of a case were exchanged, the interval would stay the same or become empty, since
+    every limit selects the points with the largest min(C_1, C_2) as stable.
     """
     smallest = {True: [], False: []}
     for case, captions in CAPTIONS.items():

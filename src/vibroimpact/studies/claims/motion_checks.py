@@ -93,7 +93,7 @@ def only_possible_behaviour(evidence, case):
 
 
 def no_practical_importance(evidence, case, label):
-    """Check that the exact orbit of an unstable fixed point is not stable, so that motions leave its neighbourhood."""
+    """Check that the exact orbit of an unstable fixed point is not stable, so that motions near the orbit leave it."""
     partner = evidence.points(case).loc[label, "orbit"]
     orbit = evidence.motions(case).set_index("label").loc[partner]
     parts = {"its orbit is not stable": orbit["exact"] != STABLE}
@@ -132,9 +132,9 @@ def beating(evidence, case):
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
-    """Check that the first case of `sequence` has stable fixed points, and that the last case has none.
+    """Check that the first case of `sequence` has stable fixed points, and the last case no stable fixed points.
 
-    The last case must have strongly modulated responses.
+    The last case must also have strongly modulated responses.
     """
     points = [evidence.points(case) for case in sequence]
     in_theory = [int((rows["theory"] == STABLE).sum()) for rows in points]

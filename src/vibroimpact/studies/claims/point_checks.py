@@ -32,9 +32,9 @@ def number_of_fixed_points(evidence, case, number):
 
 
 def phases_can_be_eliminated(evidence):
-    """Check that equations in B_i and C_i alone lead to all fixed points.
+    """Check that equations in B_i and C_i alone, without the phases, lead to all fixed points.
 
-    Each solution must satisfy (10.23), and no solution may be missing.
+    The fixed points found from these equations must satisfy (10.23), and their list must be proved complete.
     """
     worst, complete = 0.0, True
     for case, system in evidence.systems.items():
@@ -61,10 +61,9 @@ def label_of_a_point(evidence, case, label, says):
 def stable_points(evidence, case, number):
     """Count the stable fixed points of a case by each criterion of the theory, and by their exact orbits.
 
-    The chapter calls a fixed point stable by the fast criterion: the impacts are stable at constant B and phase. The
-    fast criterion is evaluated with the condition derived in this project. The fixed points that are stable by the
-    printed condition, (10.26), are counted separately. The verdicts of the fast criterion are also compared with the
-    captions.
+    The chapter uses the fast criterion, by which a fixed point is stable if the impacts are stable at constant B and
+    phase. Here the fast criterion is evaluated with the condition derived in this project, and its verdicts are also
+    compared with the captions. Fixed points that are stable by the printed condition, (10.26), are counted separately.
     """
     points = evidence.points(case)
     counts = {
@@ -93,8 +92,8 @@ def on_the_left_arm(evidence, case, label, modules):
 def points_move_left(evidence, before, after):
     """Check that each C_i of each fixed point is smaller in the case `after` than in the case `before`.
 
-    Fixed points with the same label are compared. `numbers` also contains the largest number of smaller C_i over all
-    possible pairings of the fixed points of `before` with those of `after`.
+    Fixed points with the same label are compared. `numbers` also contains the number of C_i that decrease if the fixed
+    points of both cases are paired so that this number is as large as possible.
     """
     first, last = (evidence.points(case)[NAMES] for case in (before, after))
     parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
@@ -172,7 +171,7 @@ def _nearest_singular(system, point):
 
 
 def places_of_singular_points(evidence, case, label):
-    """Compare the singular points S_1 that two ways of eliminating the phases from (10.23) give.
+    """Compare the singular points S_1 that result from two ways of eliminating the phases from (10.23).
 
     The chapter does not print the functions h_1 and h_2 of (10.24), so that either way may be meant.
     """

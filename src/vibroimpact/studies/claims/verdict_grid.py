@@ -17,11 +17,14 @@ NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 
 
 def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
-    """Return a row per fixed point and epsilon, for forces at the centres of `points` x `points` cells.
+    """Return a table with a row per fixed point and epsilon, over a grid of forces.
 
-    The columns are epsilon, f10_hat, f20_hat, C1, C2, one column for each criterion of the theory, admissible, exact.
-    C1 and C2 are those of the fixed point and do not depend on epsilon. admissible is True if the exact orbit of the
-    point stays between the walls. exact is the verdict on this orbit, or "no orbit" (see `verdict_table.partners`).
+    The ranges of both forces are divided into `points` x `points` cells; the forces are those at the cell centres.
+
+    The columns are "epsilon", "f10_hat", "f20_hat", "C1", "C2", one column for each criterion of the theory,
+    "admissible" and "exact". C1 and C2 are those of the fixed point and do not depend on epsilon. "admissible" is True
+    if the exact orbit of the fixed point stays between the walls. "exact" is the verdict on this orbit, or "no orbit"
+    (see `verdict_table.partners`).
     """
     forces = list(product(centres(f10_range, points), centres(f20_range, points)))
     plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
@@ -40,11 +43,12 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
 
 
 def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
-    """Return a row for each epsilon and each fixed point of a system.
+    """Return a table with a row for each epsilon and each fixed point of a system.
 
-    The columns are epsilon, label, C1, C2, one column for each criterion of the theory, exact and multiplier. label, C1
-    and C2 are those of the fixed point. exact is the verdict on its exact orbit, or "no orbit". multiplier is the
-    largest modulus of a multiplier of this orbit, blank without an orbit.
+    The columns are "epsilon", "label", "C1", "C2", one column for each criterion of the theory, "exact" and
+    "multiplier". The label, C1 and C2 are those of the fixed point. "exact" is the verdict on the exact orbit of the
+    fixed point, or "no orbit". "multiplier" is the largest modulus of a multiplier of this orbit, blank without an
+    orbit.
     """
     points, rows = fixed_points(system), []
     for value in epsilon:
