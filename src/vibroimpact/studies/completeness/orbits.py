@@ -2,13 +2,13 @@
 
 The equations of symmetric.py are P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))), with the
 impact times tau_i at wall +1, the lag delta = tau_2 - tau_1, the phase phi = Omega tau_1, a complex matrix P (2, 2) and
-the forced amplitudes a_i. Let P_1, P_2 be the rows of P. Without phi, one complex equation is left, which is linear in
-the real C_1, C_2,
+the forced amplitudes a_i. Let P_1, P_2 be the rows of P. Elimination of phi leaves one complex equation, linear in
+the real C_1 and C_2,
 
     (w_2 P_1 - w_1 P_2) . C = i (w_1 - w_2),        w_1 = a_1,  w_2 = a_2 exp(i Omega delta),
 
-so C = N(delta) / D(delta) by Cramer's rule. The modulus of equation k, the one with the larger |a_k|, then gives one
-equation for delta alone,
+so C = N(delta) / D(delta) by Cramer's rule. Let k be the module with the larger |a_k|. The modulus of equation k then
+gives one equation for delta alone,
 
     F(delta) = |P_k . N + i D|^2 - |a_k|^2 D^2 = 0.
 
@@ -59,9 +59,9 @@ class Proof:
 
 
 def certify(system) -> Proof:
-    """Prove the number of symmetric 1:1 responses of a system, admissible or not.
+    """Prove how many symmetric 1:1 responses a system has, including those that are not admissible.
 
-    A system without forcing has none.
+    A system without forcing has no symmetric 1:1 response.
 
     Raises
     ------

@@ -1,14 +1,14 @@
 """Prove in interval arithmetic (python-flint's arb) that the lists of fixed points are complete.
 
-Each module i has a chart with a parameter x_i, which is C_i, 1 / C_i or v_i^2, where v_i is the flight asymmetry. On
-each pair of charts, the fixed points are the zeros of |Delta|^2 - |beta_i m_i|^2 for i = 1, 2 (docs/derivation.md,
-section 11; in the code, the numerators m_1 and m_2 are n1 and n2). Together, the squares |x_i| <= 1 of all pairs of
-charts cover every real C_i, and v_i^2 from -1 to 1.
+Each module i is described by one parameter x_i, which is C_i, 1 / C_i or v_i^2, where v_i is the flight asymmetry. The
+choice of x_i is called the chart of the module. On each pair of charts, one per module, the fixed points are the zeros
+of |Delta|^2 - |beta_i m_i|^2 for i = 1, 2 (docs/derivation.md, section 11; in the code, the numerators m_1 and m_2 are
+n1 and n2). Together, the squares |x_i| <= 1 of all pairs of charts cover every real C_i, and v_i^2 from -1 to 1.
 
-Each square is quartered until every box is decided or has the smallest width. A box is decided if the interval of
-|Delta|^2 - |beta_i m_i|^2 excludes 0 for an i, or if a contraction (Krawczyk's test, Neumaier 1990) proves that there
-is no zero in the box, or exactly one in the box of twice the width. Boxes that are undecided at the smallest width are
-reported.
+Each square is quartered into interval boxes (an interval of x_1 and one of x_2) until every interval box is decided or
+has the smallest width. An interval box is decided if the interval of |Delta|^2 - |beta_i m_i|^2 excludes 0 for an i, or
+if a contraction (Krawczyk's test, Neumaier 1990) proves that there is no zero in the interval box, or exactly one in
+the interval box of twice the width. Interval boxes that are undecided at the smallest width are reported.
 
 The functions of a chart are computed from the parameters in interval arithmetic and expanded to second order about the
 centre of a box, with a remainder that holds in the box of twice the width. Where the interval of Delta excludes 0, the
@@ -34,10 +34,10 @@ from flint import acb, arb, arb_series, ctx  # noqa: E402 (after the dependency 
 
 SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
 _BITS = 128
-_REACH = 2  # a box is tested at this multiple of its width, so that a zero on its edge is inside
+_REACH = 2  # a tested interval box is enlarged by this factor, so that a zero on its edge becomes an inner point
 _NARROWEST = 2.0**-24
-_ISOLATED_WIDTH = 2.0**-20  # half-width to which the box of a zero is narrowed, before it is compared with other zeros
-_MOST = 20_000  # number of boxes in a pair of charts after which undecided boxes are reported instead of quartered
+_ISOLATED_WIDTH = 2.0**-20  # half-width to which the interval box around a zero is narrowed
+_MOST = 20_000  # number of interval boxes, per pair of charts, after which undecided ones are not quartered any more
 _TERMS = 30
 # Remainder of the series in v^2 for |v^2| <= 2: the omitted terms and their derivatives are below 5^30 100^2 / 60!.
 _TAIL = arb(0, 2.0**-150)
@@ -51,14 +51,15 @@ Box = tuple[tuple[float, float], ...]
 class Proof:
     """Result of the proof for the fixed points of a system, whose float64 hatted parameters are taken as exact.
 
-    isolated: ascending boxes ((C_1 from, to), (C_2 from, to)), each with exactly one fixed point. For asymmetric
-        fixed points, each entry is (pair of charts, box of the chart parameters) instead. For a single machine, a
-        box has only one interval, and a pair of charts only one chart.
-    undecided: boxes in which nothing is proved, in the same format. Outside the isolated and undecided boxes, no fixed
-        point exists for any real C_i and v_i^2 in [-1, 1].
+    isolated: interval boxes ((C_1 from, to), (C_2 from, to)), ascending, each with exactly one fixed point. For
+        asymmetric fixed points, each entry is (pair of charts, intervals of the chart parameters) instead; see the
+        module docstring. For a single machine, each entry has one interval (and one chart) instead of two.
+    undecided: interval boxes in which nothing is proved, in the same format. Outside the isolated and undecided
+        interval boxes, no fixed point exists for any real C_i and v_i^2 in [-1, 1].
     motions: number of isolated fixed points that are motions at leading order: C_i > 0 for each symmetric module, and
-        v_i^2 > 0 for each asymmetric module. A fixed point is not counted if an interval of its box contains 0.
-    complete: True if nothing is undecided, and the numerical search finds exactly one fixed point in each isolated box.
+        v_i^2 > 0 for each asymmetric module. A fixed point is not counted if one of its intervals contains 0.
+    complete: True if nothing is undecided, and the numerical search finds exactly one fixed point in each isolated
+        interval box.
     """
 
     isolated: list
@@ -68,7 +69,7 @@ class Proof:
 
 
 def certify(system) -> Proof:
-    """Prove the number of fixed points of a system, with C_i of either sign.
+    """Prove how many fixed points a system has, with C_i of either sign.
 
     A system without forces has no fixed point: impacts dissipate mu rho C_i^2, which no force compensates. Only a free
     motion with C_i = 0 could persist; `symmetric_points.search` raises ValueError for systems with such a free motion.
@@ -82,7 +83,7 @@ def certify(system) -> Proof:
     found, undecided = _all_zeros(system, SYMMETRIC_PAIRS)
     isolated = []
     for zero in sorted(_in_amplitudes(*zero) for zero in found):
-        if not any(_same(zero, known) for known in isolated):  # a zero on the edge between two charts is found twice
+        if not any(_same(zero, known) for known in isolated):  # a zero with |C_i| = 1 is found on two charts
             isolated.append(zero)
     open_boxes = [_in_amplitudes(pair, box) for pair, box in undecided]
     points = [_active(system, point.C) for point in listed]
@@ -90,7 +91,7 @@ def certify(system) -> Proof:
 
 
 def certify_asymmetric(system) -> Proof:
-    """Prove the number of fixed points with an asymmetric module, mirror images counted once.
+    """Prove how many fixed points have an asymmetric module; a fixed point and its mirror image are counted once.
 
     Raises
     ------
@@ -120,7 +121,7 @@ def _matched(boxes, points):
 
 
 def _in_amplitudes(pair, box) -> Box:
-    """Return the box of C_i, where C_i is x_i on the chart of small C and 1 / x_i on the chart of large C."""
+    """Return the intervals of C_i from `box`, the intervals of x_i: C_i is x_i on the chart SMALL, 1 / x_i on LARGE."""
     ends = []
     for name, (low, high) in zip(pair, box, strict=True):
         if name == LARGE:
@@ -131,15 +132,15 @@ def _in_amplitudes(pair, box) -> Box:
 
 
 def _same(box, known):
-    """Return True if the inner half of `box`, where the zero of `box` lies, is contained in the box `known`."""
+    """Return True if the inner half of an interval box, where its zero lies, is inside the interval box `known`."""
     shrunk = [((3 * low + high) / 4, (low + 3 * high) / 4) for low, high in box]
     return all(low >= a and high <= b for (low, high), (a, b) in zip(shrunk, known, strict=True))
 
 
 def _all_zeros(system, pairs):
-    """Return the boxes with exactly one zero of the conditions, and the undecided boxes, each with its pair of charts.
+    """Return the interval boxes with exactly one zero of the conditions, and the undecided ones, with their charts.
 
-    Boxes of zeros outside the square |x_i| <= 1 are left out.
+    Zeros outside the square |x_i| <= 1 are left out.
     """
     found, undecided = [], []
     with ctx.workprec(_BITS):
@@ -157,7 +158,7 @@ def _active(system, both) -> tuple:
 
 
 def _subdivide(conditions):
-    """Subdivide the square |x_i| <= 1; return the boxes with exactly one zero, and the undecided boxes."""
+    """Subdivide the square |x_i| <= 1; return the interval boxes with exactly one zero, and the undecided ones."""
     pending, found, undecided = [(0.0, 0.0, 1.0)], [], []  # half-widths are powers of two, so that centres are exact
     for visited in itertools.count():
         if not pending:
@@ -177,17 +178,18 @@ def _subdivide(conditions):
     distinct = []
     for zero in sorted(found):
         gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
-        if any(gap < 0.5 for gap in gaps):  # a duplicate: the enlarged box of a zero contains no other zero
+        # Zeros this close are the same zero, since the enlarged interval box of a zero contains no other zero.
+        if any(gap < 0.5 for gap in gaps):
             continue
         (undecided if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
     return [_box(*zero) for zero in distinct], [_box(*zero) for zero in undecided]
 
 
 def _narrowed(conditions, x, y, half):
-    """Return the centre and half-width of a small box about the only zero in a wide box, or None.
+    """Return the centre and half-width of a small interval box about the only zero in a wide interval box, or None.
 
-    The wide box has the centre (x, y) and the half-width `half`. The result is None if this box cannot be narrowed, or
-    if the phases at the zero are not unique.
+    The wide interval box has the centre (x, y) and the half-width `half`. The result is None if the wide interval box
+    cannot be narrowed, or if the phases at the zero are not unique.
     """
     while half > _ISOLATED_WIDTH:
         _, (x, y, half) = conditions.count(x, y, half)
@@ -204,8 +206,9 @@ def _box(x, y, half) -> Box:
 
 
 class _Conditions:
-    """The two conditions for a fixed point in one pair of charts, as polynomials in t = (x - centre) / half on a box.
+    """The two conditions for a fixed point in one pair of charts, as polynomials on an interval box.
 
+    The variables of the polynomials are t = (x - centre) / half, with the centre and half-width of the interval box.
     The conditions are |Delta|^2 - |beta_i m_i|^2 = 0 for i = 1, 2. A local polynomial, valid for |t| <= _REACH, is an
     array of intervals: entry [j, k] is the coefficient of t_1^j t_2^k.
     """
@@ -220,10 +223,11 @@ class _Conditions:
         self._chart = functools.lru_cache(maxsize=None)(self._expanded)
 
     def count(self, x, y, half):
-        """Return the number of zeros in the box of half-width `half` about (x, y), and a box around the zero.
+        """Return the number of zeros in an interval box, with centre (x, y) and half-width `half`, and their position.
 
-        The number is 0 if the box has no zero, 1 if the box enlarged by the factor _REACH has exactly one zero, and
-        None if undecided. The box around the zero is (centre x, centre y, half-width) if the number is 1, else None.
+        The number is 0 if the interval box has no zero, 1 if the interval box enlarged by the factor _REACH has exactly
+        one zero, and None if undecided. The position is (centre x, centre y, half-width) of an interval box around the
+        zero if the number is 1, else None.
         """
         delta, one, two = self.sides(x, y, half)
         local = np.array([delta - one, delta - two])
@@ -235,7 +239,7 @@ class _Conditions:
         (a, b), (c, d) = (map(float, (polynomial[1, 0], polynomial[0, 1])) for polynomial in local)
         if (determinant := a * d - b * c) == 0:
             return None, None
-        # t - Y F(t) maps the box |t| <= s into -Y F(0) plus or minus a bound on all other terms.
+        # With F = `local` and Y = `inverse`, t - Y F(t) maps |t| <= s into -Y F(0) +- a bound on all other terms.
         inverse = np.array([[d, -b], [-c, a]]) / determinant
         mapped = np.tensordot(inverse.astype(object), local, 1)
         mapped[0, 1, 0] -= 1
