@@ -177,8 +177,8 @@ def plateau(places):
     """Return the largest kappa, the smallest peak and the largest peak of the points on the plateau.
 
     places: for each kappa, ascending, the point with the lowest peak. The plateau consists of all points before the
-    first one whose peak exceeds PLATEAU_FACTOR times the lowest peak of `places`. If this is the point with the
-    smallest kappa, all three results are nan.
+    first one whose peak exceeds PLATEAU_FACTOR times the lowest peak of `places`. If the plateau is empty, all
+    three results are nan.
     """
     level = PLATEAU_FACTOR * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))

@@ -150,9 +150,9 @@ def compute(
         Case -> system; cases on a path are marked.
 
     Returns five tables. "csv", the nodes of the branches: columns panel, series, label, branch, piece, p, C1, C2,
-    stable, admissible. "attractors": panel, label, p, and C1, C2 from half the mean path of the ball per cycle.
-    "cases": panel, case, p. "special_points": path, family, kind, p, C1, C2, admissible, with one row of the kind
-    "none" for a path without special points. "onsets": rows of `regimes.onset.onsets`.
+    stable, admissible. "attractors": panel, label, p, and C1, C2 from half of the mean distance that each ball covers
+    per cycle. "cases": panel, case, p. "special_points": path, family, kind, p, C1, C2, admissible, with one row of the
+    kind "none" for a path without special points. "onsets": rows of `regimes.onset.onsets`.
     """
     nodes, attracting, cases, onsets = [], [], [], []
     begun = spread_starts(attractors["starts"], attractors["seed"])

@@ -97,7 +97,7 @@ def compute(systems: dict) -> dict:
 
 
 def errors(system) -> list[dict]:
-    """Return a row per fixed point: relative errors of C, and stability by the theory and of the exact orbit.
+    """Return a row per fixed point: relative errors of C, the predicted stability, and that of the exact orbit.
 
     error: larger difference in C_1 or C_2 between the fixed point and its exact orbit, divided by the larger C_i of
         the orbit.
@@ -135,7 +135,7 @@ def _of_errors(table):
 
 
 def _of_patterns(system):
-    """Return a dict, text -> coupling, of the ends of all ranges in which a pattern of flights is stable."""
+    """Return a dict, description -> coupling, with both ends of each range in which a pattern of flights is stable."""
     return {
         f"{name}, from {start:g}: stable {end}": found[i][0]
         for name, start, found, _ in stable_ranges(system, LIMITS)

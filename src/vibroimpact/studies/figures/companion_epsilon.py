@@ -122,7 +122,7 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
 def _two_terms(system, point, found):
     """Return distances between orbits and a fixed point, with the first-order term added to the fixed point.
 
-    found: one `Comparison` for each distance. All distances are nan if no orbit gives the first-order term.
+    found: one `Comparison` for each distance. All distances are nan if `first_order` raises NoOrbit.
     """
     added = np.nan
     with suppress(NoOrbit):

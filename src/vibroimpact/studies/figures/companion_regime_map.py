@@ -129,9 +129,10 @@ def _dominant(cells, starts):
 
 
 def _border(system, cells, series):
-    """Yield the ends of line pieces on which the number of fixed points (all or stable, by `series`) changes.
+    """Yield the ends of the line pieces that form the border across which a number of fixed points changes.
 
-    Each end consists of the number of the piece, f10_hat and f20_hat. The ends are found by bisection.
+    `series` selects the number: that of all fixed points, or that of the stable ones. Each end consists of the
+    number of the piece, f10_hat and f20_hat. The ends are found by bisection.
     """
     which = BORDERS.index(series)
     square = cells.pivot(index="f20_hat", columns="f10_hat", values=series.replace(" ", "_")).to_numpy(float)
@@ -157,8 +158,8 @@ def _border(system, cells, series):
 def _squares(cells, square):
     """For each square of four adjacent cells with known counts, yield the list of (centre, count) of the four cells.
 
-    Neighbours in the list share a side. square: the count of fixed points in each cell, over f20_hat (rows) and f10_hat
-    (columns); nan if unknown.
+    Neighbours in the list share a side. square: the count of fixed points in each cell of the map, over f20_hat (rows)
+    and f10_hat (columns); nan if unknown.
     """
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):

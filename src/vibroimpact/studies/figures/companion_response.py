@@ -1,7 +1,7 @@
 """Companion: response of the boxes with balls against the frequency and against the amplitude of the forcing.
 
-Responses are divided by the force. They are |X_i| / f of the box that moves more, where f = epsilon f10_hat or epsilon
-f20_hat is the larger of both forces.
+A response is the largest |X_i| of the box that moves more, divided by f. Here f is the larger of the two forces
+epsilon f10_hat and epsilon f20_hat.
 """
 
 from functools import lru_cache
@@ -133,7 +133,7 @@ def linear_systems(system, pair, band: dict) -> dict:
     return _compared(system.with_(f10_hat=f10, f20_hat=f20), frequencies(system, band))
 
 
-_compared = lru_cache(compared)  # tune the absorbers once for all forces in the same ratio
+_compared = lru_cache(compared)  # cached, since pairs of forces with the same ratio share one tuning
 
 
 def frequencies(system, band: dict) -> tuple[float, float]:
@@ -143,7 +143,10 @@ def frequencies(system, band: dict) -> tuple[float, float]:
 
 
 def ratios(system, linear, detunings):
-    """Return the larger |X_i| / f of both boxes at each detuning, in a linear system with max(f10_hat, f20_hat) = 1."""
+    """Return |X_i| / f of the box that moves more in a linear system, at each detuning.
+
+    The larger of f10_hat and f20_hat of the linear system is 1, so that f = epsilon.
+    """
     return linear.amplitudes(1.0 + system.epsilon * np.asarray(detunings)).max(axis=-1) / system.epsilon
 
 

@@ -106,8 +106,8 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
     - "motion": columns L [m], frequency [Hz], time [s], box [mm], ball [mm], at_wall (True at an impact).
     - "summary": one row per clearance L [m]. The row has the frequency [Hz] at which swing is largest, the mean power
       [W] of the forces at this frequency, the share of this power that impacts dissipate, and swing. The column force
-      [N] is the F10 for which L would be the clearance with the smallest swing. This best clearance is proportional to
-      F10, since only the ratio L / F10 matters.
+      [N] is the value of F10 at which L is the best clearance, that with the smallest swing. The best clearance is
+      proportional to F10, since only the ratio L / F10 matters.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]

@@ -41,7 +41,7 @@ COLUMNS = {
 
 
 def compute(system) -> dict:
-    """Perturb an unstable exact orbit that criterion (10.26) of the chapter calls stable, and simulate the motion.
+    """Perturb an unstable exact orbit whose fixed point is stable by (10.26) of the chapter, and simulate the motion.
 
     The orbit is the one that `_called_stable` returns. If there is no such orbit, the tables have no rows.
 
@@ -103,10 +103,10 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
 
 
 def _called_stable(system):
-    """Return the most unstable exact orbit that criterion (10.26) calls stable, as (label of its fixed point, orbit).
+    """Return (label, orbit) for the most unstable admissible exact orbit whose fixed point is stable by (10.26).
 
-    The criterion is evaluated at the fixed point of the slow flow that corresponds to the orbit. The result is
-    (None, None) if no admissible orbit is unstable while its fixed point is stable by (10.26).
+    The label is that of the fixed point of the slow flow that corresponds to the orbit. The result is (None, None) if
+    no such orbit is unstable.
     """
     points = fixed_points(system)
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))

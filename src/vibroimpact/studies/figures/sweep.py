@@ -49,8 +49,9 @@ def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
     axes : list of dict
         For each axis, `along` (names of the parameters that vary together) and optionally `scale`.
 
-    Returns the columns panel, series, the first parameter of each axis, value, along and scale. The columns along and
-    scale contain the settings of all axes, joined by "; ". Regimes in which no run of the sweep ends are left out.
+    Returns the columns "panel", "series", one column for the first parameter of each axis, "value", "along" and
+    "scale". The columns "along" and "scale" contain the settings of all axes, joined by "; ". Regimes in which no run
+    of the sweep ends are left out.
     """
     moved = [axis["along"][0] for axis in axes]
     curves = [
