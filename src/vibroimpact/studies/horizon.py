@@ -11,9 +11,9 @@ def departure(system, state, truth: np.ndarray):
     truth: true states (n + 1, 8) at the starts of the forcing cycles 0 to n.
 
     The true error and the estimated error have one value at the start of each cycle, shape (n + 1,). The true error is
-    the largest difference of any component of the state between the run and `truth`. The horizon is the time of the
-    first event, or of the end of the run, at which the estimated error exceeds 1e-3, in forcing cycles; it is inf if
-    the estimated error never exceeds 1e-3. After the horizon the estimated error is inf.
+    the largest difference of any component of the state between the run and `truth`. The horizon [forcing
+    cycles] is the time of the first event at which the estimated error exceeds 1e-3; the end of the run counts as an
+    event. The horizon is inf if the estimated error never exceeds 1e-3. After the horizon the estimated error is inf.
     """
     cycles = len(truth) - 1
     times = np.arange(cycles + 1) * system.period

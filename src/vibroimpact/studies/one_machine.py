@@ -71,8 +71,8 @@ class Design:
         The chosen machine, with the mass of the ball `m` [kg], the clearance `L` [m], half of the play, and the
         restitution coefficient `kappa`.
     peak : float
-        Largest displacement over the band [m] once settled: in `window[1]` forcing periods after the transient of
-        `window[0]`. The peak is the largest `with_m` of `response`.
+        Largest displacement over the band [m] once the motion has settled: during `window[1]` forcing periods, after a
+        transient of `window[0]` forcing periods. The peak is the largest `with_m` of `response`.
     near : tuple of float
         Smallest and largest of three peaks [m]: with 2 % less clearance, with the same and with 2 % more.
     without : float
@@ -82,7 +82,7 @@ class Design:
     absorber_stroke : float
         Room [m] that the best linear absorber needs on each side.
     window : tuple of int
-        Forcing periods of the transient and of the window.
+        Lengths of the transient and of the window in which `peak` is measured, in forcing periods.
     candidates : list of dict
         One row per pair of clearance and restitution: clearance_m, restitution, peak_m from a few initial states. The
         best few pairs have near_m, the largest of their three peaks as in `near`; near_m of all other pairs is nan. The
@@ -332,7 +332,7 @@ class _Study:
         if not machine.c1 or not machine.F10:
             raise ValueError(
                 f"machine: got c = {machine.c1} and the force {machine.F10}; expected a damping c above 0, and "
-                "one of F, base and unbalance other than 0"
+                "a force from a nonzero F, base or unbalance"
             )
         natural = {"omega1": machine.omega10, "omega2": machine.omega10}
         # The sign of F is dropped: from the same initial states, F and -F would give slightly different results.

@@ -24,7 +24,7 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     cycles : int
         Forcing periods of each run.
     settle : int, default 0
-        Forcing periods of the transient, the first ones of `cycles`, which are omitted.
+        Number of forcing periods at the start of each run that are omitted as a transient.
     progress : bool, default True
         Count the steps on standard error, if it is a terminal. A step is 100 cycles of the transient, or 1 cycle after
         the transient.

@@ -56,11 +56,11 @@ def sweep(
     cycles : int, default 1000
         Forcing periods of each run; "regimes" uses the lengths in `observation`.
     settle : int, default 800
-        Forcing periods of the transient, the first ones of `cycles`. Transients may be long: of 225 motions with equal
-        forces on both boxes, 210 still change by more than 1e-6 per forcing period after 400 periods, but none after
-        2000 periods.
+        Number of forcing periods at the start of each run that are omitted as a transient. Transients may be long: of
+        225 motions with equal forces on both boxes, 210 still change by more than 1e-6 per forcing period after 400
+        periods, but none after 2000 periods.
     band : mapping, optional
-        For "peaks": name and values of the parameter along which the highest peak is searched.
+        For "peaks": name and values of the parameter along which the highest peak is sought.
     observation : Observation, optional
         For "regimes": length of the runs.
     progress : bool, default True
@@ -90,7 +90,7 @@ def sweep(
         if name not in OBSERVATIONS:
             raise ValueError(f"observe: got {name!r}, expected one of {', '.join(OBSERVATIONS)}")
     if not observe:
-        raise ValueError(f"observe: got no name, expected some of {', '.join(OBSERVATIONS)}")
+        raise ValueError(f"observe: got no name, expected one or more of {', '.join(OBSERVATIONS)}")
     cycles = whole("cycles", cycles, 1, MOST_CYCLES)
     spec = Spec(
         observe=observe,
@@ -121,7 +121,7 @@ def _axes(name, given, system) -> list[Axis]:
 
 
 def _band(given, system, axes) -> dict:
-    """Return the arguments of `grid.axis` for the band along which peaks are searched."""
+    """Return the arguments of `grid.axis` for the band along which the highest peak is sought."""
     if given is None:
         raise ValueError("band: missing; 'peaks' requires a band, such as band={'sigma_e_hat': [-1.0, 0.0, 1.0]}")
     found = _axes("band", given, system)
