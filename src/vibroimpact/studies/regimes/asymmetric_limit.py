@@ -22,7 +22,7 @@ _MOST_NODES = 6
 
 @dataclass(frozen=True, eq=False)
 class Station:
-    """An exact asymmetric orbit: its system, with one value of epsilon, and its root (6,) of `AsymmetricConditions`."""
+    """An exact asymmetric orbit at one value of epsilon: its system, and its root (6,) of `AsymmetricConditions`."""
 
     system: object
     root: np.ndarray
@@ -36,10 +36,10 @@ class Station:
 
 
 def follow(system, root, values) -> list[Station]:
-    """Return the orbits of a branch: that of `root`, then one for each epsilon of `values`.
+    """Follow an asymmetric orbit to smaller epsilon; return the orbit of `root`, then one for each epsilon of `values`.
 
-    `root` (6,) solves `AsymmetricConditions` of the system; `values` descend from the epsilon of the system. The list
-    ends early where the branch meets a symmetric orbit or Newton's method loses the branch.
+    `root` (6,) solves `AsymmetricConditions` of the system. `values` decrease and are below the epsilon of the system.
+    The list ends early where the branch meets a symmetric orbit or Newton's method loses the branch.
     """
     root = np.asarray(root, dtype=float)
     stations = [Station(system, root)]
@@ -52,7 +52,10 @@ def follow(system, root, values) -> list[Station]:
 
 
 def offset(station, point) -> np.ndarray:
-    """Return `station.place` minus the same quantities of a fixed point, shape (6,), or (3,) for a single machine."""
+    """Return the difference between `station.place` and the corresponding values of a fixed point, shape (6,).
+
+    For a single machine, the values of the inactive module are left out, so that the shape is (3,).
+    """
     difference = station.place - np.concatenate([point.C, point.squared, point.middle + point.psi])
     difference[4:] = np.angle(np.exp(1j * difference[4:]))
     return difference[np.isfinite(difference)]
@@ -61,9 +64,9 @@ def offset(station, point) -> np.ndarray:
 def leads_to(stations, points):
     """Return the fixed point that an orbit approaches at epsilon = 0, or None.
 
-    The last two stations are extrapolated linearly to epsilon = 0. The result is None if no fixed point is near the
-    extrapolated orbit, for example because the branch turns back at a fold. The result is also None if there are fewer
-    than two stations.
+    The last two orbits in `stations` are extrapolated linearly to epsilon = 0. The result is None if no fixed point is
+    near the extrapolated orbit, for example because the branch turns back at a fold. The result is also None if
+    `stations` has fewer than two orbits.
     """
     if len(stations) < 2:
         return None
@@ -76,9 +79,9 @@ def leads_to(stations, points):
 def onset(stations) -> float:
     """Return the epsilon at which the asymmetric orbit emanates from a symmetric one; a negative result is set to 0.
 
-    The polynomial epsilon(v^2) through the last stations (at most `_MOST_NODES`) is evaluated at v^2 = 0, where the
-    orbit is symmetric. A straight line through the last two stations would give only three correct digits if epsilon
-    differs by 20 % between these stations.
+    The polynomial epsilon(v^2) through the last orbits in `stations` (at most `_MOST_NODES`) is evaluated at v^2 = 0,
+    where the orbit is symmetric. A straight line through the last two orbits would give only three correct digits if
+    epsilon differs by 20 % between these orbits.
     """
     last = stations[-_MOST_NODES:]
     epsilon = np.array([station.system.epsilon for station in last])

@@ -104,10 +104,10 @@ def attractors(system: System, states, observation: Observation | None = None, p
     states : array_like
         Initial states at tau = 0, shape (n, 8). An inactive module (as in `PhysicalSystem.single`) is put at rest.
     observation : Observation, optional
-        Length of the runs, see `Observation`. Each run lasts until the motion repeats, but at most `rounds` times
-        `cycles` forcing periods. Transients may be long: of 225 motions with equal forces on both boxes, 210 still
-        change by more than 1e-6 per forcing period after 400 periods, but none after 2000 periods. A ball that starts
-        at rest may never reach a wall.
+        Length of the runs, see `Observation`. Each run lasts until the motion repeats, but at most
+        `observation.rounds` times `observation.cycles` forcing periods. Transients may be long: of 225 motions with
+        equal forces on both boxes, 210 still change by more than 1e-6 per forcing period after 400 periods, but none
+        after 2000 periods. A ball that starts at rest may never reach a wall.
     progress : bool, default True
         Show on standard error, if it is a terminal, how many initial states are done.
 
@@ -230,7 +230,7 @@ def _basins(system, states, shape, axes, observation, progress):
 
 
 def _same(one, other):
-    """Return True if two motions, each the Regime of an initial state, are on the same attractor."""
+    """Return True if two motions, given as Regime objects, are on the same attractor."""
     moving = _moving(one)
     if (one.name, one.repeats) != (other.name, other.repeats) or not np.array_equal(moving, _moving(other)):
         return False

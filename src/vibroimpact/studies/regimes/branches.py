@@ -30,7 +30,7 @@ COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", 
 
 @dataclass(frozen=True)
 class Path:
-    """A line in parameter space: the parameters in `names` have the value p, all others those of `system`."""
+    """A line in parameter space: all parameters in `names` equal p, and all other parameters are those of `system`."""
 
     system: object
     names: tuple[str, ...]
@@ -63,8 +63,8 @@ class Branch(Representation):
 
     If the curve is closed, the first node is also the last.
 
-    places: points of the curve with their tangents. Each node that is not a special point has a place. There may be one
-    more place at each end of the curve.
+    places: points of the curve with their tangents, one for each node that is not a special point. The list may contain
+    one more point at each end of the curve.
     """
 
     family: object
@@ -159,7 +159,7 @@ def branches(
                 at = f"{' = '.join(path.names)} = {z[-1]:.6g}"
                 warnings.warn(f"{family.name}: skipped the branch through {at}: {error}", stacklevel=3)
                 continue
-            if len(places) > 1:  # if there is one place only, the seed is a branch point
+            if len(places) > 1:  # a single place is a seed at a branch point; its branches are followed below
                 found.append(Branch(family, nodes, places[-1].closing, places))
             for crossing in (np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT):
                 if all(np.abs(crossing - known).max() > _APART for known in crossings):
@@ -169,9 +169,10 @@ def branches(
 
 
 def images(family, system, x, near) -> list[np.ndarray]:
-    """Return all roots that describe the motion with the root `x`, or its mirror image.
+    """Return the root `x` and, for asymmetric orbits, that of the mirror image, with angles close to those of `near`.
 
-    The angles of the returned roots differ by at most half a turn from those of the root `near`.
+    Multiples of the period `family.turn` are added to the angles (impact times or phases), so that each angle differs
+    by at most half of this period from that of the root `near`.
     """
     found, turn = [x.copy()], family.turn(system)
     if family is AsymmetricOrbits:
@@ -194,7 +195,7 @@ def _seeds(family, path, seeds):
 
 
 def _half(family, path, interval, curve, longest, start):
-    """Return the nodes and the Places of a branch from the Place `start` on, along its tangent."""
+    """Follow a branch from the Place `start` in the direction of `start.tangent`; return the nodes and the Places."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
@@ -214,7 +215,8 @@ def _half(family, path, interval, curve, longest, start):
             return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
         tests = family.tests(system, member)
-        if before is not None and not kind:  # a test that changes sign across a branch point does so at that point
+        # Just after a branch point (`kind` is set), a sign change of a test is due to this branch point and is ignored.
+        if before is not None and not kind:
             nodes += _special(family, path, curve, before, tests_before, place, tests)
         nodes.append(_node(family, path, z, member=member))
         kind = ""

@@ -116,8 +116,8 @@ def _approaches(run, motion, repeats, multiplier):
     cycles after which the distance from this motion has shrunk by the factor _SHRUNK; the run is continued for this
     number of cycles. The distance must shrink at half of the predicted exponential rate or faster.
 
-    motion: a window of the periodic motion, which repeats after `repeats` cycles. The window starts next to the
-    final state of the run. multiplier: modulus of the largest multiplier of the periodic motion.
+    motion: a window of the periodic motion, which repeats after `repeats` cycles. The first state of the window
+    is close to the final state of the run. multiplier: modulus of the largest multiplier of the periodic motion.
     """
     size = len(run.samples)
     before = _distance(run, motion.samples[(np.arange(size) - size + 1) % (_PER_CYCLE * repeats)])
@@ -140,7 +140,7 @@ def classify(run: Run) -> tuple[str, int | None]:
 
     The number is None if the motion does not repeat.
 
-    run: has samples every half period, both ends included.
+    run: a run with samples every half period, from its start to its end.
 
     A ball is idle if it is at rest in all samples; a ball that drifts, however slowly, will hit a wall. If all balls
     are idle and the motion of the boxes repeats, the regime is NO_IMPACTS. A 1:1 response repeats every cycle, with one
@@ -158,7 +158,7 @@ def classify(run: Run) -> tuple[str, int | None]:
         return UNSETTLED, None
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
-    # With an impact at an end of the window, the numbers of impacts at a wall and of cycles may differ by 1.
+    # If an impact is at an end of the window, the impacts at a wall may be one more or one fewer than the cycles.
     once = len(impacts) == len(run.events) and np.all(np.abs(np.array(counts) - run.cycles) <= 1)
     if repeats > 1 or not once:
         return OTHER, repeats
