@@ -2,9 +2,9 @@
 
 A step goes from a point z = (x, p) along the tangent; then Newton's method corrects x at constant p. Where the tangent
 has only a small component along p, the correction is in the plane normal to the tangent instead, so that folds in p are
-passed like any other point. At a special point, a given test function changes sign along the curve. Brent's method in
-the arclength finds the zero of the test function. Every evaluation is at a root of F accurate to rounding, so the zero
-is as accurate as the test function itself.
+passed like any other point. At a special point, such as a period doubling, a given test function changes sign along the
+curve. Brent's method in the arclength finds the zero of the test function. The test function is only evaluated at roots
+of F that are accurate to rounding, so the zero is as accurate as the test function itself.
 
 Branches cross at a branch point, where the determinant of [[dF/dz], [tangent]] changes sign. Newton's method is
 ill-conditioned there, so the branch point is bracketed by bisection in the arclength and stepped over. At the branch
@@ -35,11 +35,12 @@ _REFINED = 1e-10
 # is costlier at a new p than at a new x.
 _STEEP = 0.2
 _TURN = 0.15  # radians by which the tangent may turn in one step
-_SHORTEST = 1e-7  # shortest step; the continuation ends if this step fails, except at a jump of dF/dz (a corner)
-# Bisection ends when the arclength between its two points is below this value. At this distance from a branch point,
-# Newton's method still gives 10 digits.
+# Shortest step. If this step fails, the continuation goes on only where the curve has a corner (a jump of dF/dz).
+_SHORTEST = 1e-7
+# Bisection ends when its interval is shorter than this arclength. At this distance from a branch point, Newton's method
+# still gives 10 digits.
 _RESOLVED = 1e-6
-_SINGULAR = 1e-5  # relative size up to which a singular value is 0 within rounding
+_SINGULAR = 1e-5  # largest singular value that counts as 0, relative to 1 + the median singular value
 _CORNER = 1e-5  # length of a step past a corner of the curve, where dF/dz jumps
 _CIRCLE, _ANGLES = 1e-4, np.linspace(0.0, 2 * np.pi, 97)
 
@@ -51,7 +52,8 @@ class Lost(ArithmeticError):
 class Place(NamedTuple):
     """A point z = (x, p) of a curve F(z) = 0 and the unit tangent of the curve there, both (d + 1,).
 
-    determinant: of [[dF/dz], [tangent]]; 0 at a branch point. closing: True if a closed curve is back at its start.
+    determinant: of [[dF/dz], [tangent]]; 0 at a branch point. closing: True for the last place of a closed curve, where
+    the curve returns to its first place.
     """
 
     z: np.ndarray
@@ -69,7 +71,7 @@ class Curve:
     """The solution set of F(x, p) = 0.
 
     equations(x, p) returns the residual (d,) and its Jacobian (d, d) with respect to x. images(z, near) returns the
-    points that are equivalent to z, with angles within half a turn of those of `near`.
+    points that are equivalent to the point z, shifted by whole periods so that they are close to the point `near`.
     """
 
     equations: Callable
@@ -156,9 +158,10 @@ class Curve:
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
-        """Return the points and places of the whole curve through a root z, in order; a closed curve is traced once.
+        """Return (points, places) of the whole curve through a root z, in order along the curve.
 
-        half(start) returns the points and places from the Place `start` in the direction of its tangent. The root z is
+        half(start) returns the same two lists for the part of the curve that starts at the Place `start`, in the
+        direction of its tangent; the points can have any type. A closed curve is traced once. The root z is
         refined first, since only half of its digits may be correct if z is a multiple root.
         """
         for _ in range(_STEPS):
@@ -178,9 +181,10 @@ class Curve:
         return any(self.image_on_segment(*pair, z) is not None for pair in pairwise(places))
 
     def image_on_segment(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
-        """Return the image of a root z on the curve between the neighbouring places `place` and `after`, or None.
+        """Return the image of a root z that lies on the curve between the neighbouring places `place` and `after`.
 
-        `self.images` returns the images of z, which describe the same motion as z.
+        An image of z is z itself or a point that is equivalent to z (see `images` in the class docstring). The result
+        is None if no image lies on this part of the curve.
         """
         chord = after.z - place.z
         length = np.linalg.norm(chord)
@@ -188,7 +192,8 @@ class Curve:
             along = chord @ (image - place.z) / length
             aside = np.linalg.norm(image - place.z - along / length * chord)
             if -_RESOLVED < along < length + _RESOLVED and aside < _TURN * length + _RESOLVED:
-                # If a long step near a branch point ends on a wrong branch, bisection finds the place.
+                # A long step near a branch point can end on another branch, so that `_place_at` fails. Bisection then
+                # finds the place at the image.
                 found = self._place_at(place, image) or self._bisected(
                     place, after, lambda at, z=image: at.tangent @ (z - at.z) > 0
                 )

@@ -47,7 +47,10 @@ def flight_asymmetry(orbit) -> np.ndarray:
 
 
 def pattern(orbit) -> str | None:
-    """Return the pattern of an orbit, IN_PHASE or ANTIPHASE, or None if |v| of a ball is below LEAST_ASYMMETRY."""
+    """Return the pattern of an orbit, IN_PHASE or ANTIPHASE.
+
+    The result is None if the flight asymmetry |v_i| of at least one ball is below LEAST_ASYMMETRY.
+    """
     v = flight_asymmetry(orbit)
     return None if not _both_asymmetric(v) else IN_PHASE if v.prod() > 0 else ANTIPHASE
 
@@ -57,9 +60,10 @@ def _both_asymmetric(v):
 
 
 def patterns(system) -> dict[str, np.ndarray]:
-    """Return, for each pattern with a stable orbit, the root (6,) of such an orbit in `AsymmetricConditions`.
+    """Return one stable orbit of each pattern, as the unknowns (6,) of `AsymmetricConditions`, by pattern.
 
-    Of two mirror images, the one with the flight asymmetry v_1 > 0 is returned.
+    A pattern without a stable orbit is left out. Of two mirror images, the one with the flight asymmetry v_1 > 0 is
+    returned.
     """
     roots = [
         root for root in AsymmetricOrbits.roots(system) if _both_asymmetric(1 - 2 * flight_fractions(system, root))
@@ -79,9 +83,10 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
     limits
         Smallest and largest alpha12_hat.
 
-    Yields (pattern, coupling at which it was found, [(alpha12_hat, Orbit), ...] ascending, (reason for the lower end,
-    reason for the upper end)). A reason is FOLD, NEIMARK_SACKER, PERIOD_DOUBLING, GRAZING or VANISHES, or "" if the
-    range ends at a limit.
+    Yields tuples of four entries: the pattern; the value in SOUGHT from which the orbit is followed; the orbits of the
+    stable range, [(alpha12_hat, Orbit), ...], in ascending order of alpha12_hat; and the two reasons why the range ends
+    at its lower and at its upper end. A reason is FOLD, NEIMARK_SACKER, PERIOD_DOUBLING, GRAZING or VANISHES, or "" if
+    the range ends at a limit.
     """
     seen = []
     for start in SOUGHT:

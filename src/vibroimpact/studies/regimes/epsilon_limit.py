@@ -92,7 +92,7 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
 def order(epsilon, errors) -> tuple[float, float]:
     """Return the exponent p of errors ~ epsilon^p, and the standard error of p (nan for 2 points).
 
-    A straight line is fitted to log(errors) over log(epsilon) by least squares.
+    A straight line is fitted to log(errors) as a function of log(epsilon) by least squares.
 
     Raises
     ------

@@ -7,9 +7,9 @@ For a symmetric orbit, mu are the multipliers of the map that follows the motion
 state (state -> -state). The symmetry breaks where such a mu is -1. A symmetric orbit cannot double its period before
 its symmetry breaks (Swift and Wiesenfeld 1984). Folds and branch points (mu = 1) are found by the continuation instead.
 
-The unknowns of an inactive module (not in `System.modules`) have the constant values `rest`: 0 for its angles or impact
-times, and 1 for its C_i or I_i. So C_i = 0 or I_i = 0 always means that the speed of a ball is 0. The amplitude of an
-inactive module is NaN.
+The unknowns of an inactive module (not in `System.modules`) have the constant values `rest`: 0 for phases or impact
+times, and 1 for the amplitude C_i or the velocity change I_i of the ball at an impact. Therefore C_i = 0 or I_i = 0
+always means that ball i has the speed 0. The function `amplitudes` returns NaN for an inactive module.
 """
 
 from itertools import combinations
@@ -46,7 +46,7 @@ class SymmetricOrbits:
 
     @staticmethod
     def turn(system) -> float:
-        """Return the forcing period, since impact times that differ by it describe the same motion."""
+        """Return the forcing period; impact times that differ by one forcing period describe the same motion."""
         return system.period
 
     @classmethod
@@ -69,7 +69,7 @@ class SymmetricOrbits:
 
     @classmethod
     def speed(cls, x) -> float:
-        """Return the smaller of both C_i (I_i for asymmetric orbits), which vanishes if a ball speed vanishes."""
+        """Return min(C_1, C_2), or min(I_1, I_2) for asymmetric orbits; the minimum is 0 if a ball has the speed 0."""
         return x[cls.angles.stop :].min()
 
     @staticmethod
@@ -85,7 +85,7 @@ class SymmetricOrbits:
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Return the values of the test functions, by kind of special point."""
+        """Return, for each kind of special point, the value of the test function that vanishes there."""
         return _tests(half_period_multipliers(orbit), SYMMETRY_BREAKING) | {GRAZING: 1 - orbit.excursion}
 
     @staticmethod
@@ -95,14 +95,15 @@ class SymmetricOrbits:
 
     @staticmethod
     def admissible(orbit) -> bool:
-        """Return True if the orbit is a motion of the system."""
+        """Return True if `orbit` is a motion of the system: all ball speeds are positive, and no ball passes a wall."""
         return orbit.admissible
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Return True if a zero of the test function `kind` is a special point.
+        """Return True if `orbit`, at which the test function of `kind` vanishes, is a special point of this kind.
 
-        For Neimark-Sacker, two complex conjugate multipliers must be on the unit circle.
+        The test function of NEIMARK_SACKER also vanishes if, for example, two real multipliers have the product 1. This
+        is not a special point: two complex conjugate multipliers must be on the unit circle.
         """
         mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
@@ -142,7 +143,7 @@ class AsymmetricOrbits(SymmetricOrbits):
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Return the values of the test functions, by kind of special point."""
+        """Return, for each kind of special point, the value of the test function that vanishes there."""
         return _tests(orbit.multipliers, PERIOD_DOUBLING) | {GRAZING: 1 - orbit.excursion}
 
 
@@ -154,7 +155,7 @@ class FixedPoints:
 
     @staticmethod
     def turn(system) -> float:
-        """Return 2 pi, since phases [rad] that differ by it describe the same motion."""
+        """Return 2 pi; phases that differ by 2 pi [rad] describe the same motion."""
         return 2 * np.pi
 
     @classmethod
@@ -179,7 +180,7 @@ class FixedPoints:
 
     @staticmethod
     def speed(x) -> float:
-        """Return the smaller C_i, which vanishes if a ball speed vanishes."""
+        """Return min(C_1, C_2), which is 0 if a ball has the speed 0."""
         return x[0::2].min()
 
     @staticmethod
@@ -195,7 +196,7 @@ class FixedPoints:
 
     @staticmethod
     def tests(system, point) -> dict[str, float]:
-        """Return the values of the test functions, by kind of special point.
+        """Return, for each kind of special point, the value of the test function that vanishes there.
 
         At a fold of the manifold one eigenvalue of the slow flow is infinite, so that the test function for Hopf would
         have a pole. A factor, a power of det M (`linearisation`), removes this pole.
@@ -212,7 +213,7 @@ class FixedPoints:
 
     @staticmethod
     def stable(system, point) -> bool:
-        """Return True if the point is stable by slow flow and impact map."""
+        """Return True if the point is stable both in the slow flow and in the impact map."""
         beyond = (C_min(rho(system.kappa)) >= point.C) | (point.C >= SYMMETRY_BREAKING_C)
         return bool(not beyond.any() and (point.slow_eigenvalues.real < 0).all())
 
@@ -223,9 +224,10 @@ class FixedPoints:
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Return True if a zero of the test function `kind` is a special point.
+        """Return True if `point`, at which the test function of `kind` vanishes, is a special point of this kind.
 
-        For Hopf, two complex conjugate eigenvalues must be on the imaginary axis.
+        The test function of HOPF also vanishes if, for example, two real eigenvalues have the sum 0. This is not a
+        special point: two complex conjugate eigenvalues must be on the imaginary axis.
         """
         values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())

@@ -254,10 +254,10 @@ def contraction(system, impacts, stuck) -> np.ndarray:
     impacts, stuck: number of impacts, and largest number of balls that stick at the same time, in each cycle.
 
     In a flight of time t, the volume shrinks by the factor exp(-tr(D) t), with the damping matrix D of the active
-    modules. In an impact, the volume shrinks by the factor kappa^2. To see this, describe the module by W, W' and the
-    position and velocity of its centre of mass. The saltation matrix is then triangular; its diagonal is -kappa for W
-    and W', and 1 for the centre of mass. In a cycle in which a ball sticks, the volume shrinks to 0, so that the result
-    is -inf.
+    modules. In an impact, the volume shrinks by the factor kappa^2. To see this, describe the module by the
+    relative displacement W = X - Y, by W', and by the position and velocity of the centre of mass. The saltation matrix
+    is then triangular; its diagonal is -kappa for W and W', and 1 for the centre of mass. In a cycle in which a ball
+    sticks, the volume shrinks to 0, so that the result is -inf.
     """
     damping = np.diag(damping_matrix(system))[active_mask(system)[[0, 2]]].sum()
     volume = 2 * np.asarray(impacts) * np.log(system.kappa) - damping * system.period

@@ -49,7 +49,7 @@ def longest_range(values, flags) -> tuple[float, float]:
 
 
 def onsets(path, values, p, names) -> list[tuple]:
-    """Return, by the slow flow and by simulation, the range of values of a path at which the response is modulated.
+    """Return the longest range of `values` with modulated responses, by the slow flow and by simulation.
 
     Parameters
     ----------

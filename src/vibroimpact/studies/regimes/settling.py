@@ -1,7 +1,7 @@
 """Find the regime that each initial state ends in.
 
-A motion is followed in rounds until it repeats. A motion that does not repeat is classified, and longer runs test the
-classification.
+A motion is followed in a given number of runs of equal length (rounds), or until it repeats. A motion that does not
+repeat is classified, and a longer run tests the classification.
 """
 
 from dataclasses import dataclass, replace
@@ -75,11 +75,11 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     and classified again.
 
     The regimes of motions that do not repeat are then tested one after another. To test a regime, one of its motions,
-    the witness, runs for `retest` more cycles. There are up to MOST_WITNESSES witnesses if any initial state ends in a
-    periodic motion, since the motions of the regime may then be chaotic transients towards the periodic motion.
+    the witness, runs for `retest` more cycles. If any initial state ends in a periodic motion, up to MOST_WITNESSES
+    motions are witnesses, since the motions of the regime may be chaotic transients towards the periodic motion.
 
-    If all witnesses stay in the regime, the other motions of the regime get the regime in which the last witness ends.
-    This can be another kind of chaos, since all kinds of chaos count as one regime in this test. If any witness leaves
+    All kinds of chaos count as one regime in this test. If all witnesses stay in the regime, the other motions of the
+    regime get the same name as the last witness, which may have changed to another kind of chaos. If any witness leaves
     the regime, the other motions also run for `retest` more cycles. All motions that do not leave the regime are then
     named unsettled.
 
@@ -95,7 +95,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        # A motion whose test changes its regime to another kind of chaos is not tested again as the other kind.
+        # Chaotic motions are selected by their regimes before all tests, so that no chaotic motion is tested twice.
         now = first if name in CHAOS else regimes
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
@@ -104,7 +104,7 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
 
 
 def _rounds(system, states, observation, progress):
-    """Return the regime in which the motion from each initial state is after all rounds.
+    """Return, for each initial state, the regime of the motion after its last round.
 
     Motions that do not repeat are classified after the last round. If the classification of a motion fails, the motion
     runs for `retest` more cycles and is classified again.
