@@ -43,7 +43,7 @@ def _regimes(system, states, spec):
 def _amplitudes(system, states, spec):
     """Return the largest |X_i|, the root mean square of X_i, the mean ball speeds, and the number of unfinished runs.
 
-    The first three quantities have a value for each module, over all finished runs together.
+    Each of the first three quantities has one value per module, computed from all finished runs.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
@@ -70,10 +70,9 @@ def _peaks(system, states, spec):
 
 
 def _energy(system, states, spec):
-    """Return the ratio of the energy dissipated by impacts to the work of the forces, and the runs without impacts.
+    """Return (energy dissipated by impacts) / (work of the forces), and the number of finished runs without impacts.
 
-    Energy and work are summed over all finished runs with impacts. The second value is the number of finished runs
-    without impacts.
+    Energy and work are summed over all finished runs with impacts.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]

@@ -16,8 +16,8 @@ def columns(grid: Grid, spec: Spec) -> list[str]:
 def rows(grid: Grid, spec: Spec, numbers: Iterable[int]) -> Iterator[dict]:
     """Yield one row for each point in `numbers`.
 
-    If an observation fails at a point, all observations of this point stay blank, and FAILED has the reason. Other
-    points are not affected.
+    If an observation fails at a point, all observations of this point stay blank, and the column FAILED contains the
+    error message. Other points are not affected.
 
     Raises
     ------

@@ -1,14 +1,16 @@
 """Find all fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
 
-The unknowns are the parameters x_1, x_2 of both modules in their charts (see `branch`), with |x_i| <= 1. The complex
-amplitude of module i is z_i u_i / beta_i, where z_i and beta_i are polynomials in x_i, and |u_i| = 1. The balance of
-the slow flow is linear in u_i / beta_i, with coefficients that depend on x_1 and x_2 alone (docs/derivation.md,
-section 11). Cramer's rule gives u_i / beta_i = m_i / Delta. The names of m_1 and m_2 in the code are n1 and n2. Since
-|u_i| = 1, the conditions for a fixed point are |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2. For a given system,
-`completeness.points` can prove that no fixed point is missed.
+The manifold of a module has three parts (charts, see `branch`). On each chart, a parameter x_i with |x_i| <= 1
+describes module i; the unknowns are x_1 and x_2. The complex amplitude of module i is z_i u_i / beta_i, where z_i and
+beta_i are polynomials in x_i, and |u_i| = 1. The balance of the slow flow is linear in u_i / beta_i, with coefficients
+that depend on x_1 and x_2 alone (docs/derivation.md, section 11). Cramer's rule gives u_i / beta_i = m_i / Delta. The
+names of m_1 and m_2 in the code are n1 and n2. Since |u_i| = 1, the conditions for a fixed point are |Delta|^2 =
+|beta_1 m_1|^2 = |beta_2 m_2|^2. For a given system, `completeness.points` can prove that no fixed point is missed.
 
-Fixed points with v^2 < 0 are not motions at leading order. They are kept, since they continue the asymmetric branch
-beyond its start at v = 0. If terms of order epsilon raise v^2 above 0, a motion exists close to such a point.
+On the asymmetric chart, x_i = v^2, where v is the difference between the times of the two flights of a cycle, divided
+by the period. Fixed points with v^2 < 0 are not motions at leading order. They are kept, since they continue the
+asymmetric branch beyond its start at v = 0. If terms of order epsilon raise v^2 above 0, a motion exists close to such
+a point.
 """
 
 import itertools
@@ -47,7 +49,7 @@ class AsymmetricPoint(Representation):
     Attributes
     ----------
     charts : tuple of str
-        Chart of each module.
+        Name of the chart (part of the manifold, see `branch`) of each module.
     x : ndarray
         Parameter of each module in its chart, shape (2,).
     asymmetric : ndarray
@@ -118,7 +120,7 @@ class AsymmetricPoint(Representation):
 
 
 class Balance:
-    """The two conditions that the chart parameters (x_1, x_2) of a fixed point satisfy, for one pair of charts.
+    """The two conditions for the parameters (x_1, x_2) of a fixed point, given the chart of each module (see `branch`).
 
     For an inactive module i, condition i is x_i = 0.
     """
@@ -196,9 +198,9 @@ def search(system: System) -> list[AsymmetricPoint]:
 
 
 def pairs_of(system, pairs) -> list[tuple[str, str]]:
-    """Return the pairs of charts on which a system can have fixed points.
+    """Return the entries of `pairs`, with one chart per module, for which a system can have fixed points.
 
-    An inactive module only has the chart of small C, with x_i = 0.
+    `branch` explains the charts. An inactive module only has the chart of small C, with x_i = 0.
     """
     idle = {1, 2} - set(system.modules)
     return [pair for pair in pairs if system.modules and all(pair[module - 1] == SMALL for module in idle)]
