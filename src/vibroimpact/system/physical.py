@@ -185,7 +185,9 @@ class PhysicalSystem:
             not admissible (see System).
         """
         if self.omega1 != self.omega2:
-            raise ValueError(f"omega2: {self.omega2} differs from omega1 = {self.omega1}; both should be equal, (10.5)")
+            raise ValueError(
+                f"omega2: {self.omega2} differs from omega1 = {self.omega1}; (10.5) requires equal frequencies"
+            )
         epsilon = self.m / self.M
         force = self.M * self.L * self.omega10**2 * epsilon
         damping = self.M * self.omega10 * epsilon
