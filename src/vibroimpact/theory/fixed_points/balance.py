@@ -119,8 +119,8 @@ def determinant(system, C) -> float:
     The equations sin^2 psi_i + cos^2 psi_i = 1 for i = 1, 2 lead to two equations that are linear in the cosine and
     sine of psi_2 - psi_1. The determinant of the two linear equations is four times the returned value.
 
-    The returned value is a quadratic polynomial in C_1. For coupled modules all its coefficients vanish only if
-    p_2 = 0, which dissipation in the impacts excludes except for C_2 = 0.
+    The returned value is a quadratic polynomial in C_1. For coupled modules, all its coefficients vanish only
+    if p_2 = 0. Since impacts dissipate energy, p_2 = 0 is possible only if C_2 = 0.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)

@@ -12,7 +12,7 @@ _ROUNDING = 100 * np.finfo(float).eps
 """Bound on the rounding error of a polynomial value, relative to the sum of the moduli of all terms."""
 _RESOLUTION = 1e-8
 _BOXES = _RESOLUTION, 1e-6, 1e-4
-"""Half-widths of the boxes about a zero where Newton's method is tested for contraction, relative to max(1, |zero|)."""
+"""Half-widths of the squares around a zero in which contraction is tested, relative to max(1, |zero|)."""
 _NEARLY_REAL = 1e-2
 """Largest imaginary part, relative to the modulus, of a root of the resultant that is treated as real."""
 _CLOSE = 0.03
@@ -84,10 +84,11 @@ def _starts(pair, size):
 
 
 def _resultant(one, other, sign=-1):
-    """Return the coefficients (9,) of the resultant of two polynomials, which eliminates y.
+    """Return the coefficients (9,) of the resultant of two polynomials, a polynomial in x alone.
 
-    one, other: coefficients (3, 3) with the power of y on the first axis. sign: -1 for the resultant. If `one` and
-    `other` are the moduli of the coefficients, sign = 1 gives the sums of the moduli of the terms of the resultant.
+    one, other: coefficients (3, 3) with the power of y on the first axis. For a bound on rounding errors, call the
+    function with the moduli of the coefficients and sign = 1: each coefficient of the resultant is a sum of terms, and
+    the result then contains the sums of the moduli of these terms.
     """
 
     def minor(j, k):
@@ -149,11 +150,11 @@ def _adjugate(matrix):
 
 
 def _contract(pair, size, points):
-    """Return a mask (n,) of the points that are simple zeros: Newton's method contracts in a box about the point.
+    """Return a mask (n,) of the points that are simple zeros: Newton's method contracts in a square around the point.
 
-    The condition follows Kantorovich's theorem: the sum of two bounds must be smaller than the half-width of the box.
-    One bound is on the shift of the zero due to rounding. The other bound is on the change of the Newton step within
-    the box; it is computed from twice the sum of the moduli of the second derivatives.
+    The condition follows Kantorovich's theorem: the sum of two bounds must be smaller than the half-width of the
+    square. One bound is on the shift of the zero due to rounding. The other bound is on the change of the Newton step
+    within the square; it is computed from twice the sum of the moduli of the second derivatives.
     """
     _, gradient, noise = _expanded(pair, size, points)
     by_x, by_y = _derivatives(pair)

@@ -25,8 +25,8 @@ from vibroimpact.theory.slow_flow import FIRST_HARMONIC, equations, slow_eigenva
 _STEPS = 30
 _SETTLED = 1e-12  # largest relative Newton step after which the fixed point is exact within rounding
 _SAME = 1e-9
-_NEAR = 1e-3  # largest relative change of C in `_refined`; a larger change leads to another fixed point
-_TRIANGLE_GAP = 1e-3  # largest (longest side - sum of the other sides) / perimeter of a triangle in `_may_close`
+_NEAR = 1e-3  # largest relative change of C in `_refined`; after a larger change, C belongs to another point
+_TRIANGLE_GAP = 1e-3  # tolerance of the triangle inequality in `_may_close`, relative to the perimeter
 _REGULAR = 1e5  # largest condition number of the Jacobian at a fixed point that counts as simple
 _AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
 COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
@@ -51,7 +51,7 @@ class FixedPoint(Representation):
         Complex eigenvalues of the slow flow, per unit of tau_1, shape (4,), or (2,) for a single machine. At a fold of
         the manifold an eigenvalue is infinite.
     multiple : bool
-        True if several fixed points may coincide within rounding, as they do at parameters of a fold or of a branch
+        True if several fixed points may coincide within rounding, for example if the system is at a fold or at a branch
         point. The relative errors of C and psi are then about the square root of the rounding error.
     label : str
         "a", "b", ... as in the figures (see `labels`); "" for a point that does not come from `fixed_points`.
@@ -214,10 +214,11 @@ def _solutions(system, balance, zeros, multiple):
 def _mirrored_pair(system, balance, C):
     """Return (C, psi) for the two simple fixed points with amplitudes close to C, or [] unless there are exactly two.
 
-    C: a multiple zero of the polynomials, known at best to the square root of rounding. With z_i, q_i, K and f_i of
-    `Balance` and p_i = q_i + K z_i, the balance p_1 u_1 - K z_2 u_2 = f_1 is a triangle in the complex plane. The side
-    lengths |p_1|, |K z_2| and |f_1| determine two triangles, which are mirror images. Newton's method starts once from
-    the phases u_1, u_2 of each triangle.
+    C: a multiple zero of the polynomials; its error is at least of the order of the square root of the rounding error.
+
+    With z_i, q_i, K and f_i of `Balance` and p_i = q_i + K z_i, the balance p_1 u_1 - K z_2 u_2 = f_1 is a triangle in
+    the complex plane. The side lengths |p_1|, |K z_2| and |f_1| determine two triangles, which are mirror images.
+    Newton's method starts once from the phases u_1, u_2 of each triangle.
     """
     z, q = balance.at(C)
     p, k, f = q[0] + balance.K * z[0], balance.K * z[1], balance.forcing[0]
