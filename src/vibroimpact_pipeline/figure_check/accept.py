@@ -96,7 +96,7 @@ def main(arguments=None) -> int:
             raise ValueError("figures: none has been checked; run `make check-figures` or `make check-studies` first")
         known = {verdict["figure"]: verdict for verdicts in sets.values() for verdict in verdicts}
         if unknown := [figure for figure in given.figures if figure not in known]:
-            raise ValueError(f"figures: unknown {', '.join(unknown)}; expected some of {', '.join(known)}")
+            raise ValueError(f"figures: unknown {', '.join(unknown)}; expected one or more of {', '.join(known)}")
         named = given.figures or [figure for figure, verdict in known.items() if verdict["status"] != PASSED]
         if not named:
             print("Nothing to accept: all figures match their reference.")
