@@ -158,7 +158,7 @@ def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[s
         Plotted table in the build.
     """
     if unknown := set(points) - {*table, "tolerance"}:
-        return [f"unknown columns {', '.join(sorted(unknown))}; expected one or more of {', '.join(table)}, tolerance"], []
+        return [f"unknown columns {', '.join(sorted(unknown))}; expected any of {', '.join(table)}, tolerance"], []
     reasons, found = [], []
     for number, point in points.iterrows():
         point = point[_given(point)]
