@@ -6,8 +6,8 @@ numbers or arrays that broadcast; angles are in radians.
 A value of C is admissible if the ball stays between the walls, that is if |W_0| <= 1 for the relative displacement W_0
 of (10.10). Let t be the time since the impact at W = +1. Until the next impact, W_0 = cos t + C h(t) with
 h(t) = 1 - 2 t / pi - cos t + rho sin t (docs/stability.md). W_0 is linear in C, so that the admissible C form one
-interval. The interval begins at C = 0. At its upper end the ball, on its way to the other wall, just grazes the wall
-that it has left.
+interval. The interval begins at C = 0. At the upper end of the interval, the ball leaves the wall W = +1, turns back
+and grazes this wall once, before it flies to the wall W = -1.
 """
 
 import numpy as np
@@ -84,7 +84,7 @@ def overshoot(C, rho):
     C = np.asarray(C, dtype=float)
     B = B_of_C(C, rho)
     turn = np.arccos(np.clip(2 * C / (np.pi * B), -1, 1))
-    # Times of the two stationary points of a flight, measured from the impact at W = +1 that begins it.
+    # W_0 has two stationary points in the flight after an impact at W = +1; these are their times since the impact.
     since = np.remainder(np.stack([turn, -turn]) - impact_phase(C, rho), 2 * np.pi)
     W = (1 - C) * np.cos(since) + rho * C * np.sin(since) + C * (1 - 2 * since / np.pi)
     return np.max(np.where(since <= np.pi, np.abs(W) - 1, 0), axis=0, initial=0)
@@ -102,14 +102,14 @@ def grazing_time(kappa: float) -> float:
     """
     if not 0 < kappa < 1:
         raise ValueError(f"kappa: {kappa} is not between 0 and 1 (both excluded)")
-    # tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3, so that p is at most sqrt(3 kappa), the unit of p in the search.
-    # As kappa is below 1, p is also at most 1.17.
+    # tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3, so that p is at most sqrt(3 kappa). The search is in terms of
+    # p / sqrt(3 kappa). Since kappa is below 1, p is also at most 1.17.
     unit = np.sqrt(3 * kappa)
     return 2 * unit * brentq(lambda x: _tangent_excess(unit * x) - kappa, 0.6, min(1.1, 1.2 / unit), xtol=1e-15)
 
 
 def _tangent_excess(p):
-    """Return tan(p) / p - 1, by its series for small p, where the difference would lose digits."""
+    """Return tan(p) / p - 1; for small p use the power series, since the subtraction of 1 would lose digits."""
     return p**2 / 3 + 2 * p**4 / 15 + 17 * p**6 / 315 if p < 0.01 else np.tan(p) / p - 1
 
 

@@ -57,7 +57,7 @@ def multipliers(C: float, kappa: float) -> np.ndarray:
 
 
 def lower_limit(kappa):
-    """Return the positive C below which a multiplier is above +1: C_min at the fold of the manifold, (10.25)."""
+    """Return C_min, the value of C at the fold of the manifold, (10.25); for 0 < C < C_min a multiplier is above +1."""
     return C_min(rho(kappa))
 
 

@@ -13,9 +13,9 @@ _ONE = np.eye(2)
 
 
 def impedances(system) -> tuple[np.ndarray, complex]:
-    """Return the slow impedances: (e_1, e_2) of the boxes without coupling and balls, and K of the coupling.
+    """Return the slow impedances: (e_1, e_2) of the two boxes alone, without balls and coupling, and K of the coupling.
 
-    With b_n = B_n exp(-i psi_n) for module n, and with the other module m, the slow flow is
+    Let b_n = B_n exp(-i psi_n) for module n, and let m be the number of the other module. The slow flow is
     2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m), where N is the describing function of the ball
     and D_1 = d / dtau_1.
     """
@@ -36,9 +36,9 @@ def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rates_from_phasors(system, B, cosine, sine, C):
-    """Return `rates` as rational functions of B, cos psi, sin psi and C, each shape (2,).
+    """Return the same values as `rates`, from B, cos psi, sin psi and C, each shape (2,).
 
-    This form, without trigonometric functions, is suitable for computer algebra.
+    The values are rational functions of these arguments, so that the function is suitable for computer algebra.
     """
     forcing = np.array([system.f10_hat, system.f20_hat])
     damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat
@@ -60,7 +60,7 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
     The derivatives are taken with respect to (C_1, psi_1, C_2, psi_2).
 
-    For a single machine the shapes are (2,) and (2, 2).
+    If only one module is active, the shapes are (2,) and (2, 2).
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     """Return J and M, each (..., 4, 4): perturbations x of (C_1, psi_1, C_2, psi_2) satisfy M dx/dtau_1 = J x.
 
     J and M stay finite at the fold C_min, where the usual Jacobian in (B, psi) is infinite. M contains the slope dB/dC
-    of the manifold and is singular at the fold. For a single machine both are (..., 2, 2).
+    of the manifold and is singular at the fold. If only one module is active, J and M have the shape (..., 2, 2).
 
     Parameters
     ----------

@@ -71,8 +71,9 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
 def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
     """Return the position of each fixed point on the manifold, one row per point and active module.
 
-    The columns are label, module, C, B, arm ("left" or "right" of C_min, (10.25)), branch ("stable" or "unstable" by
-    (10.26)) and overshoot (largest |W| - 1 at leading order, or 0 if |W| <= 1).
+    The columns are label, module, C, B, arm, branch and overshoot. The arm is "left" or "right" of C_min, (10.25). The
+    branch is "stable" or "unstable" by (10.26). The overshoot is 0 if the ball stays between the walls, and
+    otherwise the largest |W_0| - 1, where W_0 is the relative displacement of (10.10).
     """
     r = rho(system.kappa)
     rows = [
@@ -93,8 +94,8 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def verdicts(places: pd.DataFrame) -> pd.Series:
-    """Return the verdict of the chapter on each fixed point, by label.
+    """Return "stable" or "unstable" for each fixed point, by label, from the table of `place_on_manifold`.
 
-    A fixed point is stable if its position on the manifold of each active module is on the stable branch.
+    A fixed point is stable by (10.26) if, for every active module, the branch in the table is "stable".
     """
     return places.groupby("label")["branch"].agg(all_stable).rename("verdict")
