@@ -36,7 +36,7 @@ class Observation(Exponent):
 
 
 class BranchPath(Section):
-    """A path through the parameters, along which some of them vary together."""
+    """A straight path in parameter space: the parameters `along` have equal values, which vary over `range`."""
 
     along: Along
     range: fields.span(fields.Number)
@@ -83,7 +83,7 @@ class Basins(Section):
 
 
 class Mixed(Section):
-    """A fixed point next to the fold of the manifold. Fits exclude this point, as its time scales do not separate."""
+    """A fixed point next to the fold of the manifold, excluded from fits since its time scales do not separate."""
 
     case: fields.CaseName
     label: fields.Label

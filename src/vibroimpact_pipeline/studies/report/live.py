@@ -38,10 +38,11 @@ def live_data(config: dict) -> str:
 
 
 def _points(system, roots) -> list[dict]:
-    """Return the fixed points of a system by label; `roots` are its symmetric exact orbits.
+    """Return the fixed points of a system, sorted by label; `roots` are the symmetric exact orbits of the system.
 
-    Each fixed point has its label, C, B and psi of module 2, the verdict of (10.26) and, for the exact orbit next to
-    the point, the verdict and the modulus of the largest multiplier.
+    The entry of a fixed point contains its label, C, B and psi of module 2, and the verdict of (10.26). The entry also
+    contains the verdict on the exact orbit next to the fixed point and the largest modulus of a multiplier of this
+    orbit.
     """
     points = fixed_points(system)
     exact = exact_orbits(system, [point.C for point in points], roots)
@@ -109,8 +110,8 @@ DOTS = {"printed_10_26": "(10.26)", "fast": "fast scale", "theory": "fast and sl
 def verdict_dots(results) -> dict:
     """Return the verdict matrix: values of epsilon, column heads, and one row for each fixed point.
 
-    A row contains case and label, the verdict of each criterion of the theory and, for each epsilon, the verdict on the
-    exact orbit and its largest multiplier.
+    A row contains the case and label of the fixed point and the verdict of each criterion of the theory. For each
+    epsilon, it also contains the verdict on the exact orbit and the largest modulus of a multiplier of the orbit.
     """
     table = results.table("verdicts_by_epsilon.csv")
     rows = [

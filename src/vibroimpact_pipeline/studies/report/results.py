@@ -32,9 +32,10 @@ class Results:
         return (self.root / name).read_text(encoding="utf-8")
 
     def files(self, figure: str) -> dict[str, Path]:
-        """Return the paths of the files of a figure: <figure>.<kind> by kind, and further tables by name.
+        """Return the paths of the files of a figure by key.
 
-        The kinds are csv, svg, pdf and png. A further table is in the file <figure>.<name>.csv.
+        The key of a file <figure>.<kind> is the kind: csv, svg, pdf or png. The key of a further table, in the file
+        <figure>.<name>.csv, is the name of the table.
 
         Raises
         ------
