@@ -37,7 +37,7 @@ def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
 
 
 def reference_sums(reference) -> dict[str, dict]:
-    """Return, for each figure in a reference set, the checksums of its pictures and the library versions."""
+    """Return, for each figure in a reference set, checksums of PDF and SVG and the library versions that drew them."""
     path = Path(reference) / SUMS
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
 
@@ -58,7 +58,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
     figure
         Name of the figure.
     spec
-        SPEC of the figure, with its drawing module as "module"; None if the figure is no longer built.
+        Description of the figure (see `specs.spec_of`), or None if the figure is no longer built.
     reference
         Folder of the reference set.
     build
@@ -67,10 +67,16 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
     Returns
     -------
     dict
-        Keys: figure; stem (path of the pictures in the build, without suffix); module; files (for each compared table,
-        the file name in the reference set and the path in the build); status; reasons (one line each); distance (the
-        largest distance in `tables`); tables (a list of the distances from `table_differences` and `printed_distances`,
-        in units of their limits, each with the file name of its table).
+        The verdict, with these keys:
+
+        - figure: name of the figure.
+        - stem: path of the pictures in the build, without suffix.
+        - module: name of the drawing module, or None if the figure is no longer built.
+        - files: for each compared table, the file name in the reference set and the path in the build.
+        - status: "passed", "failed" or "not comparable".
+        - reasons: reasons for failure, one line each.
+        - tables: distances from `table_differences` and `printed_distances`, each with the file name of the table.
+        - distance: largest distance in `tables`, in units of its limit.
     """
     verdict = {"figure": figure, "stem": f"results/figures/{figure}", "module": None, "files": {}}
     verdict |= {"status": FAILED, "reasons": [], "distance": 0.0, "tables": []}

@@ -9,7 +9,7 @@ import yaml
 KINDS = {}
 """For each kind of number, the limit of each of its MEASURES, and the reason for these limits."""
 for path in (Path(__file__).with_name("tolerances.yaml"), Path(__file__).parents[1] / "studies/tolerances.yaml"):
-    if path.is_file():  # the studies may be missing
+    if path.is_file():  # the package `studies` may not be installed
         KINDS |= yaml.safe_load(path.read_text(encoding="utf-8"))
 OTHER_SERIES = "others"
 """Key in `compared` for all series that the SPEC does not name."""
@@ -29,8 +29,8 @@ MOVED_BY = 1e-3
 def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
     """Return the reasons why a table fails, and the distance of each column from its reference.
 
-    Rows with the same text in the first two text columns form a series; text columns with the entry `compared` are
-    skipped. The rows of a series are compared in order with the reference rows of the same series.
+    Rows with the same text in the first two text columns form a series. Text columns with the entry `compared` are
+    not used to form series. The rows of a series are compared in order with the reference rows of the same series.
 
     Parameters
     ----------
@@ -46,12 +46,14 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
     reasons : list of str
         One line for each reason. The table passes if the list is empty.
     distances : list of dict
-        One mapping for each column and measure, with these keys.
-        column, kind, measure: name of the column, and the kind and measure as in KINDS.
-        distance: largest distance, in units of the limit.
-        where: row with the largest distance.
-        reference, new: values of the two tables in this row. If a measure gives one distance for the whole column,
-        the values are medians of the column.
+        One mapping for each column and measure, with these keys:
+
+        - column: name of the column.
+        - kind, measure: kind of number in the column, and name of the measure, as in KINDS.
+        - distance: largest distance, in units of the limit.
+        - where: row with the largest distance.
+        - reference, new: values in this row of `old` and `new`, or the medians of the column if the measure gives only
+          one distance for the column.
     """
     if list(old) != list(new):
         return [f"columns are {', '.join(new)} instead of {', '.join(old)}"], []
@@ -127,7 +129,7 @@ def _given(values):
 
 
 def _distance(old, new, name, kind, measure):
-    """Return the largest distance of a column by one measure, with the place and values as in `table_differences`."""
+    """Return the largest distance of a column by one measure, as an entry of `distances` in `table_differences`."""
     before, after = (part[name].to_numpy() for part in (old, new))
     with np.errstate(all="ignore"):
         far = np.nan_to_num(MEASURES[measure](before, after, KINDS[kind]["limits"][measure]), nan=MAX_DISTANCE)
@@ -146,14 +148,15 @@ def _distance(old, new, name, kind, measure):
 def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[str], list[dict]]:
     """Compare points read from the printed book with the curves in a table.
 
-    Return the reasons why the table fails, and the largest distance, in the form of `table_differences`.
+    Return the reasons why the table fails, and a list that contains only the largest distance. The two lists have the
+    form that `table_differences` returns.
 
     Parameters
     ----------
     points
-        One row for each point, with some columns of `table` and the column `tolerance`. The text cells of a point
-        select the rows of `table` that form its curve. The tolerance limits the distance of the point from its curve,
-        where each coordinate is divided by the range of its column in the panel. Blank cells are ignored.
+        One row for each point, with some columns of `table` and the column `tolerance`. The rows of `table` with the
+        same text cells as the point form the curve. The tolerance is the largest allowed distance between point and
+        curve, after each coordinate is divided by the range of its column in the panel. Blank cells are ignored.
     table
         Plotted table in the build.
     """
@@ -224,9 +227,9 @@ def _balance(old, new, limit):
 
     For a column of numbers, compare how many numbers increase with how many decrease.
 
-    Rounding errors cause the two kinds of change equally often. The distance is the difference of the two numbers,
-    divided by its standard deviation, the square root of the number of changed rows. If a class of RARE_ROWS rows or
-    more vanishes, the distance is MAX_DISTANCE.
+    Rounding errors change rows in the two directions equally often. The distance is |n_1 - n_2| / sqrt(n_1 + n_2),
+    where n_1 and n_2 are the numbers of rows that change in the one and in the other direction. The denominator is the
+    standard deviation of n_1 - n_2. If a class of RARE_ROWS rows or more vanishes, the distance is MAX_DISTANCE.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:
