@@ -1,4 +1,4 @@
-"""Types of fields, with limits, that several sections share."""
+"""Types of config values, with limits, that several sections of the config use."""
 
 from typing import Annotated
 

@@ -156,7 +156,7 @@ class Config(Section):
                 yield place, what
 
     def parameter_errors(self):
-        """Yield errors for cases with invalid parameters or, if there are none, for invalid `varied_parameters`."""
+        """Yield errors for invalid parameters of cases or, if all cases are valid, for invalid `varied_parameters`."""
         systems, found = {}, False
         for name, case in self.cases.items():
             overrides = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)

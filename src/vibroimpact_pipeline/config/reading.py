@@ -155,7 +155,7 @@ def _update(whole, content, above):
 
 
 def _refusal(error, sources):
-    """Return a ConfigError with one line for each problem that Pydantic found, for at most MAX_LINES problems."""
+    """Return a ConfigError that lists the problems found by Pydantic, one per line and at most MAX_LINES of them."""
     found = sorted(problems_of(error).items(), key=lambda problem: key_path(problem[0]))
     lines = [f"{_source(place, sources)}: {key_path(place)}: {described(about)}" for place, about in found[:MAX_LINES]]
     return ConfigError(
