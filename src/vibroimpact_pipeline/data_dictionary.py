@@ -1,4 +1,4 @@
-"""Data dictionary: describe the content of every results file, from the SPECs of figures and report/data.yaml."""
+"""Data dictionary: describe the content of every results file, from the SPEC of each figure and report/data.yaml."""
 
 import re
 from dataclasses import dataclass, field
@@ -33,7 +33,7 @@ class File:
     keys
         For JSON files, the meaning of each key by its path; * stands for every entry.
     on_demand
-        By path, the command that makes a file that the default build does not make.
+        Commands for the files that the default build does not make, by path of the file.
     """
 
     paths: list[str]
@@ -54,7 +54,7 @@ def stands_for(pattern: str, path: str) -> bool:
 
 
 def read() -> tuple[dict, dict]:
-    """Return the SPEC of every figure by name, and the content of report/data.yaml."""
+    """Return the SPEC (description) of every figure by name, and the content of report/data.yaml."""
     return specs(), yaml.safe_load((ROOT / DATA).read_text(encoding="utf-8"))
 
 
@@ -119,7 +119,7 @@ def _columns(listed):
 
 
 def _table(heads, rows):
-    """Return a Markdown table; consecutive rows that differ only in the first cell, a name, are merged."""
+    """Return a Markdown table; consecutive rows that differ only in the first cell are merged into one row."""
     merged = ((", ".join(name for name, *_ in same), *rest) for rest, same in groupby(rows, lambda row: row[1:]))
     lines = [heads, ["---"] * len(heads), *merged]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)

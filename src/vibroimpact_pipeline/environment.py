@@ -27,7 +27,7 @@ def missing_libraries() -> list[str]:
 
 
 def set_environment(checkout: Path) -> None:
-    """Set library path, cache folders and one thread per job in the environment of this process and its jobs.
+    """Set environment variables of this process and its jobs: PYTHONPATH, cache folders, one thread per job.
 
     The cache folders are in the checkout, or in the working directory if the checkout is not writable.
     """

@@ -106,7 +106,7 @@ def _at(config, place):
 
 
 def main() -> int:
-    """Compare a figure with the checkout; return 0 without differences, 1 with differences, 2 without a record."""
+    """Compare a figure with the checkout; return 0 if they agree, 1 if they differ, 2 if the comparison fails."""
     from vibroimpact_pipeline.config import checked, merged
     from vibroimpact_pipeline.config import read as read_config
 

@@ -148,7 +148,7 @@ def _mark(path: str) -> None:
 
 
 def _as_recorded(path: str) -> bool:
-    """Return True if a result matches its records; its content is read only if its times or size are unexpected."""
+    """Return True if a result matches its record; read the result only if modification times or size are unexpected."""
     try:
         # Expected order: the job writes the record, Snakemake touches the result, and Snakemake writes its own record.
         times = [Path(one).stat().st_mtime_ns for one in (record_of(path), path, _of_snakemake("metadata", path))]

@@ -32,7 +32,9 @@ PACKAGES = "vibroimpact.figures", "vibroimpact.studies.figures"
 
 @cache
 def specs() -> dict[str, dict]:
-    """Return the SPEC of every figure by name, with all shared entries filled in.
+    """Return the SPEC (description) of every figure by name.
+
+    An entry that is given as the name of another figure is replaced by the entry of the other figure.
 
     In the `tables` of a SPEC, the key "csv" stands for the plotted table.
     """
@@ -60,11 +62,11 @@ def module_of(figure: str) -> str:
 
 
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
-    """Return the SPEC of a figure, with the name of its drawing module as the entry "module".
+    """Return the SPEC (description) of a figure, with the name of its drawing module as the entry "module".
 
     `scene` is the config entry of the figure, and `known` contains the SPEC of every figure of the library. If `scene`
-    has the entry "like", the result is the SPEC of the figure named there, with the texts in its entry "own" and with
-    the new figure's file names.
+    has the entry "like", the result is a copy of the SPEC of the figure that "like" names. In the copy, the texts are
+    those in the entry "own", and file names contain the name `figure`.
     """
     module = scene.get("like", figure)
     if module == figure:

@@ -14,7 +14,7 @@ TEXTS = {"title": str, "caption": lambda text: re.sub(r"([^\w\s])", r"\\\1", tex
 
 
 def figure_texts(config: dict) -> dict[str, dict]:
-    """Return the SPEC of every figure by name, with values of a config inserted into its texts (see `words`)."""
+    """Return the SPEC (description) of every figure by name, with config values in its texts (see `words`)."""
     known, data = read()
     texts = {name: spec for name, spec in known.items() if not name.startswith("fig10_")}
     for figure, scene in config["figures"].items():
@@ -26,9 +26,10 @@ def figure_texts(config: dict) -> dict[str, dict]:
 
 
 def words(figure: str, scene: dict, parameters: dict) -> dict:
-    """Return the SPEC of a figure, with placeholders in its texts, such as {f10_hat}, replaced by values of its case.
+    """Return the SPEC (description) of a figure, with placeholders in texts, such as {f10_hat}, replaced by values.
 
-    If a figure of the chapter has other parameters than in the chapter, it gets the texts for figures of your own.
+    The values are those in `scene` and `parameters`. If the figure is one of the chapter, but `parameters` are not
+    those of the chapter, the result contains the texts for figures of your own.
 
     Parameters
     ----------
