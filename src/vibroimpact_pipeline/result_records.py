@@ -121,7 +121,7 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
     for path, digest in digests.items():
         if read_record(path).get("sha256") != digest:
             _mark(path)
-            raise ModifiedResult(f"{path}: modified since it was built; rerun to rebuild")
+            raise ModifiedResult(f"{path}: modified since it was built, or without a record; rerun to rebuild")
     return digests
 
 
