@@ -200,9 +200,9 @@ def test_the_fast_criterion_gives_all_stability_labels_of_the_chapter(evidence, 
     assert {place: "stable" if largest[place] < 1 else "unstable" for place in labels} == labels
     assert len(labels) == 7
     for claim, number in {"two-stable-equal": 2, "one-stable-unequal": 1}.items():
-        assert judged[claim]["parts"][f"{number} by the derived fast criterion"]
-        assert judged[claim]["parts"]["the captions by the fast criterion"]
-        assert judged[claim]["numbers"]["captions right in all cases by the fast criterion"] == 7
+        assert judged[claim]["parts"][f"the number of points stable by the derived fast criterion is {number}"]
+        assert judged[claim]["parts"]["the fast criterion gives all captions of the case"]
+        assert judged[claim]["numbers"]["captions of all cases that the fast criterion gives"] == 7
 
 
 def test_the_continuation_of_point_c_in_the_force_leaves_the_right_arm(evidence, judged):
@@ -219,17 +219,19 @@ def test_the_continuation_of_point_c_in_the_force_leaves_the_right_arm(evidence,
         unknown, _, success, _ = fsolve(residual, unknown, xtol=1e-12, full_output=True)
         assert success == 1
     claim = judged["stable-point-moves-down"]
-    np.testing.assert_allclose(claim["numbers"]["C after, by continuation"], unknown[:2], rtol=1e-9)
+    np.testing.assert_allclose(claim["numbers"]["C1 and C2 of its continuation"], unknown[:2], rtol=1e-9)
     assert unknown[0] < 1 / (1 + rho(0.65) ** 2)
-    assert [part for part, holds in claim["parts"].items() if not holds] == ["P1, by continuation"]
+    failed = [part for part, holds in claim["parts"].items() if not holds]
+    assert failed == ["P1 moves down the right arm to its continuation"]
 
 
 def test_the_printed_condition_would_be_a_misprint_if_exponents_gave_all_labels(evidence, judged, monkeypatch):
     """No tried exponents give all labels. With 4 / (4 + 4 rho^2) and an upper limit, (10.26) would be a misprint."""
     claim = judged["printed-condition"]
-    assert (claim["verdict"], claim["numbers"]["right with these"]) == (REFUTED, 0)
+    assert (claim["verdict"], claim["numbers"]["number of pairs of exponents that make the claim hold"]) == (REFUTED, 0)
     kappa = evidence.system.kappa
-    assert claim["numbers"]["with squares"] == pytest.approx((1 + kappa) ** 2 / (2 * (1 + kappa**2)), rel=1e-13)
+    squared = claim["numbers"]["limit with squares, 4 / (4 + pi^2 rho^2)"]
+    assert squared == pytest.approx((1 + kappa) ** 2 / (2 * (1 + kappa**2)), rel=1e-13)
     with monkeypatch.context() as patch:
         patch.setattr(claims_manifold, "printed_limit", lambda rho: 1 / (1 + rho**2))
         assert verdict("printed-condition", evidence) == IN_PART
@@ -240,7 +242,8 @@ def test_the_printed_condition_would_be_a_misprint_if_exponents_gave_all_labels(
 
 def test_the_claim_of_two_branches_fails_because_of_the_upper_limit(evidence, judged, monkeypatch):
     """One of three pieces is stable. It ends at the upper limit, which the chapter lacks."""
-    assert judged["two-branches"]["parts"] == {"one stable branch": True, "one unstable branch": False}
+    parts = {"there is one stable branch": True, "there is one unstable branch": False}
+    assert judged["two-branches"]["parts"] == parts
     for largest, expected in ((1.68, HOLDS), (0.98, IN_PART)):  # with 0.98, no branch is stable
         monkeypatch.setattr(claims_manifold, "largest_C", lambda kappa, largest=largest: largest)
         assert verdict("two-branches", evidence) == expected
@@ -249,12 +252,13 @@ def test_the_claim_of_two_branches_fails_because_of_the_upper_limit(evidence, ju
 def test_parts_that_do_not_decide_a_verdict_depend_on_the_evidence(evidence, judged, monkeypatch):
     """Evidence is a point beyond the largest C, a singular point at each fixed point, and a cosine as sawtooth."""
     (far,) = judge([CLAIMS["no-penetration"]], with_values("fixed_points", 'case == "weak"', "C1", 6.0)(evidence))
-    assert [one["parts"]["all fixed points"] for one in (judged["no-penetration"], far)] == [True, False]
+    part = "the ball is inside at all fixed points"
+    assert [one["parts"][part] for one in (judged["no-penetration"], far)] == [True, False]
     monkeypatch.setattr(claims_points, "singular_points", lambda system, point, i: np.array([[point.C[i - 1], 0.0]]))
     monkeypatch.setattr(claims_equations, "sawtooth", lambda tau, C, theta: C * np.cos(tau - theta))
     near, other = judge([CLAIMS["singular-bifurcation"], CLAIMS["leading-order-solution"]], evidence)
-    assert near["parts"]["a point is singular where two merge"]
-    assert not other["parts"]["harmonics"]
+    assert near["parts"]["a fixed point is singular where two fixed points merge"]
+    assert not other["parts"]["formula of the harmonics holds"]
 
 
 # Facts
@@ -290,10 +294,12 @@ def test_confusion_matrices_count_all_points_of_the_grid(evidence, judged):
     numbers = judged["assesses-stability"]["numbers"]
     grid = evidence.verdict_grid.query("epsilon == 0.1")
     # docs/studies/findings.md: one more orbit exists only if its ball may leave the box.
-    between_walls = judged["periodic-solutions"]["numbers"]["without an orbit between the walls"]
-    assert numbers["without an orbit"] + 1 == between_walls
-    for name, column in (("(10.26)", "printed_10_26"), ("fast and slow", "theory")):
+    others = judged["periodic-solutions"]["numbers"]
+    between_walls = others["points of the force grid without an orbit between the walls"]
+    assert numbers["points of the force grid without an exact orbit"] + 1 == between_walls
+    for name, column in (("(10.26)", "printed_10_26"), ("both time scales", "theory")):
         called = np.where(grid[column] == "stable", "stable", "other")
         counts = pd.crosstab(called, grid["exact"]).loc[["stable", "other"]]
-        assert numbers[f"{name}, epsilon = 0.1"] == counts[["stable", "unstable"]].to_numpy().tolist()
-        assert numbers[f"{name}, epsilon = 0.1, no orbit"] == counts["no orbit"].tolist()
+        matrix = counts[["stable", "unstable"]].to_numpy().tolist()
+        assert numbers[f"verdicts of {name} against exact, epsilon = 0.1"] == matrix
+        assert numbers[f"verdicts of {name} without an orbit, epsilon = 0.1"] == counts["no orbit"].tolist()

@@ -85,11 +85,11 @@ def test_numbers_on_a_page_are_those_of_the_results_and_name_their_source(site):
     page = (site / "claims.html").read_text(encoding="utf-8")
     assert sorted(re.findall(r'href="#claim-([\w-]+)"', page)) == sorted(claim["id"] for claim in claims)
     assert len(re.findall(r'<details class="[^"]*" id="claim-', page)) == len(claims)
-    (distance,) = (claim["numbers"]["largest distance in C"] for claim in claims if claim["id"] == "periodic-solutions")
+    (distance,) = (claim["numbers"]["largest error of C"] for claim in claims if claim["id"] == "periodic-solutions")
     article, numbers = ((site / f"{name}.html").read_text(encoding="utf-8") for name in ("findings", "numbers"))
     assert re.search(rf'href="numbers.html#number-largest-distance">(<[^>]+>)*{distance:.3f}<', article)
     assert f"{distance:.6g}: " in numbers
-    source = "results/claims.json | periodic-solutions | numbers | largest distance in C"
+    source = "results/claims.json | periodic-solutions | numbers | largest error of C"
     assert source in re.sub("<[^>]+>", "", numbers)
 
 

@@ -27,7 +27,8 @@ def weak_coupling(evidence):
     system = evidence.system
     spring = system.alpha12 / min(1.0, system.stiffness2)
     damper = system.gamma12 / min(system.gamma1, system.gamma2)
-    return Finding({"k12 < k1, k2": spring < 1, "c12 < c1, c2": damper < 1}, {"c12 / c": damper, "k12 / k": spring})
+    parts = {"the coupling spring is the softest": spring < 1, "the coupling damper is the weakest": damper < 1}
+    return Finding(parts, {"relative coupling damping": damper, "relative coupling stiffness": spring})
 
 
 def own_frequency(evidence):
@@ -37,7 +38,7 @@ def own_frequency(evidence):
     """
     system = evidence.system
     corrected = abs(system.Omega - (1 + system.epsilon * system.sigma_e_hat)) < ROUNDING
-    return as_printed(system.Omega == 1, corrected, Omega=system.Omega)
+    return as_printed(system.Omega == 1, corrected, **{"forcing frequency / natural frequency of box 1": system.Omega})
 
 
 def bound_of_the_balls(evidence):
@@ -45,7 +46,7 @@ def bound_of_the_balls(evidence):
     samples = [simulation.samples for simulation in evidence.simulations.values()]
     absolute = max(table[["Y1", "Y2"]].abs().to_numpy().max() for table in samples)
     relative = max((table[f"X{i}"] - table[f"Y{i}"]).abs().max() for table in samples for i in (1, 2))
-    return as_printed(absolute <= 1, relative <= 1 + ROUNDING, **{"largest Y": absolute, "largest W": relative})
+    return as_printed(absolute <= 1, relative <= 1 + ROUNDING, **{"largest |Y|": absolute, "largest |W|": relative})
 
 
 def common_impact_instants(evidence):
@@ -63,7 +64,7 @@ def common_impact_instants(evidence):
         own.append(from_wall[rows, place])
         other.append(from_wall[rows, 1 - place])
     own, together = np.abs(np.concatenate(own)).max(), (np.abs(np.concatenate(other)) < ROUNDING).mean()
-    numbers = {"share of impacts in common": together, "largest distance of a ball from its own wall": own}
+    numbers = {"share of impacts in both modules at once": together, "largest distance of an impact from its wall": own}
     return as_printed(together == 1, own < ROUNDING, **numbers)
 
 
@@ -90,13 +91,13 @@ def equations_in_U_and_W(evidence):
     # Between impacts the ball flies freely, so that U'' = W'' = X''.
     both = dict(zip("12", ddX + left, strict=True))
     residual = {line: both[line[1]] - amplitude * phase[0] for line, amplitude in printed.items()}
-    parts = {f"line {line}": abs(value) < ROUNDING for line, value in residual.items()}
+    parts = {f"line {line} holds as printed": abs(value) < ROUNDING for line, value in residual.items()}
     with_f10 = both["1"] - f[0] * phase[0]
     jump_of_U, jump_of_W = _errors_of_jumps(system)
-    parts |= {"no impact in U": jump_of_U < ROUNDING, "-(1 + kappa) W' at impacts in W": jump_of_W < ROUNDING}
-    others = all(holds for part, holds in parts.items() if part != "line W1")
-    numbers = {"residual of W1": residual["W1"], "with f10 in line W1": with_f10}
-    numbers |= {"residual of jumps": max(jump_of_U, jump_of_W)}
+    parts |= {"U' does not jump": jump_of_U < ROUNDING, "W' jumps by -(1 + kappa) W'": jump_of_W < ROUNDING}
+    others = all(holds for part, holds in parts.items() if not part.startswith("line W1"))
+    numbers = {"residual of line W1 as printed": residual["W1"], "residual of line W1 with the force f10": with_f10}
+    numbers |= {"largest error of the printed jumps": max(jump_of_U, jump_of_W)}
     return Finding(parts, numbers, corrected=bool(others and abs(with_f10) < ROUNDING))
 
 
@@ -116,9 +117,9 @@ def leading_order_solution(evidence):
         B, phase, slope = B_of_C(C, rho(kappa)), impact_phase(C, rho(kappa)), 2 * C / np.pi
         Z = sawtooth(np.array([t - 0.05, t, t + 0.05]), C, 0.0)
         at_walls = [B * np.sin(j * np.pi + phase) + sawtooth(j * np.pi, C, 0.0) - (-1) ** j for j in (0, 1)]
-        before = B * np.cos(phase) + slope
-        found.append({"flight": Z[0] - 2 * Z[1] + Z[2], "walls": at_walls, "impacts": 2 * slope - (1 + kappa) * before})
-    return _vanish(found, harmonics=_error_of_the_harmonics())
+        impact = 2 * slope - (1 + kappa) * (B * np.cos(phase) + slope)
+        found.append({"flight equation": Z[0] - 2 * Z[1] + Z[2], "wall condition": at_walls, "impact law": impact})
+    return _vanish(found, **{"formula of the harmonics": _error_of_the_harmonics()})
 
 
 def _vanish(found, **others):
@@ -127,8 +128,8 @@ def _vanish(found, **others):
     found: a list of dictionaries name -> residuals, each with the same names. others: further residuals by name.
     """
     worst = {name: max(np.abs(residuals[name]).max() for residuals in found) for name in found[0]} | others
-    parts = {name: value < ROUNDING for name, value in worst.items()}
-    return Finding(parts, {f"residual of {name}": value for name, value in worst.items()})
+    parts = {f"{name} holds": value < ROUNDING for name, value in worst.items()}
+    return Finding(parts, {f"largest residual of {name}": value for name, value in worst.items()})
 
 
 def manifold_from_impact_conditions(evidence):
@@ -146,7 +147,7 @@ def manifold_from_impact_conditions(evidence):
             residuals["(10.17)"] = [sine - B * np.sin(impact_phase(C, r)), cosine - r * C]
             found.append(residuals)
     lowest = max(abs(B_of_C(C_min(rho(kappa)), rho(kappa)) - B_min(rho(kappa))) for kappa in KAPPAS)
-    return _vanish(found, **{"B_min at C_min": lowest})
+    return _vanish(found, **{"(10.25) for B_min": lowest})
 
 
 def _error_of_the_harmonics():
@@ -166,7 +167,7 @@ def orders_of_the_expansion(evidence):
     """
     table = evidence.epsilon_orders
     orders = {name: table.loc[table["panel"] == panel, "order"] for name, panel in _TERMS.items()}
-    off = {name: (orders[name] - order).abs() for order, name in enumerate(_TERMS, start=1)}
-    parts = {f"{name}: error of order {order}": (off[name] < 0.01).all() for order, name in enumerate(_TERMS, start=1)}
-    numbers = {f"largest error of the order, {name}": off[name].max() for name in _TERMS}
-    return Finding(parts, numbers | {"points": len(off["one term"])})
+    off = {f"order {n} in epsilon with {name}": (orders[name] - n).abs() for n, name in enumerate(_TERMS, start=1)}
+    parts = {f"the error is of {order}": (errors < 0.01).all() for order, errors in off.items()}
+    numbers = {f"largest deviation from {order}": errors.max() for order, errors in off.items()}
+    return Finding(parts, numbers | {"number of fixed points compared": len(orders["one term"])})

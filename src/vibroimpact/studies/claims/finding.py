@@ -56,5 +56,5 @@ def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
 
     holds: True if the printed statement holds. corrected: True if the corrected statement holds.
     """
-    numbers["as corrected"] = HOLDS if corrected else REFUTED
-    return Finding({"as printed": holds}, numbers, corrected=bool(corrected))
+    numbers["verdict on the corrected statement"] = HOLDS if corrected else REFUTED
+    return Finding({"the statement holds as printed": holds}, numbers, corrected=bool(corrected))

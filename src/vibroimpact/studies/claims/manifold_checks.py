@@ -27,8 +27,8 @@ def fold_of_the_manifold(evidence):
         level = max(level, abs(np.sqrt(found.fun) - B_min(r)))
     # The minimisation finds the value of the minimum up to rounding errors, but the position of the minimum only up to
     # the square root of rounding errors.
-    numbers = {"largest error of C_min": place, "of B_min": level}
-    return Finding({"C_min": place < 1e-6, "B_min": level < 1e-12}, numbers)
+    numbers = {"largest error of C_min": place, "largest error of B_min": level}
+    return Finding({"the minimum is at C_min": place < 1e-6, "the minimum is B_min": level < 1e-12}, numbers)
 
 
 def no_penetration(evidence):
@@ -37,12 +37,12 @@ def no_penetration(evidence):
     points = evidence.fixed_points[["C1", "C2"]].to_numpy()
     end = largest_C(kappa)
     parts = {
-        "none for C < 0": all(_furthest(C, kappa) > 1 for C in (-1.0, -0.1, -0.01)),
-        "all fixed points": all(_furthest(C, kappa) <= 1 + TOLERANCE for C in points.ravel()),
-        "all C >= 0": all(_furthest(C, kappa) <= 1 + TOLERANCE for C in np.linspace(0.0, 3 * end, 100)),
+        "the ball leaves the box if C < 0": all(_furthest(C, kappa) > 1 for C in (-1.0, -0.1, -0.01)),
+        "the ball is inside at all fixed points": all(_furthest(C, kappa) <= 1 + TOLERANCE for C in points.ravel()),
+        "the ball is inside if C >= 0": all(_furthest(C, kappa) <= 1 + TOLERANCE for C in np.linspace(0, 3 * end, 100)),
     }
-    numbers = {"largest C inside": end, "largest C of a fixed point": points.max()}
-    return Finding(parts, numbers | {"furthest at twice the largest C": _furthest(2 * end, kappa)})
+    numbers = {"largest C with the ball inside": end, "largest C of a fixed point": points.max()}
+    return Finding(parts, numbers | {"max |W| at twice the largest C with the ball inside": _furthest(2 * end, kappa)})
 
 
 def _furthest(C, kappa):
@@ -62,8 +62,8 @@ def printed_condition(evidence):
     at_limit, at_squared = (_largest_multiplier(C, kappa) for C in (limit, squared))
     stable, below = _stable_above(limit, kappa), _stable(np.linspace(0.0, limit, 200)[1:], kappa)
     parts = {
-        "a multiplier is on the unit circle at the limit": abs(at_limit - 1) < TOLERANCE,
-        "all motions above it are stable": stable.all(),
+        "the largest multiplier at the limit is on the unit circle": abs(at_limit - 1) < TOLERANCE,
+        "all motions above the limit are stable": stable.all(),
     }
     exponents = np.array(list(product(EXPONENTS, repeat=2)))
     readings = 4 / (4 + np.pi ** exponents[:, 0] * rho(kappa) ** exponents[:, 1])
@@ -73,21 +73,21 @@ def printed_condition(evidence):
     fitting = (least < readings) & (readings < most)
     numbers = {
         "largest multiplier at the printed limit": at_limit,
-        "(10.26)": limit,
-        "with squares": squared,
-        "largest multiplier at that": at_squared,
+        "printed limit (10.26)": limit,
+        "limit with squares, 4 / (4 + pi^2 rho^2)": squared,
+        "largest multiplier at the limit with squares": at_squared,
         "derived lower limit": lower_limit(kappa),
         "derived upper limit": upper_limit(kappa),
-        "stable share above": stable.mean(),
-        "stable share below": below.mean(),
-        "other exponents tried": len(readings),
-        "right with these": int(right.sum()),
-        "multiplier nearest to 1 with these": at_readings[np.abs(at_readings - 1).argmin()],
-        "the captions need a limit above": least,
-        "and a stable piece of the left arm one below": most,
-        "exponents of pi and rho that lead there": exponents[fitting],
-        "their limits": readings[fitting],
-        "largest multipliers there": at_readings[fitting],
+        "stable share of C above the printed limit": stable.mean(),
+        "stable share of C below the printed limit": below.mean(),
+        "number of pairs of exponents of pi and rho tried": len(readings),
+        "number of pairs of exponents that make the claim hold": int(right.sum()),
+        "multiplier nearest to 1 at the limits of all pairs": at_readings[np.abs(at_readings - 1).argmin()],
+        "lower bound of limits that fit the captions": least,
+        "upper bound of limits that fit captions and left arm": most,
+        "exponents of pi and rho that fit captions and left arm": exponents[fitting],
+        "limits with exponents that fit captions and left arm": readings[fitting],
+        "largest multipliers at limits that fit captions and left arm": at_readings[fitting],
     }
     return Finding(parts, numbers, corrected=bool(right.any()))
 
@@ -130,8 +130,8 @@ def two_branches(evidence):
     stable = _stable(np.linspace(0.0, largest_C(kappa), 4001)[1:], kappa)
     first = np.append(True, stable[1:] != stable[:-1])  # True at the first point of each piece
     counts = {name: int((first & (stable == says)).sum()) for name, says in (("unstable", False), ("stable", True))}
-    parts = {f"one {name} branch": count == 1 for name, count in counts.items()}
-    return Finding(parts, {f"{name} pieces": count for name, count in counts.items()})
+    parts = {f"there is one {name} branch": count == 1 for name, count in counts.items()}
+    return Finding(parts, {f"number of {name} pieces": count for name, count in counts.items()})
 
 
 def right_arm_is_stable(evidence):
@@ -140,8 +140,8 @@ def right_arm_is_stable(evidence):
     fold, end = lower_limit(kappa), largest_C(kappa)
     C = np.linspace(fold, end, 2002)[1:-1]
     stable = _stable(C, kappa)
-    parts = {"just right of the fold": stable[0], "all the way": stable.all()}
-    return Finding(parts, {"stable up to C": C[stable].max(), "stable share of the arm": stable.mean()})
+    parts = {"motions just right of the fold are stable": stable[0], "the whole right arm is stable": stable.all()}
+    return Finding(parts, {"largest stable C": C[stable].max(), "stable share of the right arm": stable.mean()})
 
 
 def left_arm_has_a_stable_piece(evidence):
@@ -150,7 +150,7 @@ def left_arm_has_a_stable_piece(evidence):
     limit, fold = printed_limit(rho(kappa)), lower_limit(kappa)
     piece = _stable(np.linspace(limit, fold, 502)[1:-1], kappa)
     arm = _stable(np.linspace(0, fold, 2002)[1:-1], kappa)
-    numbers = {"stable share of the piece": piece.mean(), "from": limit, "to": fold}
+    numbers = {"stable share from (10.26) to the fold": piece.mean(), "limit (10.26)": limit, "C of the fold": fold}
     return Finding({"a piece of the left arm is stable": piece.any() or arm.any()}, numbers)
 
 
@@ -164,6 +164,7 @@ def stability_regions(evidence):
     border, stable = printed_limit(rho(kappa)), _stable(C, kappa)
     shaded, white = stable[border < C].mean(), (~stable[border > C]).mean()
     gap = lower_limit(KAPPAS) - printed_limit(rho(KAPPAS))
-    parts = {"shaded is stable": shaded == 1, "white is unstable": white == 1, "border below C_min": (gap > 0).all()}
-    numbers = {"stable share of the shaded": shaded, "unstable share of the white": white}
-    return Finding(parts, numbers | {"narrowest gap to C_min": gap.min(), "widest": gap.max()})
+    parts = {"the shaded region is stable": shaded == 1, "the white region is unstable": white == 1}
+    parts |= {"the boundary is below C_min for every kappa": (gap > 0).all()}
+    numbers = {"stable share of the shaded region": shaded, "unstable share of the white region": white}
+    return Finding(parts, numbers | {"smallest gap below C_min": gap.min(), "largest gap below C_min": gap.max()})

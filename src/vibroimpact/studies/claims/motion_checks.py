@@ -34,11 +34,11 @@ def steady_two_impacts(evidence, case):
     impacts = simulation.impacts
     alternate = all((np.diff(impacts.loc[impacts["module"] == i, "wall"]) != 0).all() for i in (1, 2))
     parts = {
-        "repeats every cycle": change < 1e-6,
+        "the motion repeats every cycle": change < 1e-6,
         # One impact may be at the edge of the observed window.
-        "two impacts per cycle": all(abs(count - PER_CYCLE * cycles) <= 1 for count in counts) and alternate,
+        "each ball impacts twice a cycle": all(abs(count - PER_CYCLE * cycles) <= 1 for count in counts) and alternate,
     }
-    return Finding(parts, {"change after a cycle": change, "impacts": counts, "cycles": cycles})
+    return Finding(parts, {"change after a cycle": change, "impacts of each ball": counts, "cycles observed": cycles})
 
 
 def numerical_results_are_similar(evidence, case, label):
@@ -50,22 +50,21 @@ def numerical_results_are_similar(evidence, case, label):
     off = {name: np.abs(getattr(measured, name) / value - 1) for name, value in predicted.items()}
     asymmetry = np.abs(np.mod(measured.impact_phases @ [-1, 1], 1) - 0.5) * 2
     parts = {
-        **{f"amplitudes {name} within a tenth": (values < SIMILAR).all() for name, values in off.items()},
-        "symmetric as predicted": asymmetry.max() < 1e-6,
+        **{f"simulated {name} is within 10 % of theory": (values < SIMILAR).all() for name, values in off.items()},
+        "the simulated flights are symmetric, as predicted": asymmetry.max() < 1e-6,
     }
-    numbers = {"difference of flight times": asymmetry}
+    numbers = {"difference of the two flights of each ball, in periods": asymmetry}
     for name in predicted:
-        numbers |= {f"{name} predicted": predicted[name], f"{name} simulated": getattr(measured, name)}
-        numbers |= {f"relative difference of {name}": off[name]}
+        numbers |= {f"predicted {name}": predicted[name], f"simulated {name}": getattr(measured, name)}
+        numbers |= {f"relative difference of predicted and simulated {name}": off[name]}
     return Finding(parts, numbers)
 
 
 def transients_are_long(evidence, case):
     """Check that perturbations of at least one stable orbit need more than 10 cycles to shrink to a tenth."""
     motions = evidence.motions(case)
-    stable = motions[motions["exact"] == STABLE]
-    cycles = (np.log(0.1) / np.log(stable["modulus_1"])).max()
-    return Finding({"longer than the cycles shown": cycles > 10}, {"cycles to a tenth": cycles})
+    cycles = (np.log(0.1) / np.log(motions.loc[motions["exact"] == STABLE, "modulus_1"])).max()
+    return Finding({"a transient exceeds the plotted time": cycles > 10}, {"longest decay to a tenth, cycles": cycles})
 
 
 def only_possible_behaviour(evidence, case):
@@ -80,15 +79,15 @@ def only_possible_behaviour(evidence, case):
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
     motions = evidence.motions(case)
     parts = {
-        "no stable 1:1 response": not (motions["exact"] == STABLE).any(),
-        "all spread starts end modulated": shares.get(STRONGLY_MODULATED, 0.0) == 1.0,
-        "so does the start from rest, with both balls": rest == STRONGLY_MODULATED,
+        "no 1:1 response is stable": not (motions["exact"] == STABLE).any(),
+        "all evenly spread starts end modulated": shares.get(STRONGLY_MODULATED, 0.0) == 1.0,
+        "the start from rest ends modulated, with both balls": rest == STRONGLY_MODULATED,
     }
-    numbers = {f"share {regime}": share for regime, share in shares.items()}
-    numbers |= {"from rest": rest, "one ball idle from rest": rest == IDLE}
+    numbers = {f"share of evenly spread starts that end {regime}": share for regime, share in shares.items()}
+    numbers |= {"regime of the start from rest": rest, "one ball idle after the start from rest": rest == IDLE}
     for quantity in ("amplitude variation", "resonant share"):
         of_modules = evidence.measured(case, "rest", quantity).set_index("module")["mean"]
-        numbers[f"{quantity} from rest"] = of_modules.loc[[1, 2]].to_list()
+        numbers[f"{quantity} of each module, start from rest"] = of_modules.loc[[1, 2]].to_list()
     return Finding(parts, numbers)
 
 
@@ -96,8 +95,8 @@ def no_practical_importance(evidence, case, label):
     """Check that the exact orbit of an unstable fixed point is not stable, so that motions near the orbit leave it."""
     partner = evidence.points(case).loc[label, "orbit"]
     orbit = evidence.motions(case).set_index("label").loc[partner]
-    parts = {"its orbit is not stable": orbit["exact"] != STABLE}
-    return Finding(parts, {"largest multiplier": orbit["modulus_1"]})
+    parts = {"the exact orbit of the solution is not stable": orbit["exact"] != STABLE}
+    return Finding(parts, {"largest multiplier of the exact orbit": orbit["modulus_1"]})
 
 
 def resonant_intervals(evidence, case):
@@ -112,12 +111,13 @@ def resonant_intervals(evidence, case):
     gap = burst * (1 - share) / share
     row = evidence.measured(case, "spread", "largest Lyapunov exponent").iloc[0]
     parts = {
-        "intervals of resonant motion": (burst > 1).all(),
-        "shorter non-resonant ones between": (gap < burst).all(),
-        "irregular": row["mean"] > 5 * row["uncertainty"],
+        "resonant intervals are longer than a cycle": (burst > 1).all(),
+        "non-resonant intervals are shorter than resonant ones": (gap < burst).all(),
+        "the motion is chaotic": row["mean"] > 5 * row["uncertainty"],
     }
-    numbers = {"resonant share": share.tolist(), "burst, cycles": burst.tolist(), "gap, cycles": gap.tolist()}
-    return Finding(parts, numbers | {"largest Lyapunov exponent": row["mean"]})
+    numbers = {"resonant share of each ball": share, "mean resonant interval of each ball, in cycles": burst}
+    numbers |= {"mean non-resonant interval of each ball, in cycles": gap, "largest Lyapunov exponent": row["mean"]}
+    return Finding(parts, numbers)
 
 
 def beating(evidence, case):
@@ -126,9 +126,9 @@ def beating(evidence, case):
     BEAT_VARIATION is the amplitude variation of a beat.
     """
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
-    found = rows["mean"].loc[[1, 2]]
-    parts = {f"box {i}": found[i] - 2 * rows.loc[i, "uncertainty"] > BEAT_VARIATION for i in (1, 2)}
-    return Finding(parts, {"amplitude variation": found.tolist()})
+    lowest = rows["mean"] - 2 * rows["uncertainty"]
+    parts = {f"the amplitude of box {i} varies more than in a beat": lowest[i] > BEAT_VARIATION for i in (1, 2)}
+    return Finding(parts, {"amplitude variation of each box": rows["mean"].loc[[1, 2]].tolist()})
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
@@ -142,17 +142,14 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
     others = [int((evidence.motions(case)["exact"] == STABLE).sum()) for case in sequence]
     share = evidence.shares(sequence[-1]).get(STRONGLY_MODULATED, 0.0)
     parts = {
-        "a stable fixed point at first, by theory": in_theory[0] > 0,
-        "a stable fixed point at first, by its exact orbit": exactly[0] > 0,
-        "none at last": in_theory[-1] == exactly[-1] == 0,
-        "modulated response at last": share > 0,
+        "a point is stable at the highest amplitudes, by theory": in_theory[0] > 0,
+        "a point's exact orbit is stable at the highest amplitudes": exactly[0] > 0,
+        "no fixed point is stable at the lowest amplitudes": in_theory[-1] == exactly[-1] == 0,
+        "strong modulation occurs at the lowest amplitudes": share > 0,
     }
-    numbers = {
-        "stable by theory": in_theory,
-        "stable by their exact orbits": exactly,
-        "stable 1:1 orbits of any kind": others,
-    }
-    return Finding(parts, numbers | {"modulated share at last": share})
+    numbers = {"points stable by theory, per case": in_theory, "points stable by their orbits, per case": exactly}
+    numbers |= {"stable 1:1 orbits of any kind, per case": others, "modulated share at the lowest amplitudes": share}
+    return Finding(parts, numbers)
 
 
 def unstable_means_modulated(evidence, case):
@@ -165,11 +162,8 @@ def unstable_means_modulated(evidence, case):
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
     shares = {name: evidence.shares(name).get(STRONGLY_MODULATED, 0.0) for name in (case, *unstable)}
-    parts = {
-        "its fixed points are unstable": case in unstable,
-        "strongly modulated from all spread starts": shares[case] == 1,
-    }
-    return Finding(parts, {f"modulated share, {name}": share for name, share in shares.items()})
+    parts = {"all points are unstable": case in unstable, "all evenly spread starts end modulated": shares[case] == 1}
+    return Finding(parts, {f"share of starts that end modulated, {name} case": share for name, share in shares.items()})
 
 
 def periodic_solutions(evidence, f10_hat, f20_hat):
@@ -185,19 +179,19 @@ def periodic_solutions(evidence, f10_hat, f20_hat):
     grid, system = _at_epsilon(evidence), evidence.system.with_(f10_hat=f10_hat, f20_hat=f20_hat)
     folds = evidence.special_points.query("path == 'f20_hat' and kind == 'fold'").groupby("family")["p"].min()
     parts = {
-        "an exact orbit for each of the chapter's": len(both) == len(evidence.fixed_points),
-        "that stays between the walls": both["admissible_exact"].all(),
-        "one for each over the grid of forces": grid["admissible"].all(),
+        "each fixed point of the chapter has an exact orbit": len(both) == len(evidence.fixed_points),
+        "exact orbits of the chapter's points stay between the walls": both["admissible_exact"].all(),
+        "each point of a force grid has an orbit between the walls": grid["admissible"].all(),
     }
     numbers = {
-        "largest distance in C": off.max(),
-        "points": len(evidence.fixed_points),
-        "points over the grid": len(grid),
-        "without an orbit between the walls": int((~grid["admissible"]).sum()),
+        "largest error of C": off.max(),
+        "number of fixed points of the chapter": len(evidence.fixed_points),
+        "number of fixed points over the force grid": len(grid),
+        "points of the force grid without an orbit between the walls": int((~grid["admissible"]).sum()),
         f"fixed points at forces {f10_hat}, {f20_hat}": len(fixed_points(system)),
-        "exact orbits there": sum(orbit.symmetric and orbit.admissible for orbit in orbits(system)),
-        "f20 of the fold of fixed points": folds["fixed point"],
-        "f20 of the fold of exact orbits": folds["symmetric orbit"],
+        f"exact orbits at forces {f10_hat}, {f20_hat}": sum(o.symmetric and o.admissible for o in orbits(system)),
+        "f20 where two fixed points merge": folds["fixed point"],
+        "f20 where two exact orbits merge": folds["symmetric orbit"],
     }
     return Finding(parts, numbers)
 
@@ -218,23 +212,24 @@ def assesses_stability(evidence):
     verdict of the criterion, in the same order.
     """
     grid = evidence.verdict_grid
-    parts, shares, numbers = {}, {}, {"without an orbit": int((_at_epsilon(evidence)["exact"] == NO_ORBIT).sum())}
-    for name, criterion in {"(10.26)": "printed_10_26", "fast and slow": "theory"}.items():
+    parts, shares = {}, {}
+    numbers = {"points of the force grid without an exact orbit": (_at_epsilon(evidence)["exact"] == NO_ORBIT).sum()}
+    for name, criterion in {"(10.26)": "printed_10_26", "both time scales": "theory"}.items():
         for epsilon, rows in grid.groupby("epsilon", sort=False):
             found = pd.crosstab(rows[criterion], rows["exact"])
             found = found.reindex(index=VERDICT_LABELS, columns=[*VERDICT_LABELS, NO_ORBIT], fill_value=0)
             matrix = found[VERDICT_LABELS]
-            numbers[f"{name}, epsilon = {epsilon}"] = matrix.to_numpy().tolist()
-            numbers[f"{name}, epsilon = {epsilon}, no orbit"] = found[NO_ORBIT].to_list()
+            numbers[f"verdicts of {name} against exact, epsilon = {epsilon}"] = matrix.to_numpy().tolist()
+            numbers[f"verdicts of {name} without an orbit, epsilon = {epsilon}"] = found[NO_ORBIT].to_list()
             if epsilon == evidence.system.epsilon:
                 for saying in VERDICT_LABELS:
                     right, predicted = matrix.loc[saying, saying], matrix.loc[saying].sum()
-                    parts[f"{saying} by {name} is right, mostly"] = 2 * right > predicted
-                    shares[f"{saying} by {name}, share right"] = right / predicted if predicted else None
+                    parts[f"most points {saying} by {name} are {saying}"] = 2 * right > predicted
+                    shares[f"share of right verdicts, {saying} by {name}"] = right / predicted if predicted else None
     points = evidence.fixed_points
-    numbers["of the chapter's points"] = len(points)
-    numbers["right by (10.26)"] = int((points["printed_10_26"] == points["exact"]).sum())
-    numbers["right by fast and slow"] = int((points["theory"] == points["exact"]).sum())
+    numbers["number of fixed points of the chapter"] = len(points)
+    numbers["points of the chapter judged right by (10.26)"] = int((points["printed_10_26"] == points["exact"]).sum())
+    numbers["points of the chapter judged right by both time scales"] = int((points["theory"] == points["exact"]).sum())
     return Finding(parts, shares | numbers)
 
 
@@ -251,13 +246,13 @@ def restitution_far_from_unity(evidence, kappas, forces):
     parts, numbers = {}, {}
     for kappa in kappas:
         listed = {force: _points_beside_orbits(evidence.system, kappa, force) for force in forces}
-        parts[f"kappa = {kappa}: a fixed point"] = any(points for points, _ in listed.values())
+        parts[f"kappa = {kappa}: some force gives a fixed point"] = any(points for points, _ in listed.values())
         for force, (points, together) in listed.items():
-            numbers[f"fixed points at {kappa}, forces {force}"] = len(points)
+            numbers[f"number of fixed points at kappa = {kappa}, forces {force}"] = len(points)
             if points:
                 inside = all(stays_within_walls(C, kappa) for point in points for C in point.C)
-                parts[f"kappa = {kappa}, forces {force}: as the exact orbits"] = together
-                parts[f"kappa = {kappa}, forces {force}: between the walls"] = inside
+                parts[f"kappa = {kappa}, forces {force}: points match the orbits"] = together
+                parts[f"kappa = {kappa}, forces {force}: balls stay inside"] = inside
     return Finding(parts, numbers)
 
 

@@ -27,8 +27,9 @@ def number_of_fixed_points(evidence, case, number):
     """Check the number of fixed points; interval arithmetic must prove that the list of fixed points is complete."""
     proof = evidence.proofs[case]["fixed_points"]
     listed = len(evidence.points(case))
-    parts = {f"{number} with C1, C2 >= 0": listed == number and proof["complete"]}
-    return Finding(parts, {"listed": listed, "proved, of either sign": proof["proved"], "complete": proof["complete"]})
+    parts = {f"the number of fixed points with C1, C2 >= 0 is {number}": listed == number and proof["complete"]}
+    numbers = {"number of fixed points found": listed, "fixed points proved, C1, C2 of either sign": proof["proved"]}
+    return Finding(parts, numbers | {"list proved complete": proof["complete"]})
 
 
 def phases_can_be_eliminated(evidence):
@@ -41,21 +42,22 @@ def phases_can_be_eliminated(evidence):
         complete &= evidence.proofs[case]["fixed_points"]["complete"]
         for point in fixed_points(system):
             worst = max(worst, np.abs(rates(system, point.B, point.psi, point.C)).max())
-    parts = {"all solve (10.23)": worst < 1e-12, "proved complete": complete}
-    return Finding(parts, {"largest residual of (10.23)": worst})
+    parts = {"all solutions satisfy (10.23)": worst < 1e-12, "it is proved that no solution is missing": complete}
+    return Finding(parts, {"largest residual of (10.23) at a solution": worst})
 
 
 def label_of_a_point(evidence, case, label, says):
     """Check a caption's verdict `says` on a fixed point against the theory and against the point's exact orbit."""
     row = evidence.points(case).loc[label]
     orbits = evidence.orbits.query("case == @case").set_index("label")
-    verdicts = {"theory, fast and slow": row["theory"], "its exact orbit": row["exact"]}
+    verdicts = {"both time scales": row["theory"], "its exact orbit": row["exact"]}
     parts = {
-        f"{says} by {name}": found == says if found in (STABLE, UNSTABLE) else None for name, found in verdicts.items()
+        f"the point is {says} by {name}": found == says if found in (STABLE, UNSTABLE) else None
+        for name, found in verdicts.items()
     }
-    criteria = ("printed_10_26", "fast", "slow", "theory", "exact")
-    numbers = {"largest multiplier of its exact orbit": orbits["modulus_1"].get(row["orbit"])}
-    return Finding(parts, numbers | {"C": row[NAMES].tolist(), **{name: row[name] for name in criteria}})
+    others = {"(10.26)": row["printed_10_26"], "the fast criterion": row["fast"], "the slow flow": row["slow"]}
+    numbers = {"largest multiplier of its orbit": orbits["modulus_1"].get(row["orbit"]), "C1, C2": row[NAMES].tolist()}
+    return Finding(parts, numbers | {f"verdict by {name}": found for name, found in (others | verdicts).items()})
 
 
 def stable_points(evidence, case, number):
@@ -67,26 +69,26 @@ def stable_points(evidence, case, number):
     """
     points = evidence.points(case)
     counts = {
-        "by their exact orbits": int((points["exact"] == STABLE).sum()),
-        "by the derived fast criterion": int((points["fast"] == STABLE).sum()),
-        "by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
-        "by theory, fast and slow": int((points["theory"] == STABLE).sum()),
+        "points stable by their exact orbits": int((points["exact"] == STABLE).sum()),
+        "points stable by the derived fast criterion": int((points["fast"] == STABLE).sum()),
+        "points stable by (10.26)": int((points["printed_10_26"] == STABLE).sum()),
+        "points stable by both time scales": int((points["theory"] == STABLE).sum()),
     }
     right = {
         name: sum(evidence.points(name)["fast"].get(label) == caption for label, caption in captions.items())
         for name, captions in CAPTIONS.items()
     }
-    parts = {f"{number} {name}": count == number for name, count in counts.items()}
-    parts["the captions by the fast criterion"] = right[case] == len(CAPTIONS[case])
-    numbers = {"captions right in all cases by the fast criterion": sum(right.values())}
-    return Finding(parts, counts | numbers | {"captions": sum(map(len, CAPTIONS.values()))})
+    parts = {f"the number of {name} is {number}": count == number for name, count in counts.items()}
+    parts["the fast criterion gives all captions of the case"] = right[case] == len(CAPTIONS[case])
+    numbers = {"captions of all cases that the fast criterion gives": sum(right.values())}
+    return Finding(parts, counts | numbers | {"number of captions of all cases": sum(map(len, CAPTIONS.values()))})
 
 
 def on_the_left_arm(evidence, case, label, modules):
     """Check that C_i of a fixed point is left of the fold of the manifold, for each module i in `modules`."""
     row, fold = evidence.points(case).loc[label], C_min(rho(evidence.systems[case].kappa))
-    parts = {f"P{i}": row[f"C{i}"] < fold for i in modules}
-    return Finding(parts, {"C": row[NAMES].tolist(), "C_min": fold})
+    parts = {f"P{i} is left of the fold": row[f"C{i}"] < fold for i in modules}
+    return Finding(parts, {"C1 and C2 of the point": row[NAMES].tolist(), "C_min at the fold": fold})
 
 
 def points_move_left(evidence, before, after):
@@ -96,10 +98,10 @@ def points_move_left(evidence, before, after):
     points of both cases are paired so that this number is as large as possible.
     """
     first, last = (evidence.points(case)[NAMES] for case in (before, after))
-    parts = {f"P{i} of {x}": last.loc[x, f"C{i}"] < first.loc[x, f"C{i}"] for x in first.index for i in (1, 2)}
+    parts = {f"P{i} of {x} moves left": last.at[x, f"C{i}"] < first.at[x, f"C{i}"] for x in first.index for i in (1, 2)}
     pairings = [int((last.loc[list(order)].to_numpy() < first.to_numpy()).sum()) for order in permutations(last.index)]
-    moved = {"moves to the left": sum(parts.values()), "of": len(parts)}
-    return Finding(parts, moved | {"in the pairing with most": max(pairings)})
+    moved = {"projections that move left": sum(parts.values()), "number of projections": len(parts)}
+    return Finding(parts, moved | {"largest number that moves left in any pairing of points": max(pairings)})
 
 
 def stable_point_moves_down_the_right_arm(evidence, before, after, label):
@@ -110,14 +112,14 @@ def stable_point_moves_down_the_right_arm(evidence, before, after, label):
     """
     fold, r = C_min(rho(evidence.system.kappa)), rho(evidence.system.kappa)
     first, named = (evidence.points(case).loc[label, NAMES].to_numpy(float) for case in (before, after))
-    ends = {"by its letter": named, "by continuation": _followed(evidence, before, after, first)}
+    ends = {"the point with the same letter": named, "its continuation": _followed(evidence, before, after, first)}
     parts = {
-        f"P{i + 1}, {pairing}": fold < C[i] < first[i] and B_of_C(C, r)[i] < B_of_C(first, r)[i]
-        for pairing, C in ends.items()
+        f"P{i + 1} moves down the right arm to {end}": fold < C[i] < first[i] and B_of_C(C, r)[i] < B_of_C(first, r)[i]
+        for end, C in ends.items()
         for i in (0, 1)
     }
-    moved = {f"C after, {pairing}": C for pairing, C in ends.items()}
-    return Finding(parts, {"C before": first} | moved | {"C_min": fold})
+    moved = {f"C1 and C2 of {end}": C for end, C in ends.items()}
+    return Finding(parts, {"C1 and C2 of the point before the move": first} | moved | {"C_min at the fold": fold})
 
 
 def _followed(evidence, before, after, C):
@@ -155,13 +157,14 @@ def singular_and_bifurcating(evidence, case, f20_range):
     merging = min(fixed_points(at_fold), key=lambda p: np.abs(p.C - fold[NAMES].to_numpy(float)).max())
     distance = _nearest_singular(at_fold, merging)
     parts = {
-        "a fixed point becomes singular": _nearest_singular(here, point) < 1e-6,
-        "their number changes there": len(set(counts)) > 1,
-        "an eigenvalue vanishes there": rate < 1e-3,
-        "a point is singular where two merge": distance < 1e-2,
+        "a fixed point becomes singular where P1 = S1": _nearest_singular(here, point) < 1e-6,
+        "the number of fixed points changes where P1 = S1": len(set(counts)) > 1,
+        "an eigenvalue of the slow flow vanishes where P1 = S1": rate < 1e-3,
+        "a fixed point is singular where two fixed points merge": distance < 1e-2,
     }
-    numbers = {"f20 of P1 = S1": meeting, "number of points there": counts[1], "smallest |eigenvalue|": rate}
-    return Finding(parts, numbers | {"f20 of the fold": fold["p"], "nearest S at the fold": distance})
+    numbers = {"f20 where P1 = S1": meeting, "number of fixed points where P1 = S1": counts[1]}
+    numbers |= {"smallest |eigenvalue| where P1 = S1": rate, "f20 where two fixed points merge": fold["p"]}
+    return Finding(parts, numbers | {"distance from S where two fixed points merge": distance})
 
 
 def _nearest_singular(system, point):
@@ -182,7 +185,7 @@ def places_of_singular_points(evidence, case, label):
     other = np.array([_other_determinant(system, [c, point.C[1]]) for c in C])
     second = C[:-1][np.diff(np.sign(other)) != 0]
     same = len(first) == len(second) and np.allclose(first, second, atol=2e-3)
-    numbers = {"S1 by sin^2 + cos^2 = 1": first.tolist(), "S1 by the product of both": second.tolist()}
+    numbers = {"C1 of S1 from sin^2 + cos^2 = 1": first, "C1 of S1 from the product of both equations": second}
     return Finding({"the squares are where (10.24) is singular": True if same else None}, numbers)
 
 
