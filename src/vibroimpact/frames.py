@@ -22,13 +22,13 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     Parameters
     ----------
     result : object
-        A run (its events become the rows), an ensemble, basins, or a list of fixed points, orbits, branches or dicts.
+        A run, an ensemble, basins, or a list of fixed points, orbits, branches or dicts.
 
     Returns
     -------
     pandas.DataFrame
-        One row per event, run, initial state, point, orbit or dict. An empty list from a function of this package gives
-        a table without rows that has the usual columns.
+        One row per event of a run, run of an ensemble, initial state, point, orbit or dict. An empty list from this
+        package gives the usual columns without rows.
 
     Raises
     ------
@@ -55,28 +55,25 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     kind = type(result).__name__
     raise ValueError(
         f"result: unsupported type {kind}; expected a run, an ensemble, basins, "
-        "or a list of fixed points, orbits, branches or rows"
+        "or a list of fixed points, orbits, branches or dicts"
     )
 
 
 def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dataset":
     """Return a sweep as an xarray Dataset.
 
-    The parameters that vary are the dimensions; each other column is a variable. All numbers are dimensionless, and
-    their attribute `units` is "1".
-
     Parameters
     ----------
     rows : list of dict or pandas.DataFrame
-        Rows of `vibroimpact.sweep`, or a data frame of them (`results/sweeps/NAME.csv`).
+        Rows of `vibroimpact.sweep`, or the table `results/sweeps/NAME.csv`.
     along : sequence of str or tuple of str
-        Parameters that vary, in the order of the dimensions. Parameters that vary together form a tuple; their
-        dimension has the name of the first one.
+        Parameters that vary, one per dimension. Parameters that vary together form a tuple.
 
     Returns
     -------
     xarray.Dataset
-        The dataset; `.to_netcdf(path, engine="scipy")` saves it.
+        A tuple gives one dimension, with the name of its first parameter. Each other column is a variable. All numbers
+        are dimensionless; their attribute `units` is "1". `.to_netcdf(path, engine="scipy")` saves the dataset.
 
     Raises
     ------
@@ -118,10 +115,7 @@ def of_run(run):
 
 
 def plot(system, times, samples):
-    """Return a Matplotlib Figure of the states `samples` (n, 8) at `times` (n,).
-
-    The figure shows X_i of the box and W_i = X_i - Y_i of the ball, for both modules.
-    """
+    """Return a Matplotlib Figure of X_i and W_i = X_i - Y_i, from the states `samples` (n, 8) at `times` (n,)."""
     need("figures", "matplotlib")
     from matplotlib.figure import Figure
 
@@ -145,8 +139,7 @@ def _rows(one, number):
 def _columns(table):
     """Return the columns of a structured array (n,), keyed by name.
 
-    A field of 8 numbers becomes 8 columns with the names of the components of a state. Any other field of several
-    numbers becomes columns that are numbered from 1.
+    A field of 8 numbers gives one column per component of a state.
     """
     columns = {}
     for name in table.dtype.names:

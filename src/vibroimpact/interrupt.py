@@ -11,7 +11,7 @@ from contextlib import contextmanager
 def without_traceback() -> Iterator[None]:
     """End the process on Ctrl-C with a line of text instead of a traceback.
 
-    The signal itself ends the process. Therefore a shell also stops the loop or script that contains the command.
+    The signal ends the process, so that a calling script also stops.
     """
     try:
         yield
