@@ -1,19 +1,18 @@
-"""Laws of compliant contact, which give the force on a ball at depth p beyond a wall.
+"""Laws of compliant contact: the force K p^n + D p^m p' on a ball at depth p beyond a wall.
 
-In a law without walls the force acts at every position of the ball in its box, and p = |W|.
+In a law without walls, the force acts everywhere in the box, and p = |W|.
 
-All laws have the form K p^n + D p^m p'. In the phase plane of p and V = p', with the mass mu = epsilon / (1 + epsilon)
-of the relative motion, V dV/dp = -(K p^n + D p^m V) / mu.
+The motion of the ball relative to its box has the mass mu = epsilon / (1 + epsilon). With the speed V = p', it follows
+V dV/dp = -(K p^n + D p^m V) / mu.
 
 If m = (n - 1) / 2, the substitution u = p^((n + 1) / 2) gives V dV/du = -2 (K u + D V) / ((n + 1) mu). This is a linear
-oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact lasts half a period of this oscillator.
-Therefore the restitution coefficient is exp(-pi zeta / sqrt(1 - zeta^2)) at every speed (Antypov and Elliott 2011, for
-n = 3/2).
+oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact is half an oscillation. Therefore the
+restitution coefficient is exp(-pi zeta / sqrt(1 - zeta^2)) at every speed (Antypov and Elliott 2011, for n = 3/2).
 
-If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. A contact begins with speed V at p = 0 and
-ends with speed -kappa V at p = 0, so that the integral of the right-hand side is zero. The left-hand side then gives
-(1 + kappa) d = log((1 + d) / (1 - kappa d)), d = D V / K. So D must be proportional to 1 / V. One D gives kappa at one
-speed only; therefore D is set at each impact (as by Lankarani and Nikravesh, 1990).
+If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. A contact begins at p = 0 with speed V and
+ends at p = 0 with speed -kappa V. So the right-hand side integrates to zero. The left-hand side then gives
+(1 + kappa) d = log((1 + d) / (1 - kappa d)), d = D V / K. So D must be proportional to 1 / V. Therefore D is set at
+each impact (as by Lankarani and Nikravesh, 1990).
 """
 
 import math
@@ -29,8 +28,7 @@ NEARLY_ELASTIC = 1e-5
 class Law:
     """Contact force K p^n + D p^m p'.
 
-    stiffness: exponent n. damping: exponent m. walls: True if p is the depth beyond a wall; False if the force acts at
-    every position of the ball in its box, with p = |W|.
+    stiffness: exponent n. damping: exponent m. walls: True if p is the depth beyond a wall, False if p = |W|.
     """
 
     stiffness: float
@@ -44,10 +42,7 @@ HUNT_CROSSLEY = Law(1.5, 1.5)
 
 
 def power_law(order: int) -> Law:
-    """Return the law with stiffness term W^(2n - 1) and damping term |W|^(n - 1) W' (Pilipchuk 2010), n = `order`.
-
-    As n grows, the law tends to walls at W = +1 and -1.
-    """
+    """Return the law without walls that has n = 2 `order` - 1 and m = `order` - 1 (Pilipchuk 2010)."""
     return Law(2.0 * order - 1.0, order - 1.0, walls=False)
 
 
@@ -60,13 +55,9 @@ def stiffness_of(law: Law, mass: float, duration: float) -> float:
 
 
 def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float) -> float:
-    """Return the stiffness K of a law without walls for which a ball with speed 1 at W = 0 turns at W = 1.
-
-    For a ball with speed V at W = 0, the stiffness must be K V^2.
-    """
+    """Return the stiffness K for which a ball with speed 1 at W = 0 turns at W = 1, without walls."""
     zeta = damping_ratio(kappa)
-    # `deepest` is the largest u = |W|^((n + 1) / 2) of a ball with speed 1 at W = 0, multiplied by the frequency
-    # sqrt(2 K / ((n + 1) mu)) of the undamped oscillator.
+    # The ball turns at u = `deepest` / sqrt(2 K / ((n + 1) mu)). This must be u = 1, where W = 1.
     deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))
     return 0.5 * (law.stiffness + 1.0) * mass * deepest**2
 
@@ -85,14 +76,11 @@ def damping_ratio(kappa: float) -> float:
 
 
 def hunt_crossley_number(kappa: float) -> float:
-    """Return d = D V / K of an impact at speed V, 0 < d < 1 / kappa.
-
-    d solves (1 + kappa) d = log((1 + d) / (1 - kappa d)).
-    """
+    """Return d = D V / K, the solution in (0, 1 / kappa) of (1 + kappa) d = log((1 + d) / (1 - kappa d))."""
     if 1.0 - kappa < NEARLY_ELASTIC:
         return 1.5 * (1.0 - kappa)
 
-    # The unknown is x = -log(1 - kappa d) instead of d, since rounding turns d into 1 / kappa for small kappa.
+    # The unknown is x = -log(1 - kappa d), since d rounds to 1 / kappa for small kappa.
     def number(x):
         return -math.expm1(-x) / kappa
 

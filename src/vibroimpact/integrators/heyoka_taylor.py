@@ -1,11 +1,10 @@
-"""Integrate with heyoka's adaptive Taylor method; the callbacks of events at the walls apply the impact law.
+"""Integrate with heyoka's adaptive Taylor method; callbacks of wall events apply the impact law.
 
-This is the fastest way found to use heyoka here. Sine and cosine of the forcing phase are two further states, so that
-the recursion contains no transcendental functions. There is one directed event per wall, and heyoka's compact mode is
-off. One integrator is compiled for each combination of contact state and tolerance; all other parameters are set at run
-time. After an event heyoka ignores the same event during a cooldown, in which a short flight could end undetected. So a
-ball whose rebound is slower than sqrt(tolerance) or SLOWEST, whichever is larger, sticks if the box presses it against
-the wall.
+Sine and cosine of the forcing phase are two further states, so that the Taylor recursion contains no transcendental
+functions. No faster use of heyoka was found.
+
+After an event, heyoka ignores the same event during a cooldown. A short flight could end undetected in this time. So a
+ball sticks if its rebound is slower than max(sqrt(tolerance), SLOWEST) and the box presses it against the wall.
 """
 
 from functools import lru_cache
@@ -53,11 +52,7 @@ class HeyokaTaylor(Method):
 
 
 def _right_hand_side(stuck):
-    """Return the state variables, the accelerations of the boxes, and the equations as pairs (variable, derivative).
-
-    The equations include those of the sine and cosine of the forcing phase. The parameters of all equations are the
-    entries of `coefficients`.
-    """
+    """Return the state variables, the accelerations of the boxes, and the equations as pairs (variable, derivative)."""
     s, (sine, cosine) = heyoka.make_vars(*STATE), heyoka.make_vars("sine", "cosine")
     q = {name: heyoka.par[k] for k, name in enumerate(NAMES)}
     force = [
@@ -86,8 +81,7 @@ class _Integrator:
     def propagate(self, contacts, tau, state, end, limit):
         """Integrate to `end` or to an event that stops the flight; return (tau, state, steps, module, failure).
 
-        module: index (0 or 1) of the module whose event stopped the flight, or None. failure: heyoka's outcome if
-        heyoka failed, or None. limit: largest number of steps.
+        module: index of the module that stopped the flight, or None. failure: heyoka's outcome if it failed, or None.
         """
         taylor, system = self._taylor, contacts.system
         taylor.pars[:] = coefficients(system)[: len(taylor.pars)]  # only the parameters that the equations use
@@ -117,10 +111,9 @@ class _Integrator:
         return False
 
     def _impact(self, i, wall):
-        """Return the callback that applies the impact law to the state in place.
+        """Return the callback that applies the impact law.
 
-        If any ball is stuck, or if ball i is so slow that it may stick, the callback only stops the flight, and
-        `Contacts` then updates the state.
+        If a ball is stuck or ball i may stick, the callback stops the flight instead.
         """
         s_box, s_ball = 4 + BOXES[i], 4 + BALLS[i]
 

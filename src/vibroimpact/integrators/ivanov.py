@@ -1,21 +1,22 @@
 """Ivanov's transformation, extended to two walls: coordinates in which impacts are continuous.
 
-The box is unfolded (Zhuravlev 1976) into a row of cells n = 0, +-1, +-2, ... on a line s: W = T(s), where T is a
-triangular wave of slope +1 or -1 with walls at odd s. On this line the ball passes through the walls. The coordinate v
-replaces the velocity of the ball: W' = T'(s) R v, where the factor R jumps at the walls (Ivanov 1994),
+The box is unfolded (Zhuravlev 1976) into cells n = 0, +-1, +-2, ... on a line s. On this line the ball passes through
+the walls, which are at odd s. The relative displacement is W = T(s), where T is a triangular wave of slope +1 or -1. A
+coordinate v replaces the velocity of the ball: W' = T'(s) R v. The factor R jumps at the walls (Ivanov 1994),
 
-    R = 1 + k sgn(v) p,   k = (1 - kappa) / (1 + kappa),   p = s - 2n in [-1, 1] in cell n,   T = (-1)^n p,
+    R = 1 + k sgn(v) p,   k = (1 - kappa) / (1 + kappa),   p = s - 2n in [-1, 1] in cell n,   T = (-1)^n p.
 
-so that R falls from 1 + k to 1 - k when the ball passes through a wall. The ratio (1 - k) / (1 + k) is kappa, so that
-v is continuous. With the acceleration a of W in flight,
+R falls from 1 + k to 1 - k when the ball passes through a wall. Since (1 - k) / (1 + k) = kappa, v is continuous. With
+the acceleration a of W in flight,
 
     s' = R v,   v' = (-1)^n a / R - k v |v|.
 
-An impact also changes the velocity of the box, but not the velocity of the centre of mass (X + epsilon Y) / (1 +
-epsilon) of box and ball. The centre of mass, with acceleration a / (1 + epsilon), is the other coordinate of a module.
-All eight coordinates are continuous; the right-hand side jumps at walls and where v changes its sign. A step of length
-h across a jump has an error of the order of h for any integrator (here the classical Runge-Kutta method), unless the
-jump is located. Without location the method is of first order. A ball cannot rest on a wall: it continues to impact.
+The other coordinate of a module is the centre of mass (X + epsilon Y) / (1 + epsilon) of box and ball. An impact does
+not change its velocity; its acceleration is a / (1 + epsilon).
+
+All eight coordinates are continuous. Their derivatives jump at walls and where v changes its sign. A step of length h
+across a jump has an error of order h in any integrator; the classical Runge-Kutta method is used here. So the method is
+of first order unless the jumps are located. A ball cannot rest on a wall; it continues to impact.
 """
 
 import math
@@ -35,10 +36,7 @@ HALVINGS = 50  # number of bisections of a step that locate a jump
 class Ivanov(Method):
     """Fixed-step integration in Ivanov's coordinates; the setting is the number of steps per cycle.
 
-    Parameters
-    ----------
-    located : bool
-        True if steps end where the right-hand side jumps.
+    located: True if steps end where the right-hand side jumps.
     """
 
     family, knob, limit = "transformed coordinates", "steps per cycle", 30_000_000
@@ -60,9 +58,9 @@ class Ivanov(Method):
 
 
 def unfolded(state, epsilon: float, k: float) -> np.ndarray:
-    """Return the unfolded coordinates of a state (8,), with both balls in cell n = 0.
+    """Return the unfolded coordinates (8,) of a state (8,), with both balls in cell n = 0.
 
-    The coordinates, shape (8,), are s, v, centre of mass and its velocity, for module 1 and then for module 2.
+    The four coordinates of a module are s, v, the centre of mass and its velocity.
     """
     x, y = state[BOXES], state[BALLS]
     W, W_rate = x[:2] - y[:2], x[2:] - y[2:]
@@ -71,7 +69,7 @@ def unfolded(state, epsilon: float, k: float) -> np.ndarray:
 
 
 def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
-    """Return the state (8,) for unfolded coordinates (8,), given the cell n of each ball (`boxes`)."""
+    """Return the state (8,) for unfolded coordinates z (8,); `boxes` (2,) contains the cell n of each ball."""
     s, v, centre, rate = z.reshape(2, 4).T
     p, sign = s - 2.0 * boxes, 1.0 - 2.0 * (boxes % 2)
     W, W_rate = sign * p, sign * (1.0 + k * np.sign(v) * p) * v
@@ -85,7 +83,7 @@ def folded(z, boxes, epsilon: float, k: float) -> np.ndarray:
 def _rates(tau, z, q, k, boxes, signs, d):
     """Write the derivative of the unfolded coordinates into d, for given cells (`boxes`) and signs of v (`signs`).
 
-    The formula is smooth even where the actual cells and signs at z differ from the given ones.
+    The given cells and signs may differ from those at z.
     """
     share, s = q[9] / (1.0 + q[9]), np.empty(8)
     for i in range(2):
@@ -103,7 +101,7 @@ def _rates(tau, z, q, k, boxes, signs, d):
 def _step(tau, z, h, q, k, boxes, signs, locate):
     """Return the coordinates after a step of length h.
 
-    If `locate` is True, each stage uses the cells and signs of v at its own position instead of `boxes` and `signs`.
+    locate: True if each stage uses the cells and signs of v at its own position.
     """
     rates, ahead, at = np.empty(8), z.copy(), z.copy()
     for stage in range(4):
@@ -118,9 +116,9 @@ def _step(tau, z, h, q, k, boxes, signs, locate):
 
 @disk_cached()
 def _locate(z, boxes, signs):
-    """Write the cell n of each ball into `boxes`, and the sign of each v into `signs`.
+    """Write the cell of each ball into `boxes`, and the sign of each v into `signs`.
 
-    A ball on a wall belongs to the cell that it enters.
+    A ball on a wall is in the cell that it enters.
     """
     for i in range(2):
         signs[i] = 1.0 if z[4 * i + 1] >= 0.0 else -1.0
@@ -136,10 +134,9 @@ def _impact(tau, i, box, direction, speed, k):
 
 @disk_cached()
 def _march_across_jumps(q, k, z, tau0, h, count):
-    """Take `count` steps across jumps, without locating them.
+    """Take `count` steps without locating jumps.
 
-    Return coordinates and cells at the end, impacts, number of steps, and NaN. `_march_to_jumps` returns the time of an
-    endless chatter instead of NaN; `_march_across_jumps` does not detect chatter.
+    Return coordinates, cells, impacts, number of steps, and NaN (an endless chatter is not detected).
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, signs = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
@@ -158,10 +155,9 @@ def _march_across_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _march_to_jumps(q, k, z, tau0, h, count):
-    """Take `count` steps, each of which is divided at the jumps within it.
+    """Take `count` steps, each divided at its jumps.
 
-    Return coordinates and cells at the end, impacts, number of steps, and the time of an endless chatter (NaN if there
-    is none).
+    Return coordinates, cells, impacts, number of steps, and the time of an endless chatter or NaN.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     boxes, signs, idle, steps = np.zeros(2, np.int64), np.ones(2), 0, 0
@@ -190,10 +186,7 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, signs):
-    """Find by bisection the shortest fraction of a step, at most `part`, after which the coordinates are beyond a jump.
-
-    Return this fraction and the coordinates at its end.
-    """
+    """Return the fraction of a step up to its first jump of the right-hand side, and the coordinates just after it."""
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, signs, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)
@@ -207,10 +200,7 @@ def _first_jump(tau, z, part, h, q, k, boxes, signs):
 
 @disk_cached()
 def _beyond(z, boxes, signs):
-    """Return True if the coordinates are beyond a jump of the right-hand side, or are not finite.
-
-    Coordinates that are not finite result from a step so long that R vanishes.
-    """
+    """Return True if a ball has passed a wall, if a v has changed its sign, or if a coordinate is not finite."""
     within = True
     for i in range(2):
         to_wall, speed = _ahead_of(z, i, boxes, signs)
@@ -222,7 +212,7 @@ def _beyond(z, boxes, signs):
 def _ahead_of(z, i, boxes, signs):
     """Return the distance of ball i to the wall ahead, and v, positive towards this wall.
 
-    Beyond a jump, the returned distance or the returned v is negative.
+    After a jump, one of them is negative.
     """
     return 1.0 - signs[i] * (z[4 * i] - 2.0 * boxes[i]), signs[i] * z[4 * i + 1]
 

@@ -1,7 +1,6 @@
 """Compute flights exactly, as sums of modes of the boxes; find impacts from samples of 1 - |W| by Newton's method.
 
-In flight this method is as exact as the engine. Unlike the engine, it does not prove that no event occurs between two
-samples. The code is compiled.
+It is not proved that no event occurs between two samples.
 """
 
 import math
@@ -54,11 +53,11 @@ class Modal(Method):
 def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
     """Return tables of the modes in the four contact states, and the largest condition number of the eigenvectors.
 
-    The first axis of each table is the contact state. Axes of length 2 hold real and imaginary parts. The tables are:
+    The first axis is the contact state. Axes of length 2 hold real and imaginary parts. The tables are:
 
     - the number of modes, (4,); the last mode is the forced response,
     - the rates (eigenvalues) of the modes, (4, 2, 5),
-    - the mode shapes in [X1, X2, X1', X2'], (4, 2, 4, 5); one mode of doubled shape represents a conjugate pair,
+    - the mode shapes in [X1, X2, X1', X2'], (4, 2, 4, 5); a conjugate pair is one mode, with twice its eigenvector,
     - the matrix from the free motion of the boxes to the amplitudes of the free modes, (4, 2, 4, 4).
     """
     counts, worst = np.zeros(4, np.intp), 0.0
@@ -80,7 +79,7 @@ def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
 
 @inlined()
 def _turn(rates, count, t, turns):
-    """Write the factors by which mode amplitudes change over a time t into `turns` (2, 5): real and imaginary parts."""
+    """Write exp(rate t) of each mode into `turns` (2, 5): real and imaginary parts."""
     for k in range(count):
         size, angle = math.exp(rates[0, k] * t) if rates[0, k] != 0.0 else 1.0, rates[1, k] * t
         turns[0, k], turns[1, k] = size * math.cos(angle), size * math.sin(angle)
@@ -111,10 +110,7 @@ def _amplitudes(s, tau, omega, count, inverse, shape, amplitudes):
 
 @inlined()
 def _state(s, walls, count, shape, amplitudes, t, there):
-    """Write the state (8,) at a time t after the start of a flight into `there`; s is the state at the start.
-
-    `amplitudes` are those of the modes at the time t after the start.
-    """
+    """Write the state (8,) at a time t after the start of a flight into `there`, given the mode amplitudes at t."""
     for j in range(4):
         total = 0.0
         for k in range(count):
@@ -128,11 +124,7 @@ def _state(s, walls, count, shape, amplitudes, t, there):
 
 @inlined()
 def _guess(before, there, i, low, high):
-    """Return the time between `low` and `high` at which ball i reaches a wall, estimated with a cubic.
-
-    The cubic has the values and slopes of the distance to the wall at `low` (state `before`) and at `high` (state
-    `there`). Newton's method finds the zero of the cubic; it starts at the zero of the tangent at `high`.
-    """
+    """Return an estimate of the time between `low` and `high` at which ball i reaches a wall, by a cubic fit."""
     x = 2 * i
     wall = 1.0 if there[x] - there[x + 1] > 0.0 else -1.0
     h = high - low
@@ -149,9 +141,9 @@ def _guess(before, there, i, low, high):
 
 @disk_cached(error_model="numpy", fastmath={"contract"})
 def _march(q, tables, s, tau, end, step, limit):
-    """Integrate to `end` with at most `limit` samples; return the last state, rows of impacts, sample count and time.
+    """Integrate to `end` with at most `limit` samples.
 
-    A row is [time, module, wall, speed].
+    Return the last state, the impacts as rows [time, module, wall, speed], the number of samples, and the time reached.
     """
     counts, all_rates, all_shapes, inverses = tables
     walls, ahead, amplitudes = np.zeros(2), np.empty((4, 2, 5)), np.empty((2, 5))
@@ -175,10 +167,9 @@ def _march(q, tables, s, tau, end, step, limit):
 
 @inlined_source()
 def _fly(q, flight, tau, length, stride, most, memory):
-    """Sample a flight until an event occurs, the time `length` has passed or `most` samples are taken.
+    """Sample a flight until an event, the time `length`, or `most` samples; write the last state to memory[2].
 
-    Return (module of the event or -1, time, number of samples). The state at this time is written to memory[2].
-    stride: time between samples, and the factors by which amplitudes change over this time.
+    Return (module of the event or -1, time, number of samples).
     """
     (s, walls, count, shape, rates, amplitudes), (step, ahead), (modes, states, reached) = flight, stride, memory
     (now, trial, turns), (before, there, event) = modes, states
@@ -213,8 +204,7 @@ def _fly(q, flight, tau, length, stride, most, memory):
 def _event(q, flight, tau, i, times, states, memory, event):
     """Return the time between two samples at which the function `guard` of module i falls through zero.
 
-    The state at that time is written to `event`. For a flying ball, Newton's method is used, starting at the time of
-    `_guess`; a step that leaves the interval is replaced by a bisection. For a sticking ball, only bisection is used.
+    `event` receives the state at this time.
     """
     (s, walls, count, shape, rates, amplitudes), (turns, trial) = flight, memory
     (low, high), (before, there) = times, states

@@ -10,7 +10,7 @@ from vibroimpact.integrators.right_hand_side import coefficients
 
 
 class MoreauJean(Method):
-    """Trapezoidal rule in which the restitution law relates the velocities before and after a step with a contact.
+    """Trapezoidal rule; the restitution law relates the velocities before and after a step with a contact.
 
     The setting is the number of steps per cycle.
     """
@@ -30,9 +30,9 @@ class MoreauJean(Method):
 
 @disk_cached()
 def _march(q, s, tau0, h, steps):
-    """Take a given number of steps of length h; return the last state, and one row per contact.
+    """Take `steps` steps of length h; return the last state and the contacts.
 
-    A row is [time, module, wall, speed]; it describes the first step of the contact.
+    A contact is a row [time, module, wall, speed] from its first step.
     """
     k11, k12, k22, c11, c12, c22, f1, f2, omega, epsilon, kappa = q
     g = 0.5 * h
@@ -67,16 +67,16 @@ def _march(q, s, tau0, h, steps):
 
 @disk_cached()
 def _closed(gap, speed, g):
-    """Return the wall (+1 or -1) that a ball reaches at constant speed in the time g (half a step), or 0 if none."""
+    """Return the wall (+1 or -1) that a ball at W = `gap` reaches in the time g at constant speed, or 0."""
     ahead = gap + g * speed
     return 1 if ahead >= 1.0 else (-1 if ahead <= -1.0 else 0)
 
 
 @disk_cached()
 def _impulses(q1, q2, d11, d12, d22):
-    """Solve P >= 0, D P - q >= 0, P (D P - q) = 0 for the impulses P on the two balls.
+    """Return the impulses P on the two balls: P >= 0, D P - q >= 0, P (D P - q) = 0.
 
-    D is positive definite, and q is -inf for a ball without contact.
+    D is positive definite; q is -inf for a ball without contact.
     """
     if q1 <= 0.0 and q2 <= 0.0:
         return 0.0, 0.0

@@ -1,8 +1,7 @@
-"""Integrate with compliant walls of springs and dampers (contact_laws); contact forces are part of the equations.
+"""Integrate with compliant walls (contact_laws), by the method of Dormand and Prince (1980).
 
-The method of Dormand and Prince (1980) is used. This method is explicit: an implicit method could not take longer
-steps, since its steps must also resolve the oscillation of a contact. The code is compiled, since a general solver
-would spend most of its time outside the evaluation of the force.
+The method is explicit. An implicit method could not take longer steps, since its steps must also resolve the
+oscillation of a contact.
 """
 
 import math
@@ -35,9 +34,9 @@ _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 
 
 class Penalty(Method):
-    """Integration with compliant walls, all of which have the same contact law.
+    """Integration with compliant walls; the setting is the duration of a contact [forcing periods].
 
-    The setting is the duration of an undamped contact at speed 1 [forcing periods].
+    The duration is that of an undamped contact at speed 1.
     """
 
     family, knob, order = "compliant contact", "contact duration", 1
@@ -66,10 +65,7 @@ class Penalty(Method):
 
 
 class PowerLaw(Penalty):
-    """Integration with a spring force K W^(2n - 1) instead of walls; the setting is n.
-
-    A ball with speed 1 at W = 0 turns at W = 1.
-    """
+    """Integration with a spring force K W^(2n - 1) instead of walls; the setting is n."""
 
     knob = "exponent"
     settings = (10, 30, 100, 300, 1_000, 3_000, 10_000)
@@ -86,10 +82,9 @@ class PowerLaw(Penalty):
 
 
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
-    """Return the numbers of a contact law K p^n + D p^m p' as an array, shape (7,).
+    """Return [n, m, K, D, power, start, contact] of a contact law K p^n + D p^m p', shape (7,).
 
-    The numbers are n, m, K, D for a contact at speed 1, the power of 1 / speed in D, |W| at p = 0, and the |W| at
-    which a contact begins.
+    D is for speed V = 1; it is proportional to V**-power. p is 0 at |W| = start. A contact begins at |W| = contact.
     """
     # If D is proportional to (1 / V)**power, kappa is the same at every speed V.
     power = (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
@@ -107,10 +102,7 @@ METHODS = [
 
 @disk_cached()
 def force(gap, speed, law, damping):
-    """Return the contact force on a ball, given its W (`gap`) and W' (`speed`) and the damping D of the contact.
-
-    The force on the box has the opposite sign.
-    """
+    """Return the contact force on a ball, given W (`gap`), W' (`speed`) and the damping D of the contact."""
     depth = abs(gap) - law[5]
     if depth <= 0.0:
         return 0.0
@@ -120,9 +112,9 @@ def force(gap, speed, law, damping):
 
 @disk_cached()
 def _rates(tau, s, contact, d):
-    """Write the derivative of the state into d.
+    """Write the derivative of the state s into d.
 
-    `contact` is (coefficients of the system, numbers of the law, D of both contacts).
+    contact: results of `coefficients` and `law_numbers`, and the damping D of each ball's contact.
     """
     q, law, dampings = contact
     a = accelerations(math.sin(q[8] * tau), s, q, (0.0, 0.0))
@@ -166,9 +158,9 @@ def _reach(s, i, law):
 
 @disk_cached()
 def _march(q, law, stages, s, tau, end, limit):
-    """Integrate to `end` in at most `limit` steps; return the last state, rows of impacts, number of steps and time.
+    """Integrate to `end` in at most `limit` steps.
 
-    A row is [tau, module, wall, speed].
+    Return the last state, the impacts as rows [tau, module, wall, speed], the number of steps, and the time reached.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     touching, dampings = np.zeros(2, np.bool_), np.full(2, law[3])
@@ -197,10 +189,7 @@ def _march(q, law, stages, s, tau, end, limit):
 
 @disk_cached()
 def _until_contact(stages, tau, s, h, ahead, contact, touching):
-    """End a step just after the first contact within the step begins; return the length and the state at the end.
-
-    A step in which no contact begins is not changed.
-    """
+    """Shorten a step to end just after its first contact begins; return its length and the state at its end."""
     least = 0.0
     for _ in range(HALVINGS):
         if not _begins(ahead, contact[1], touching) or least == h:

@@ -19,13 +19,12 @@ in an endless chatter."""
 class MethodRun:
     """Result of a run of one method.
 
-    final: (8,) state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure. noted: impacts (tau,
-    module, wall, speed) in order of time, or a function that returns them. steps: number of integration steps.
-    evaluations: number of evaluations of the right-hand side if the method counts them, else 0. outcome: FINISHED,
-    REFUSED or UNFINISHED. reason: why the run has no result, or "". doubt(): text on what the method itself reports as
-    undecided, or "".
+    final: state (8,) at the end, or None after a failure. noted: impacts (tau, module, wall, speed) in order of time,
+    or a function that returns them. evaluations: evaluations of the right-hand side, 0 if they are not counted.
+    outcome: FINISHED, REFUSED or UNFINISHED. reason: why the run has no result, or "". doubt: function that returns
+    what the method reports as undecided, or "".
 
-    `impacts` and doubt() are evaluated after the run, so that the measured run time does not include them.
+    The measured run time does not include the evaluation of `impacts` and `doubt`.
     """
 
     final: np.ndarray | None
@@ -46,12 +45,12 @@ class MethodRun:
 class Method(ABC):
     """An integrator of (10.2).
 
-    To add an integrator, write a file with a subclass and list an instance of the subclass in `integrators.METHODS`.
+    To add an integrator, write a subclass and list an instance of it in `integrators.METHODS`.
 
-    name, family: texts for tables and legends. knob: what a setting is, such as "steps per cycle". settings: values
-    from coarse to fine. careful: the setting that a careful user would choose for difficult motions. order: expected
-    order of convergence in `scale`, or None. limit: largest number of steps of a run, which take roughly half a
-    minute. compiles_settings: True if each setting has its own code, compiled on its first run.
+    name, family: texts for tables and legends. knob: meaning of the setting. settings: values from coarse to fine.
+    careful: setting of a careful user for difficult motions. order: expected order of convergence in `scale`, or None.
+    limit: largest number of steps of a run, roughly half a minute. compiles_settings: True if each setting has its own
+    compiled code.
     """
 
     name: str
@@ -71,7 +70,7 @@ class Method(ABC):
     def run(self, system, state, cycles: int, tau0: float, setting) -> MethodRun:
         """Integrate from a state (8,) at tau0 over `cycles` forcing periods in at most `limit` steps.
 
-        setting: one of `settings`. A run that cannot continue returns the result of `failed`.
+        A run that cannot continue returns the result of `failed`.
         """
 
     def scale(self, setting, run: MethodRun) -> float:

@@ -32,7 +32,7 @@ def coefficients(system) -> np.ndarray:
 def accelerations(sine, s, q, walls):
     """Return X1'' and X2'' in the state s (8,), given the sine of the forcing phase.
 
-    walls: for each ball, the wall that it sticks to, or 0. A sticking ball and its box move as one mass 1 + epsilon.
+    walls: for each ball, the wall that it sticks to, or 0.
     """
     a1 = q[6] * sine - q[0] * s[0] - q[1] * s[2] - q[3] * s[4] - q[4] * s[6]
     a2 = q[7] * sine - q[1] * s[0] - q[2] * s[2] - q[4] * s[4] - q[5] * s[6]
@@ -58,9 +58,9 @@ def rates(tau, s, q, walls):
 
 
 def jacobian(system, stuck) -> np.ndarray:
-    """Return the derivative of `rates` with respect to the state, shape (8, 8).
+    """Return the derivative (8, 8) of `rates` with respect to the state.
 
-    The derivative is constant in each contact state; `stuck`, (2,) bool, is True for a ball that sticks to a wall.
+    stuck: (2,) bool, True for a ball that sticks to a wall.
     """
     boxes = rate_matrix(system, stuck)[2:4, :4]
     matrix = np.zeros((8, 8))

@@ -1,9 +1,10 @@
-"""Contact logic shared by the event-driven integrators, applied where an integrator has stopped at an event.
+"""Contact logic of the event-driven integrators, applied where an integrator has stopped at an event.
 
-General integrators cannot treat the end of a chatter, when a ball comes to rest on a wall. So a ball whose rebound is
-slower than `slow` sticks if the box presses it against the wall; the omitted impacts change the state by less than
-slow^3. The result of the integrator is not checked: if it misses an impact, the ball continues beyond the wall. The
-code is compiled. Coefficients q: see `right_hand_side`; impact law: see `vibroimpact.system.restitution`.
+General integrators cannot follow a chatter to its end. So a ball whose rebound is slower than `slow` sticks if the box
+presses it against the wall. The omitted impacts change the state by less than slow^3. If an integrator misses an
+impact, the ball continues beyond the wall.
+
+q is the result of `right_hand_side.coefficients`.
 """
 
 import math
@@ -28,9 +29,9 @@ def acceleration(tau, s, q, walls, i):
 
 @inlined()
 def guard(tau, s, q, walls, i):
-    """Return the value of the function that falls below zero at the next event of module i.
+    """Return a value that falls below zero at the next event of module i.
 
-    This function is 1 - |W| for a flying ball, and the contact force divided by epsilon for a sticking ball.
+    It is 1 - |W| for a flying ball, and the contact force / epsilon for a sticking ball.
     """
     if walls[i] != 0.0:
         return walls[i] * acceleration(tau, s, q, walls, i)
@@ -39,9 +40,9 @@ def guard(tau, s, q, walls, i):
 
 @disk_cached()
 def resolve(tau, s, q, walls, due, rows, count, slow):
-    """Update state s (8,) and walls (2,) at an event of module `due`; return the rows of impacts and their number.
+    """Update s (8,) and walls (2,) at an event of module `due` (-1 at the start of a run).
 
-    A row is [time, module, wall, speed]. At the start of a run `due` is -1. slow: see the module docstring.
+    Return the rows [time, module, wall, speed] of impacts, and their number. slow: see the module docstring.
     """
     for i in range(2):
         x = 2 * i
@@ -70,9 +71,9 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 
 @inlined()
 def first_sample_time(tau, s, q, walls, step):
-    """Return the time from `tau` to the first sample of a flight, chosen so that no short flight is missed.
+    """Return `step`, or half the expected duration of a flight that begins at a wall if this is shorter.
 
-    This time is `step` or, if shorter, half the expected duration of a flight that begins at a wall at `tau`.
+    The first sample is at this time, so that no short flight is missed.
     """
     for i in range(2):
         x = 2 * i
@@ -86,11 +87,7 @@ def first_sample_time(tau, s, q, walls, step):
 
 @inlined()
 def newton_or_middle(t, value, slope, low, high):
-    """Return t - value / slope, the result of a Newton step, or the middle of [low, high] if the result lies outside.
-
-    A function falls below zero within [low, high]; `value` and `slope` are its value and slope at t. If `value` is 0
-    and `slope` is not 0, the result is t.
-    """
+    """Return the Newton step t - value / slope if it lies in [low, high], else the middle of [low, high]."""
     after = t - value / slope if slope != 0.0 else math.inf
     return after if low <= after <= high else 0.5 * (low + high)
 
@@ -98,8 +95,7 @@ def newton_or_middle(t, value, slope, low, high):
 class Contacts:
     """Contact states and impacts of a run, for integrators without contact logic.
 
-    numbers: result of `right_hand_side.coefficients`. walls: (2,), the wall that each ball sticks to, or 0. impacts:
-    rows (time, module, wall, speed).
+    walls: (2,), the wall that each ball sticks to, or 0. impacts: rows (time, module, wall, speed).
     """
 
     def __init__(self, system, slow: float):
@@ -107,16 +103,16 @@ class Contacts:
         self.walls, self.impacts = np.zeros(2), []
 
     def start(self, tau, s):
-        """Update the state `s` (8,) and the contact states at the start of a run, for each ball that is on a wall.
+        """Update the state `s` (8,) and the contact states at the start of a run.
 
-        Depending on `s`, such a ball impacts, sticks or leaves the wall.
+        A ball on a wall may impact or stick.
         """
         self.resolve(tau, s, [-1])
 
     def resolve(self, tau, s, due):
-        """Update the state `s` (8,) in place, and the contact states, at an event of the modules `due`.
+        """Update the state `s` (8,) and the contact states at an event of the modules `due`.
 
-        The event is an impact, or the contact force becomes zero.
+        The event is an impact or the end of a contact.
         """
         for module in due:
             rows, count = resolve(tau, s, self.numbers, self.walls, module, np.empty((2, 4)), 0, self.slow)

@@ -1,7 +1,4 @@
-"""Integrate with fixed steps of the classical fourth-order Runge-Kutta method; find impacts by Newton's method.
-
-The code is written by hand and compiled, so that it has no interpreter overhead, unlike SciPy.
-"""
+"""Integrate with fixed steps of the classical fourth-order Runge-Kutta method; find impacts by Newton's method."""
 
 import math
 
@@ -41,7 +38,7 @@ class RungeKutta4(Method):
 
 @inlined()
 def _step(tau, s, q, walls, h, slopes, there):
-    """Write the state after one step of length h into `there`; `slopes` (4, 8) is work memory for the four stages."""
+    """Write the state after one step of length h into `there`; `slopes` (4, 8) is work memory."""
     omega = q[8]
     middle = math.sin(omega * (tau + 0.5 * h))
     derivative(math.sin(omega * tau), s, q, walls, slopes[0])
@@ -56,9 +53,9 @@ def _step(tau, s, q, walls, h, slopes, there):
 
 @inlined()
 def _event(tau, s, q, walls, i, high, slopes, event):
-    """Return the length, at most `high`, of the step at whose end the event function `guard` of module i is zero.
+    """Return the step length, at most `high`, at which the function `guard` of module i falls to zero.
 
-    The state after this step is written to `event`.
+    `event` receives the state after this step.
     """
     low, t, x = 0.0, 0.5 * high, 2 * i
     for _ in range(TRIES):
@@ -77,7 +74,7 @@ def _event(tau, s, q, walls, i, high, slopes, event):
 def _march(q, s, tau, end, step, limit):
     """Integrate to `end` in at most `limit` steps.
 
-    Return the final state, one row [time, module, wall, speed] per impact, the number of steps, and the time reached.
+    Return the last state, the impacts as rows [time, module, wall, speed], the number of steps, and the time reached.
     """
     walls, slopes = np.zeros(2), np.empty((4, 8))
     there, event, found = np.empty(8), np.empty(8), np.empty(8)

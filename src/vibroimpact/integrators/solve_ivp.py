@@ -14,10 +14,9 @@ PATIENCE = 100  # largest number of successive events without progress in time
 
 
 class SolveIvp(Method):
-    """One method of solve_ivp, with compiled right-hand side and Jacobian; `setting` is the relative tolerance rtol.
+    """One method of solve_ivp; the setting is the relative tolerance rtol.
 
-    The first step after an impact is at most half the expected duration of the flight, so that no impact of a chatter
-    is stepped over.
+    The first step after an impact is at most half the expected flight, so that no impact of a chatter is missed.
     """
 
     family, knob = "solve_ivp", "rtol"
@@ -67,10 +66,9 @@ class SolveIvp(Method):
 
 
 def _events(i, wall):
-    """Return two functions, at least one of which falls through zero at the next event of module i.
+    """Return two functions; one or both fall through zero at the next event of module i.
 
-    For a flying ball the two functions are the distances to both walls. For a sticking ball both functions are the
-    contact force, so that each module has two functions in every contact state.
+    They are the distances to both walls for a flying ball, and the contact force / epsilon for a sticking ball.
     """
     x, y = BOXES[i], BALLS[i]
 
