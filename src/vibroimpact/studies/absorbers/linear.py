@@ -16,15 +16,8 @@ POINTS = 400
 class Linear:
     """Linear system M X'' + C X' + K X = F sin(Omega tau), dimensionless.
 
-    Attributes
-    ----------
-    mass, damping, stiffness : ndarray
-        Matrices M, C, K, each (n, n). The first two coordinates are the boxes, X_1 and X_2; absorbers, Y_1 and Y_2,
-        follow.
-    force : ndarray
-        Amplitudes F, (n,).
-    scale : callable
-        Function that returns the factors by which `force` is multiplied at an array of frequencies Omega.
+    mass, damping, stiffness: matrices M, C, K, each (n, n). The coordinates are X_1 and X_2 of the boxes, then Y_1 and
+    Y_2 of any absorbers. force: amplitudes F, (n,). scale: function that returns a factor of F for each frequency.
     """
 
     mass: np.ndarray
@@ -34,27 +27,16 @@ class Linear:
     scale: Callable = np.ones_like
 
     def amplitudes(self, Omega) -> np.ndarray:
-        """Return the amplitudes of X_1 and X_2 in the steady response at the frequencies `Omega`.
+        """Return the steady amplitudes of X_1 and X_2 at the frequencies `Omega`, shape (..., 2).
 
-        The result has the shape of `Omega` with a last axis of length 2 for the boxes. The root mean square of X_i is
-        the amplitude of X_i divided by sqrt(2).
-
-        Raises
-        ------
-        numpy.linalg.LinAlgError
-            If the system is driven at an undamped resonance.
+        An undamped resonance raises numpy.linalg.LinAlgError.
         """
         return np.abs(self._responses(Omega)[..., :2])
 
     def strokes(self, Omega) -> np.ndarray:
-        """Return the stroke of each absorber, the amplitude of X_i - Y_i, at the frequencies `Omega`.
+        """Return the stroke of each absorber, the amplitude of X_i - Y_i, at the frequencies `Omega`, shape (..., 2).
 
-        The result has the shape of `Omega` with a last axis of length 2 for the absorbers.
-
-        Raises
-        ------
-        numpy.linalg.LinAlgError
-            If the system is driven at an undamped resonance.
+        An undamped resonance raises numpy.linalg.LinAlgError.
         """
         responses = self._responses(Omega)
         return np.abs(responses[..., :2] - responses[..., 2:])
@@ -66,18 +48,15 @@ class Linear:
         return np.linalg.solve(impedance, self.scale(Omega) * self.force[:, None])[..., 0]
 
     def peak(self, band: tuple[float, float]) -> float:
-        """Return the largest amplitude of X_1 and X_2 in a band; inf if the band contains an undamped resonance."""
+        """Return the largest amplitude of X_1 and X_2 in a band, or inf if it contains an undamped resonance."""
         return self._highest(self.amplitudes, band)
 
     def stroke(self, band: tuple[float, float]) -> float:
-        """Return the largest stroke of an absorber in a band; inf if the band contains an undamped resonance.
-
-        The stroke, the amplitude of X_i - Y_i, is the room that an absorber needs on each side.
-        """
+        """Return the largest stroke of an absorber in a band, or inf if it contains an undamped resonance."""
         return self._highest(self.strokes, band)
 
     def _highest(self, measure, band):
-        """Return the largest value of `measure` in a band; inf if the band contains an undamped resonance.
+        """Return the largest value of `measure` in a band, or inf if it contains an undamped resonance.
 
         measure: the method `amplitudes` or `strokes`.
         """

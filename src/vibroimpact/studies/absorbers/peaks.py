@@ -1,8 +1,7 @@
 """Compute the peak displacement of boxes with balls in a band of frequencies; one cycle in a hundred exceeds the peak.
 
-The largest displacement of a chaotic motion grows with the length of the run. A quantile of the largest displacements
-in single cycles does not grow, and is therefore used as the peak. If many peaks are measured, the random error of the
-lowest one is likely to be negative. Therefore callers measure the lowest peaks again, from other initial states.
+The largest displacement of a chaotic motion grows with the length of the run; a quantile over cycles does not. The
+lowest of many measured peaks is probably too low. Therefore callers measure the lowest peaks again, from other states.
 """
 
 from collections.abc import Sequence
@@ -24,9 +23,8 @@ QUANTILE = 0.99
 class CycleMaxima:
     """Displacements of the boxes in the observed cycles of runs, for m systems from n initial states each.
 
-    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: root mean
-    square of a box displacement over the observed cycles of a run; the largest value of both boxes and all finished
-    runs. unfinished: number of unfinished runs.
+    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: largest root
+    mean square of X_1 or X_2 of all finished runs.
     """
 
     largest: np.ndarray
@@ -35,21 +33,15 @@ class CycleMaxima:
 
 
 def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> tuple[float, float]:
-    """Return the peak displacement in a band of frequencies, dimensionless, and its standard error.
+    """Return the peak displacement in a band of frequencies, and its standard error.
 
-    `systems` holds one system per frequency. Each system runs from every state of `states`, (n, 8).
-
-    Parameters
-    ----------
-    cycles, settle : int
-        As for `ensemble`: each run lasts `cycles` forcing periods and is observed after the first `settle` of them.
+    systems: one system per frequency; each runs from every state of `states`, (n, 8). The other arguments are as for
+    `ensemble`.
 
     Raises
     ------
     ArithmeticError
         If a run could not be finished.
-    ValueError
-        As for `ensemble`.
     """
     runs = by_cycle(systems, states, cycles, settle)
     if runs.unfinished:
@@ -58,14 +50,9 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
 
 
 def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> CycleMaxima:
-    """Run each system from every state and return the maxima of each cycle; the arguments are those of `peak`.
+    """Run each system from every state; return the maxima of each cycle. The arguments are those of `peak`.
 
-    An uncoupled module without force (not in `System.modules`) starts at rest.
-
-    Raises
-    ------
-    ValueError
-        If `cycles` is not above `settle`, and in the cases listed for `ensemble`.
+    An uncoupled module without force starts at rest.
     """
     if not cycles > settle:
         raise ValueError(f"cycles: {cycles} is not above settle = {settle}, so that no cycle is left to observe")
@@ -78,9 +65,9 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
 
 
 def peak_of(largest: ArrayLike) -> np.ndarray:
-    """For each system, return the peak: the 0.99 quantile of `CycleMaxima.largest` over the cycles of all starts.
+    """Return the peak of each system, the 0.99 quantile of `CycleMaxima.largest` over all cycles and runs.
 
-    The peak is nan for a system without finished runs.
+    The peak is nan without finished runs.
     """
     largest = np.asarray(largest)
     return np.array(
@@ -89,11 +76,9 @@ def peak_of(largest: ArrayLike) -> np.ndarray:
 
 
 def standard_error(largest: ArrayLike) -> float:
-    """Return the standard error of the highest peak of all systems (see `peak_of`), by a jackknife over the starts.
+    """Return the standard error of the highest peak of all systems, by a jackknife over the initial states.
 
-    The jackknife leaves out one start at a time. It assumes that runs from different starts are independent, but allows
-    correlated cycles within a run. The error is large if a single start determines the highest peak, and nan for fewer
-    than 2 starts.
+    Runs from different initial states must be independent. The error is nan for a single initial state.
     """
     largest = np.asarray(largest)
     count = largest.shape[1]
@@ -104,13 +89,7 @@ def standard_error(largest: ArrayLike) -> float:
 
 
 def finished(runs: np.ndarray) -> np.ndarray:
-    """Return the given outcomes of `ensemble` if all runs finished.
-
-    Raises
-    ------
-    ArithmeticError
-        If a run could not be finished.
-    """
+    """Return the given outcomes of `ensemble`; raise ArithmeticError if a run could not be finished."""
     failed = runs["status"][runs["status"] != FINISHED]
     if len(failed):
         raise ArithmeticError(f"the peak is unknown, since a run failed: {STATUSES[int(failed[0])]}")

@@ -1,7 +1,4 @@
-"""Linear systems for comparison: without balls, and with linear absorbers as heavy as the balls.
-
-The absorbers are tuned by the textbook rule or by optimisation.
-"""
+"""Linear systems for comparison: without balls, and with tuned linear absorbers as heavy as the balls."""
 
 from dataclasses import dataclass
 
@@ -22,8 +19,7 @@ In a band that is narrow or contains no resonance, the best damping ratio or fre
 class Tuning:
     """Linear absorbers, one on each box, each with the mass epsilon of a ball.
 
-    frequency: natural frequency of each absorber on a box at rest, sqrt(stiffness / epsilon), dimensionless, (2,).
-    damping: damping ratio of each absorber, damping / (2 epsilon frequency), (2,).
+    frequency: sqrt(stiffness / epsilon), dimensionless. damping: ratio damping / (2 epsilon frequency).
     """
 
     frequency: tuple[float, float]
@@ -36,10 +32,7 @@ def without_balls(system, scale=np.ones_like) -> Linear:
 
 
 def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
-    """Return the linear system of the boxes with linear absorbers in place of the balls; `scale` as in `Linear`.
-
-    The coordinates are (X1, X2, Y1, Y2).
-    """
+    """Return the linear system of boxes and absorbers, with coordinates (X1, X2, Y1, Y2); `scale` as in `Linear`."""
     frequency, damping = np.array(tuning.frequency), np.array(tuning.damping)
     spring, damper = system.epsilon * frequency**2, 2 * system.epsilon * frequency * damping
     return Linear(
@@ -54,15 +47,12 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
 def textbook_tuning(system) -> Tuning:
     """Return the linear absorbers tuned by Den Hartog's rule, each with the mass of a ball.
 
-    For every damping of its absorber, the response curve of a single undamped box passes through the same two points.
-    The rule makes both points equally high, sqrt(1 + 2 / epsilon) times the static deflection, and the peaks almost as
-    low as these points. The rule treats each box separately, so that it is approximate for damped or coupled boxes.
+    On a single undamped box, all response curves pass through the same two points, for every damping of the absorber.
+    The rule makes both points equally high, sqrt(1 + 2 / epsilon) times the static deflection. The peaks become almost
+    as low. For damped or coupled boxes, the rule is approximate.
 
-    Notes
-    -----
-    The textbook prints the damping as c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the natural
-    frequency Omega_n of the box. `Tuning.damping` refers to the frequency of the absorber, Omega_n / (1 + epsilon).
-    Therefore `Tuning.damping` is sqrt(3 epsilon / (8 (1 + epsilon))).
+    The textbook prints c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the frequency Omega_n of the
+    box. `Tuning.damping` refers to the frequency of the absorber, Omega_n / (1 + epsilon), instead.
 
     References
     ----------
@@ -75,24 +65,10 @@ def textbook_tuning(system) -> Tuning:
 
 
 def best_tuning(system, band: tuple[float, float], scale=np.ones_like) -> Tuning:
-    """Return the linear absorbers with the lowest peak over a band of frequencies, each with the mass of a ball.
+    """Return the linear absorbers with the lowest peak in a band of frequencies, each with the mass of a ball.
 
-    The peak (`Linear.peak`) is a maximum and not smooth. Therefore an upper bound on the response in the whole band is
-    minimised, by sequential quadratic programming from three starting points. The best local optimum is returned.
-
-    Parameters
-    ----------
-    system
-        Dimensionless parameters.
-    band : tuple of float
-        First and last forcing frequency Omega, dimensionless.
-    scale : callable, optional
-        As in `Linear`.
-
-    Raises
-    ------
-    ArithmeticError
-        If the optimisation fails from every starting point.
+    The peak is not smooth. Therefore an upper bound on the response is minimised. ArithmeticError is raised if the
+    optimisation fails.
     """
     book, frequencies = textbook_tuning(system), np.linspace(*band, POINTS)
     textbook = np.log([*book.frequency, *book.damping])
@@ -121,12 +97,9 @@ def best_tuning(system, band: tuple[float, float], scale=np.ones_like) -> Tuning
 
 
 def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
-    """Return all linear systems for comparison, by name; the best absorbers are tuned for a band of frequencies.
+    """Return the linear systems for comparison by name; the best absorbers are tuned for `band`.
 
-    Raises
-    ------
-    ArithmeticError
-        As for `best_tuning`.
+    If this tuning fails, ArithmeticError is raised.
     """
     return {
         "without balls": without_balls(system),
@@ -138,8 +111,7 @@ def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
 def _attached(matrix, links):
     """Return the stiffness or damping matrix (4, 4) of the boxes with their absorbers.
 
-    matrix: the stiffness or damping matrix of the boxes alone, (2, 2). links: stiffness of the spring, or coefficient
-    of the damper, between each box and its absorber, (2,).
+    matrix: that of the boxes, (2, 2). links: constants of the absorbers, (2,).
     """
     link = np.diag(links)
     return np.block([[matrix + link, -link], [-link, link]])
@@ -148,8 +120,7 @@ def _attached(matrix, links):
 def _levels(logarithms, system, frequencies, scale):
     """Return the logarithms of the amplitudes of both boxes at all `frequencies`, as one array.
 
-    logarithms: logarithms of `Tuning.frequency` and `Tuning.damping`, (4,). An amplitude below 1e-12 times the
-    largest one is replaced by this bound, since a box may be at rest.
+    Amplitudes are at least 1e-12 times the largest one, since a box may be at rest.
     """
     amplitudes = tuned(system, _tuning(logarithms), scale).amplitudes(frequencies)
     return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
