@@ -17,7 +17,7 @@ _TERMS = {"one term": "distance", "two terms": "two terms"}
 
 
 def small_balls(evidence):
-    """Check the printed condition M << m, and its correction epsilon = m / M << 1, at the epsilon of the cases."""
+    """Check the printed condition M << m and the corrected one, epsilon = m / M << 1."""
     epsilon = evidence.system.epsilon
     return as_printed(1 / epsilon < 1, epsilon < 1, **{"M / m": 1 / epsilon, "m / M": epsilon})
 
@@ -34,7 +34,7 @@ def weak_coupling(evidence):
 def own_frequency(evidence):
     """Check the frequency of the first force in (10.1) against (10.5).
 
-    As printed, the first force in (10.1) has the natural frequency omega_10, so that its dimensionless frequency is 1.
+    The printed frequency is omega_10, which has the dimensionless value 1.
     """
     system = evidence.system
     corrected = abs(system.Omega - (1 + system.epsilon * system.sigma_e_hat)) < ROUNDING
@@ -50,11 +50,7 @@ def bound_of_the_balls(evidence):
 
 
 def common_impact_instants(evidence):
-    """Check whether both modules in (10.2) share one sequence tau_j of impact times, or have one sequence each.
-
-    At each impact, the distance from the nearer wall is measured for the ball that hits and for the ball of the other
-    module.
-    """
+    """Check whether both modules in (10.2) share one sequence tau_j of impact times, or have one sequence each."""
     own, other = [], []
     for simulation in evidence.simulations.values():
         impacts = simulation.impacts
@@ -69,11 +65,9 @@ def common_impact_instants(evidence):
 
 
 def equations_in_U_and_W(evidence):
-    """Check the lines of (10.3) at a random state between impacts, and the jumps in (10.3) at random impacts.
+    """Check the lines of (10.3) at a random state, and the jumps in (10.3) at random impacts.
 
-    The accelerations at the random state come from (10.2).
-
-    As printed, line W1 has the force on box 2. As corrected, this line has the force on box 1.
+    Line W1 is printed with the force on box 2; its correction has the force on box 1.
     """
     system = evidence.system.with_(f10_hat=1.0, f20_hat=0.89)
     rng = np.random.default_rng(1)
@@ -87,7 +81,7 @@ def equations_in_U_and_W(evidence):
     stiffness, damping = np.array([1, system.stiffness2]), np.array([system.gamma1, system.gamma2])
     left = damping * speed + stiffness * place + system.gamma12 * (speed - speed[::-1])
     left += system.alpha12 * (place - place[::-1])
-    printed = {"U1": f[0], "W1": f[1], "U2": f[1], "W2": f[1]}  # the amplitude of the force in each line as printed
+    printed = {"U1": f[0], "W1": f[1], "U2": f[1], "W2": f[1]}  # force in each printed line
     # Between impacts the ball flies freely, so that U'' = W'' = X''.
     both = dict(zip("12", ddX + left, strict=True))
     residual = {line: both[line[1]] - amplitude * phase[0] for line, amplitude in printed.items()}
@@ -123,9 +117,9 @@ def leading_order_solution(evidence):
 
 
 def _vanish(found, **others):
-    """Return a Finding with one part per name; a part holds if the largest residual of its name is below ROUNDING.
+    """Return a Finding with one part per name, which holds if the largest residual is below ROUNDING.
 
-    found: a list of dictionaries name -> residuals, each with the same names. others: further residuals by name.
+    found: dictionaries name -> residuals. others: name -> residual.
     """
     worst = {name: max(np.abs(residuals[name]).max() for residuals in found) for name in found[0]} | others
     parts = {f"{name} holds": value < ROUNDING for name, value in worst.items()}
@@ -162,8 +156,7 @@ def _error_of_the_harmonics():
 def orders_of_the_expansion(evidence):
     """Check the orders of (10.7): the error is O(epsilon) with one term, O(epsilon^2) with two.
 
-    The first term, which the chapter gives, is the fixed point. The second term is epsilon times the derivative of the
-    exact orbit with respect to epsilon, at epsilon = 0.
+    The first term is the fixed point. The second is linear in epsilon, with the slope of the orbit at epsilon = 0.
     """
     table = evidence.epsilon_orders
     orders = {name: table.loc[table["panel"] == panel, "order"] for name, panel in _TERMS.items()}

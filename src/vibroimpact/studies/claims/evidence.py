@@ -26,8 +26,7 @@ class Simulation:
 class Evidence:
     """Results of a build with the parameters of the chapter.
 
-    fixed_points, orbits, verdict_grid, modulation, special_points, epsilon_orders: the result tables with these names.
-    proofs: case -> results of the completeness proofs. simulations: case -> Simulation. systems: case -> system.
+    Data frames are the result tables of the same names. Dictionaries have the cases as keys.
     """
 
     fixed_points: pd.DataFrame
@@ -57,7 +56,7 @@ class Evidence:
         return orbits[orbits["admissible"].astype(bool)]
 
     def measured(self, case: str, start: str, quantity: str) -> pd.DataFrame:
-        """Return the rows of `modulation` for one case, kind of initial states ("spread" or "rest") and quantity."""
+        """Return the rows of `modulation` for a case, a start ("spread" or "rest") and a quantity."""
         return self.modulation.query("case == @case and start == @start and quantity == @quantity")
 
     def shares(self, case: str) -> pd.Series:

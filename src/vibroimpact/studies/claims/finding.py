@@ -14,9 +14,8 @@ VERDICTS = (HOLDS, IN_PART, REFUTED, OPEN, MISPRINT)
 class Finding:
     """The outcome of one check.
 
-    parts: assertion in the claim -> True, False, or None if the text leaves open what is asserted.
-    numbers: name -> measured value.
-    corrected: True if the statement holds with its misprint corrected; None if there is no correction.
+    parts: assertion -> True, False, or None if the text is ambiguous. numbers: name -> measured value. corrected: True
+    if the corrected statement holds; None without a correction.
     """
 
     parts: dict[str, bool | None]
@@ -32,10 +31,10 @@ class Finding:
 
     @property
     def verdict(self) -> str:
-        """One of VERDICTS, by the first of these conditions that is met.
+        """One of VERDICTS.
 
-        OPEN if any part is None; HOLDS if all parts hold; MISPRINT if the statement holds as corrected; IN_PART if any
-        part holds; else REFUTED.
+        It is OPEN if any part is None; else HOLDS if all parts hold; else MISPRINT if the corrected statement holds;
+        else IN_PART if any part holds; else REFUTED.
         """
         found = list(self.parts.values())
         if None in found:
@@ -52,9 +51,6 @@ def _plain(value):
 
 
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
-    """Return the Finding on a statement as printed; its `numbers` also contain the verdict on the corrected statement.
-
-    holds: True if the printed statement holds. corrected: True if the corrected statement holds.
-    """
+    """Return the Finding on a statement as printed; `numbers` also contains the verdict on the corrected statement."""
     numbers["verdict on the corrected statement"] = HOLDS if corrected else REFUTED
     return Finding({"the statement holds as printed": holds}, numbers, corrected=bool(corrected))

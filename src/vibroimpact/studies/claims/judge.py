@@ -1,9 +1,9 @@
 """Judge each claim of the chapter by a computed check; no verdict is written by hand.
 
-docs/studies/claims.yaml lists all claims. A claim is a mapping with the keys id, place, statement, check (name of a
-function in `MODULES`) and refuted_by (a result that would refute the claim). Three keys are optional: arguments (of the
-check), central (true for an important claim) and fact (the reason why the claim does not hold). Claims that fail for
-the same reason have the same text under fact. A check takes the Evidence and the arguments, and returns a Finding.
+docs/studies/claims.yaml lists the claims. A claim has the keys id, place, statement, check (name of a function in
+`MODULES`) and refuted_by (a result that would refute the claim). Optional keys are arguments (of the check), central
+(true for an important claim) and fact (why the claim does not hold). Claims that fail for the same reason have the
+same fact. A check takes the Evidence and the arguments, and returns a Finding.
 """
 
 from inspect import isfunction
@@ -25,10 +25,7 @@ OPTIONAL = ("arguments", "central", "fact")
 
 
 def problems(claims: list[dict]) -> list[str]:
-    """Return the problems in a list of claims, one line each.
-
-    Problems are missing or unknown fields, repeated ids and unknown checks.
-    """
+    """Return the missing or unknown fields, repeated ids and unknown checks in a list of claims, one line each."""
     found = []
     ids = [claim.get("id") for claim in claims]
     for place, claim in enumerate(claims, start=1):
@@ -43,13 +40,7 @@ def problems(claims: list[dict]) -> list[str]:
 
 
 def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
-    """Return the claims, each with its verdict, its parts and the supporting numbers.
-
-    Raises
-    ------
-    ValueError
-        If the list of claims has problems.
-    """
+    """Return the claims, each with its verdict, parts and numbers; raise ValueError if `problems` finds any."""
     found = problems(claims)
     if found:
         raise ValueError("claims: " + "; ".join(found))

@@ -25,14 +25,13 @@ def fold_of_the_manifold(evidence):
         found = minimize_scalar(lambda C, r=r: B_of_C(C, r) ** 2, bracket=(0.0, 0.8, 2.0), tol=1e-10)
         place = max(place, abs(found.x - C_min(r)))
         level = max(level, abs(np.sqrt(found.fun) - B_min(r)))
-    # The minimisation finds the value of the minimum up to rounding errors, but the position of the minimum only up to
-    # the square root of rounding errors.
+    # The position of a numerical minimum is accurate only to the square root of rounding errors.
     numbers = {"largest error of C_min": place, "largest error of B_min": level}
     return Finding({"the minimum is at C_min": place < 1e-6, "the minimum is B_min": level < 1e-12}, numbers)
 
 
 def no_penetration(evidence):
-    """Check on samples of a cycle that max |W_0| > 1 for C < 0, and |W_0| <= 1 at the fixed points and for C >= 0."""
+    """Check that max |W_0| > 1 for C < 0, and |W_0| <= 1 at the fixed points and for C >= 0."""
     kappa = evidence.system.kappa
     points = evidence.fixed_points[["C1", "C2"]].to_numpy()
     end = largest_C(kappa)
@@ -52,10 +51,9 @@ def _furthest(C, kappa):
 
 
 def printed_condition(evidence):
-    """Check (10.26), a lower limit on C, against the multipliers of the impact map at this limit and above it.
+    """Check (10.26), a lower limit on C, against the multipliers of the impact map.
 
-    (10.26) is a misprint if it holds with other exponents p and q in 4 / (4 + pi^p rho^q). `numbers` also contains the
-    interval of `_limits_of_the_captions`, and the exponents p, q whose limit lies in this interval.
+    (10.26) is a misprint if it holds with other exponents p and q in 4 / (4 + pi^p rho^q).
     """
     kappa = evidence.system.kappa
     limit, squared = printed_limit(rho(kappa)), 4 / (4 + (np.pi * rho(kappa)) ** 2)
@@ -95,12 +93,11 @@ def printed_condition(evidence):
 def _limits_of_the_captions(evidence):
     """Return the open interval of lower limits of C, in place of (10.26), that agree with all CAPTIONS.
 
-    A limit agrees with the captions if min(C_1, C_2) is above the limit at each point that a caption calls stable, and
-    below the limit at each other point. All limits in the interval are also below the fold of the manifold, so that a
-    part of the left arm is stable.
+    A limit agrees if exactly the points with min(C_1, C_2) above the limit are stable by the captions. All limits in
+    the interval are also below the fold of the manifold, so that a part of the left arm is stable.
 
-    If the labels of the fixed points of a case were exchanged, the interval would stay the same or become empty, since
-    every limit selects the points with the largest min(C_1, C_2) as stable.
+    If labels of fixed points were exchanged, the interval would stay the same or become empty: every limit selects the
+    points with the largest min(C_1, C_2).
     """
     smallest = {True: [], False: []}
     for case, captions in CAPTIONS.items():
@@ -157,8 +154,7 @@ def left_arm_has_a_stable_piece(evidence):
 def stability_regions(evidence):
     """Check the shaded (stable) and the white (unstable) region of Fig. 10.5 against the impact map.
 
-    The check uses a grid with C from 0.5 to 1.1 and kappa in KAPPAS. In each region, all grid points must have the
-    stability that is drawn. The border between the regions, (10.26), must lie below C_min(kappa) for every kappa.
+    All points of a grid of C and kappa must have the drawn stability. The border, (10.26), must lie below C_min.
     """
     kappa, C = (values.ravel() for values in np.meshgrid(KAPPAS, np.linspace(0.5, 1.1, 61)))
     border, stable = printed_limit(rho(kappa)), _stable(C, kappa)

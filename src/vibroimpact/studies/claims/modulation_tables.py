@@ -27,34 +27,18 @@ def modulation_tables(
 ) -> dict:
     """Return measures of the modulation and Lyapunov exponents for each case and regime.
 
-    The spread starts of a case that end in the same regime are evaluated together. The start from rest is evaluated
-    separately.
+    Spread starts (evenly spread initial states) of a case that end in the same regime are evaluated together. The start
+    from rest is evaluated separately.
 
-    Parameters
-    ----------
-    systems : dict
-        Case -> system.
-    starts : int
-        Number of spread starts (evenly spread initial states), in addition to the start from rest.
-    cycles : int
-        Length of the runs from which the measures are computed, in forcing cycles.
-    blocks, block : int
-        Number of blocks, and forcing cycles per block, of the runs from which the Lyapunov exponents are computed. All
-        starts use `block`. Only spread starts that end in a regime of CHAOS use `blocks`; the runs of all other starts
-        have the length `cycles`.
-    windows : list of int
-        Lengths of windows, in cycles, for which measures of the envelope are compared.
-    observation : dict
-        Arguments of `regimes.settling.Observation`.
+    starts: number of spread starts. cycles: length of the runs for the measures. windows: lengths of windows for which
+    measures of the envelope are compared. All lengths are in forcing periods.
 
-    Returns three tables:
+    blocks, block: number and length of the blocks of the runs for Lyapunov exponents. Only spread starts that end in a
+    regime of CHAOS use `blocks`; the runs of all other starts have the length `cycles`.
 
-    - "measures": columns case, start ("rest" or "spread"), regime, starts (their number), quantity, module (0 for both
-      modules), mean, uncertainty. The uncertainty is the standard error over starts, or the binomial standard error for
-      the share of starts. For a single start, the uncertainty of the Lyapunov exponent comes from the blocks of the
-      run, and all other uncertainties are blank.
-    - "windows", for strongly modulated spread starts: columns case, module, cycles, quantity, mean, uncertainty.
-    - "spectra": columns case, start, regime, starts, quantity, mean, uncertainty, bootstrap (see `spectra.rows`).
+    The tables are "measures", "windows" (strongly modulated spread starts) and "spectra". Module 0 means both modules.
+    An uncertainty is the standard error over starts, and the binomial standard error for the share of starts. For a
+    single start, the measures have no uncertainty; that of the Lyapunov exponent comes from the blocks of the run.
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)

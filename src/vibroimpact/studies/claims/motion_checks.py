@@ -68,12 +68,9 @@ def transients_are_long(evidence, case):
 
 
 def only_possible_behaviour(evidence, case):
-    """Check that no 1:1 response is stable, and that all motions end strongly modulated.
+    """Check that no 1:1 response is stable, and that all motions end strongly modulated, with no ball idle.
 
-    The motions start from evenly spread initial states and from rest.
-
-    A motion with an idle ball has the regime "one ball idle", however strong its modulation. For the start from rest,
-    `numbers` contains the regime and measures of the modulation.
+    The motions start from evenly spread states and from rest.
     """
     shares = evidence.shares(case)
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
@@ -92,7 +89,7 @@ def only_possible_behaviour(evidence, case):
 
 
 def no_practical_importance(evidence, case, label):
-    """Check that the exact orbit of an unstable fixed point is not stable, so that motions near the orbit leave it."""
+    """Check that the exact orbit of an unstable fixed point is not stable."""
     partner = evidence.points(case).loc[label, "orbit"]
     orbit = evidence.motions(case).set_index("label").loc[partner]
     parts = {"the exact orbit of the solution is not stable": orbit["exact"] != STABLE}
@@ -100,9 +97,9 @@ def no_practical_importance(evidence, case, label):
 
 
 def resonant_intervals(evidence, case):
-    """Check that bursts of resonance are longer than the pauses between them, and that the motion is chaotic.
+    """Check that bursts of resonance last longer than a cycle and than the pauses, and that the motion is chaotic.
 
-    The motion counts as chaotic if its largest Lyapunov exponent exceeds five times the uncertainty of this exponent.
+    A motion is chaotic if its largest Lyapunov exponent exceeds five times the uncertainty.
     """
     share, burst = (
         evidence.measured(case, "spread", quantity).set_index("module")["mean"].loc[[1, 2]].to_numpy()
@@ -121,10 +118,7 @@ def resonant_intervals(evidence, case):
 
 
 def beating(evidence, case):
-    """Check that the amplitude variation of each box exceeds BEAT_VARIATION by more than two uncertainties.
-
-    BEAT_VARIATION is the amplitude variation of a beat.
-    """
+    """Check that the amplitude of each box varies more than in a beat, by more than two uncertainties."""
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
     lowest = rows["mean"] - 2 * rows["uncertainty"]
     parts = {f"the amplitude of box {i} varies more than in a beat": lowest[i] > BEAT_VARIATION for i in (1, 2)}
@@ -132,7 +126,7 @@ def beating(evidence, case):
 
 
 def lower_amplitudes_end_stable_responses(evidence, sequence):
-    """Check that the first case of `sequence` has stable fixed points, and the last case no stable fixed points.
+    """Check that the first case of `sequence` has stable fixed points, and that the last case has none.
 
     The last case must also have strongly modulated responses.
     """
@@ -153,11 +147,9 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
 
 
 def unstable_means_modulated(evidence, case):
-    """Check that all fixed points of a case are unstable, and that all of its motions end strongly modulated.
+    """Check that all fixed points of a case are unstable.
 
-    A fixed point is unstable if its exact orbit is unstable. The motions start from evenly spread initial states.
-    `numbers` contains the share of motions that end strongly modulated, for `case` and for every other case in which
-    all fixed points are unstable.
+    All motions from evenly spread initial states must end strongly modulated.
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
@@ -167,10 +159,9 @@ def unstable_means_modulated(evidence, case):
 
 
 def periodic_solutions(evidence, f10_hat, f20_hat):
-    """Check that every fixed point has an admissible exact orbit.
+    """Check that every fixed point of the cases and of a grid of forces has an admissible exact orbit.
 
-    The fixed points are those of the cases and of a grid of forces. `numbers` also contains the numbers of fixed points
-    and of exact orbits at the given forces.
+    f10_hat, f20_hat: forces at which fixed points and exact orbits are counted.
     """
     both = evidence.fixed_points.merge(
         evidence.orbits, left_on=["case", "orbit"], right_on=["case", "label"], suffixes=("", "_exact")
@@ -205,11 +196,8 @@ def _at_epsilon(evidence):
 def assesses_stability(evidence):
     """Measure the share of right verdicts of each criterion over a grid of forces.
 
-    A verdict on a fixed point is right if it equals the verdict by the multipliers of the point's exact orbit.
-
-    `numbers` contains a confusion matrix per criterion and epsilon: rows for the verdict of the criterion, columns for
-    the exact verdict, in the order stable, unstable. Points without an exact orbit are counted separately, by the
-    verdict of the criterion, in the same order.
+    A verdict on a fixed point is right if its exact orbit has the same verdict. The rows of the confusion matrices are
+    verdicts of the criterion.
     """
     grid = evidence.verdict_grid
     parts, shares = {}, {}
@@ -236,12 +224,8 @@ def assesses_stability(evidence):
 def restitution_far_from_unity(evidence, kappas, forces):
     """Compare fixed points with exact orbits at each restitution coefficient of `kappas` and each force of `forces`.
 
-    The same force acts on both modules. Each fixed point must have a symmetric orbit, at a distance that is
-    proportional to epsilon. Every symmetric orbit must belong to a fixed point. At each fixed point, the balls
-    must stay between the walls.
-
-    A force without a fixed point is skipped, but each restitution coefficient needs at least one force with a fixed
-    point.
+    Fixed points and symmetric orbits must form pairs, at distances proportional to epsilon. The balls must stay between
+    the walls. Each restitution coefficient needs a force with a fixed point.
     """
     parts, numbers = {}, {}
     for kappa in kappas:
@@ -257,10 +241,7 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
 
 def _points_beside_orbits(system, kappa, force):
-    """Return the fixed points, and True if they are the limits of all symmetric exact orbits as epsilon tends to 0.
-
-    Both forces are equal to `force`, and the restitution coefficient is `kappa`.
-    """
+    """Return the fixed points, and True if they are the limits of all symmetric exact orbits for epsilon -> 0."""
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)
     roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))

@@ -35,7 +35,7 @@ def number_of_fixed_points(evidence, case, number):
 def phases_can_be_eliminated(evidence):
     """Check that equations in B_i and C_i alone, without the phases, lead to all fixed points.
 
-    The fixed points found from these equations must satisfy (10.23), and their list must be proved complete.
+    The solutions must satisfy (10.23), and their list must be proved complete.
     """
     worst, complete = 0.0, True
     for case, system in evidence.systems.items():
@@ -63,9 +63,8 @@ def label_of_a_point(evidence, case, label, says):
 def stable_points(evidence, case, number):
     """Count the stable fixed points of a case by each criterion of the theory, and by their exact orbits.
 
-    The chapter uses the fast criterion, by which a fixed point is stable if the impacts are stable at constant B and
-    phase. Here the fast criterion is evaluated with the condition derived in this project, and its verdicts are also
-    compared with the captions. Fixed points that are stable by the printed condition, (10.26), are counted separately.
+    The chapter uses the fast criterion: the impacts must be stable at constant B and phase. Here this criterion has the
+    condition derived in this project; the printed (10.26) is counted separately.
     """
     points = evidence.points(case)
     counts = {
@@ -92,11 +91,7 @@ def on_the_left_arm(evidence, case, label, modules):
 
 
 def points_move_left(evidence, before, after):
-    """Check that each C_i of each fixed point is smaller in the case `after` than in the case `before`.
-
-    Fixed points with the same label are compared. `numbers` also contains the number of C_i that decrease if the fixed
-    points of both cases are paired so that this number is as large as possible.
-    """
+    """Check that each C_i of each fixed point is smaller in the case `after` than in the case `before`."""
     first, last = (evidence.points(case)[NAMES] for case in (before, after))
     parts = {f"P{i} of {x} moves left": last.at[x, f"C{i}"] < first.at[x, f"C{i}"] for x in first.index for i in (1, 2)}
     pairings = [int((last.loc[list(order)].to_numpy() < first.to_numpy()).sum()) for order in permutations(last.index)]
@@ -107,8 +102,7 @@ def points_move_left(evidence, before, after):
 def stable_point_moves_down_the_right_arm(evidence, before, after, label):
     """Check that the stable fixed point moves down the right arm from the case `before` to the case `after`.
 
-    The point in the case `after` is found in two ways: by its letter in the captions, and by continuation as the second
-    forcing amplitude falls. The continuation leads to a point with another letter.
+    Two points in `after` are checked: that with the same letter in the captions, and that found by continuation.
     """
     fold, r = C_min(rho(evidence.system.kappa)), rho(evidence.system.kappa)
     first, named = (evidence.points(case).loc[label, NAMES].to_numpy(float) for case in (before, after))
@@ -123,10 +117,7 @@ def stable_point_moves_down_the_right_arm(evidence, before, after, label):
 
 
 def _followed(evidence, before, after, C):
-    """Follow the fixed point with amplitudes `C` from the case `before` to the case `after`; return its C in `after`.
-
-    The second forcing amplitude changes in small steps.
-    """
+    """Follow the fixed point with amplitudes `C` to the case `after` in small steps of f20_hat; return its C there."""
     start, end = evidence.systems[before], evidence.systems[after]
     for f20 in np.linspace(start.f20_hat, end.f20_hat, CONTINUATION_VALUES)[1:]:
         points = np.array([point.C for point in fixed_points(end.with_(f20_hat=f20))])
@@ -135,9 +126,9 @@ def _followed(evidence, before, after, C):
 
 
 def singular_and_bifurcating(evidence, case, f20_range):
-    """Check whether a bifurcation occurs where a fixed point P_i coincides with a singular point S_i.
+    """Check whether fixed points bifurcate where a fixed point P_i coincides with a singular point S_i.
 
-    The force at which a fixed point becomes singular is compared with the force at which two fixed points merge.
+    The force there is compared with the force at which two fixed points merge.
     """
     system = evidence.systems[case]
 
@@ -174,9 +165,9 @@ def _nearest_singular(system, point):
 
 
 def places_of_singular_points(evidence, case, label):
-    """Compare the singular points S_1 that result from two ways of eliminating the phases from (10.23).
+    """Compare the singular points S_1 from two ways of eliminating the phases from (10.23).
 
-    The chapter does not print the functions h_1 and h_2 of (10.24), so that either way may be meant.
+    The chapter does not print h_1 and h_2 of (10.24), so that either way may be meant.
     """
     system = evidence.systems[case]
     point = next(point for point in fixed_points(system) if point.label == label)

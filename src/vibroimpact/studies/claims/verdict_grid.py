@@ -17,14 +17,10 @@ NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 
 
 def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
-    """Return a table with a row per fixed point and epsilon, over a grid of forces.
+    """Return a table with a row per fixed point and epsilon, at the centres of `points` x `points` cells of forces.
 
-    The ranges of both forces are divided into `points` x `points` cells; the forces are those at the cell centres.
-
-    The columns are "epsilon", "f10_hat", "f20_hat", "C1", "C2", one column for each criterion of the theory,
-    "admissible" and "exact". C1 and C2 are those of the fixed point and do not depend on epsilon. "admissible" is True
-    if the exact orbit of the fixed point stays between the walls. "exact" is the verdict on this orbit, or "no orbit"
-    (see `verdict_table.partners`).
+    "admissible" is True if the exact orbit stays between the walls. "exact" is the verdict on this orbit, or
+    "no orbit".
     """
     forces = list(product(centres(f10_range, points), centres(f20_range, points)))
     plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
@@ -45,10 +41,7 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
 def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
     """Return a table with a row for each epsilon and each fixed point of a system.
 
-    The columns are "epsilon", "label", "C1", "C2", one column for each criterion of the theory, "exact" and
-    "multiplier". The label, C1 and C2 are those of the fixed point. "exact" is the verdict on the exact orbit of the
-    fixed point, or "no orbit". "multiplier" is the largest modulus of a multiplier of this orbit, blank without an
-    orbit.
+    "exact" is the verdict on the exact orbit, or "no orbit". "multiplier" is the largest modulus of its multipliers.
     """
     points, rows = fixed_points(system), []
     for value in epsilon:
@@ -63,9 +56,9 @@ def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
 
 
 def exact_orbits(system, points, roots):
-    """For each fixed point, yield its exact symmetric Orbit, or None if it has none.
+    """Yield the exact symmetric Orbit of each fixed point, or None if it has none.
 
-    points: C of the fixed points, (n, 2). roots: all symmetric orbits, as returned by `symmetric_solutions`.
+    points: C of the fixed points, (n, 2). roots: result of `symmetric_solutions`.
     """
     for partner in partners(points, roots[:, 2:]):
         yield None if partner is None else symmetric_orbit(system, roots[partner])
