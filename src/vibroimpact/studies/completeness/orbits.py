@@ -1,23 +1,22 @@
 """Prove in interval arithmetic (python-flint's arb) that the list of symmetric 1:1 responses is complete.
 
-The equations of symmetric.py are P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))), with the
-impact times tau_i at wall +1, the lag delta = tau_2 - tau_1, the phase phi = Omega tau_1, a complex matrix P (2, 2) and
-the forced amplitudes a_i. Let P_1, P_2 be the rows of P. Elimination of phi leaves one complex equation, linear in
-the real C_1 and C_2,
+The equations of symmetric.py are P(delta) C + i (1, 1) = (a_1 exp(i phi), a_2 exp(i (phi + Omega delta))). The ball of
+module j hits wall +1 at tau_j. The lag is delta = tau_2 - tau_1, the phase is phi = Omega tau_1, and the forced
+amplitudes are a_j. The complex matrix P has the rows P_1 and P_2. Elimination of phi leaves one complex equation,
+linear in the real C_1 and C_2,
 
     (w_2 P_1 - w_1 P_2) . C = i (w_1 - w_2),        w_1 = a_1,  w_2 = a_2 exp(i Omega delta),
 
-so C = N(delta) / D(delta) by Cramer's rule. Let k be the module with the larger |a_k|. The modulus of equation k then
-gives one equation for delta alone,
+so C = N(delta) / D(delta) by Cramer's rule. Let k be the module with the larger |a_k|. The modulus of equation k gives
+one equation for delta alone,
 
     F(delta) = |P_k . N + i D|^2 - |a_k|^2 D^2 = 0.
 
-Where D is not 0 the roots of F are exactly the solutions, each with one C and one phase. F is smooth on [0, T/2] and on
-[T/2, T]. Both halves are bisected until, on each interval, the enclosure of F excludes 0, or the enclosures of F' and D
-both exclude 0. In the latter case F is monotonic, and its signs at the two ends of the interval show whether F has one
-root or none in the interval. The proof covers any lag, any phase and any real C. Intervals that are undecided at the
-smallest width are reported, for example next to a double root of F, or next to a root at delta = T/2, where F has a
-kink.
+Where D is not 0, the roots of F are exactly the solutions, each with one C and one phase. F is smooth on [0, T/2] and
+on [T/2, T]. Both halves are bisected until every interval is decided. An interval has no root if the enclosure of F
+excludes 0. If the enclosures of F' and D exclude 0, F is monotonic: its signs at the two ends show whether it has one
+root or none. The proof covers any lag, any phase and any real C. Undecided intervals of the smallest width are
+reported, for example at a double root of F, or at delta = T/2, where F has a kink.
 
 For a single machine, |P_kk C_k + i| = |a_k| is a quadratic equation for C_k.
 """
@@ -36,7 +35,7 @@ need("reference", "flint")
 
 from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the dependency check)
 
-_NARROWEST = 2.0**-24  # smallest width of an interval of delta, divided by T/2; the 53-bit precision of arb resolves it
+_NARROWEST = 2.0**-24  # smallest width of an interval of delta / (T/2), which the 53 bits of arb resolve
 _FIRST = 8
 _MOST = 10_000  # largest number of intervals that are examined; all others are reported as undecided
 _TERMS = 3
@@ -46,10 +45,9 @@ _TERMS = 3
 class Proof:
     """Result of the proof for the symmetric orbits of a system, whose float64 parameters are taken as exact.
 
-    isolated: ascending intervals of the lag (tau_2 - tau_1) / T, or of C for a single machine, each with exactly one
-        symmetric response.
-    undecided: intervals in which nothing is proved. Outside the isolated and undecided intervals, no symmetric response
-        exists.
+    isolated: ascending intervals with exactly one symmetric response each. They are intervals of the lag
+        (tau_2 - tau_1) / T, or of C for a single machine.
+    undecided: intervals in which nothing is proved. No symmetric response exists outside both lists.
     complete: True if nothing is undecided, and `symmetric_solutions` lists exactly one response per isolated interval.
     """
 
@@ -60,8 +58,6 @@ class Proof:
 
 def certify(system) -> Proof:
     """Prove how many symmetric 1:1 responses a system has, including those that are not admissible.
-
-    A system without forcing has no symmetric 1:1 response.
 
     Raises
     ------
@@ -128,7 +124,7 @@ class _Condition:
         self.larger = int(abs(self.amplitude[1]).mid() > abs(self.amplitude[0]).mid())
 
     def count(self, lower, upper, half):
-        """Return the number of roots of F with delta in (half + [lower, upper]) T/2: 0, 1, or None if undecided."""
+        """Return the number of roots of F (0, 1, or None if undecided) for delta in (half + [lower, upper]) T/2."""
         radius = (upper - lower) / 2
         step = arb(0, radius) * self.half_period
         F0, _ = self._at(arb((lower + upper) / 2), half)
@@ -144,7 +140,7 @@ class _Condition:
     def _at(self, position, half):
         """Return the Taylor coefficients 0, 1, 2 of F and D at delta = (half + position) T/2.
 
-        half: 0 or 1, the half of the period. position: a number or an interval in [0, 1].
+        half: 0 or 1. position: a number or an interval in [0, 1].
         """
         sign = 1 - 2 * half
         forward = (self.rate * (self.half_period * position)).exp() * self.start
@@ -163,10 +159,9 @@ class _Condition:
         return _coefficients(F), _coefficients(D)
 
     def _taylor(self, motion, direction):
-        """Return the Taylor coefficients of a free motion of the boxes, in forward or backward time.
+        """Return the Taylor coefficients of a free motion of the boxes.
 
-        motion: the coefficient of order 0, which is the state of the boxes. direction: 1 for forward time, -1 for
-        backward time.
+        motion: coefficient of order 0, the state of the boxes. direction: 1 for forward time, -1 for backward time.
         """
         terms = [motion]
         for k in range(1, _TERMS):
@@ -174,7 +169,7 @@ class _Condition:
         return terms
 
     def _entry(self, terms, row, column):
-        """Return P[row, column], row != column.
+        """Return the entry P[row, column] outside the diagonal.
 
         terms: Taylor coefficients of the response of the boxes to the impacts of ball `column`.
         """

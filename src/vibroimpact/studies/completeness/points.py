@@ -1,18 +1,18 @@
 """Prove in interval arithmetic (python-flint's arb) that the lists of fixed points are complete.
 
-Each module i is described by one parameter x_i, which is C_i, 1 / C_i or v_i^2, where v_i is the flight asymmetry. The
-choice of x_i is called the chart of the module. On each pair of charts, one per module, the fixed points are the zeros
-of |Delta|^2 - |beta_i m_i|^2 for i = 1, 2 (docs/derivation.md, section 11; in the code, the numerators m_1 and m_2 are
-n1 and n2). Together, the squares |x_i| <= 1 of all pairs of charts cover every real C_i, and v_i^2 from -1 to 1.
+One parameter x_i describes module i. It is C_i, 1 / C_i or v_i^2, where v_i is the flight asymmetry; this choice is
+called the chart of the module. On each pair of charts, the fixed points are the zeros of |Delta|^2 - |beta_i m_i|^2 for
+i = 1, 2 (docs/derivation.md, section 11; in the code, m_1 and m_2 are n1 and n2). Together, the squares |x_i| <= 1 of
+all pairs of charts cover every real C_i, and v_i^2 from -1 to 1.
 
-Each square is quartered into interval boxes (an interval of x_1 and one of x_2) until every interval box is decided or
-has the smallest width. An interval box is decided if the interval of |Delta|^2 - |beta_i m_i|^2 excludes 0 for an i, or
-if a contraction (Krawczyk's test, Neumaier 1990) proves that there is no zero in the interval box, or exactly one in
-the interval box of twice the width. Interval boxes that are undecided at the smallest width are reported.
+Each square is quartered into interval boxes (an interval of x_1 and one of x_2). An interval box is decided if the
+interval of |Delta|^2 - |beta_i m_i|^2 excludes 0 for an i. It is also decided by a contraction (Krawczyk's test,
+Neumaier 1990). The contraction proves that the interval box has no zero, or that the interval box of twice the width
+has exactly one zero. Interval boxes that are undecided at the smallest width are reported.
 
-The functions of a chart are computed from the parameters in interval arithmetic and expanded to second order about the
-centre of a box, with a remainder that holds in the box of twice the width. Where the interval of Delta excludes 0, the
-phases are unique. For an inactive module i, the condition is x_i = 0 instead, and q_i = 1.
+The functions of a chart are computed in interval arithmetic and expanded to second order about the centre of an
+interval box. The remainder holds in the interval box of twice the width. Where the interval of Delta excludes 0, the
+phases are unique. An inactive module i has the condition x_i = 0 instead, and q_i = 1.
 """
 
 import functools
@@ -34,12 +34,12 @@ from flint import acb, arb, arb_series, ctx  # noqa: E402 (after the dependency 
 
 SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
 _BITS = 128
-_REACH = 2  # a tested interval box is enlarged by this factor, so that a zero on its edge becomes an inner point
+_REACH = 2  # factor that enlarges a tested interval box, so that a zero on its edge is inside
 _NARROWEST = 2.0**-24
-_ISOLATED_WIDTH = 2.0**-20  # half-width to which the interval box around a zero is narrowed
-_MOST = 20_000  # number of interval boxes, per pair of charts, after which undecided ones are not quartered any more
+_ISOLATED_WIDTH = 2.0**-20  # half-width of the narrowed interval box around a zero
+_MOST = 20_000  # number of interval boxes per pair of charts, after which no more are quartered
 _TERMS = 30
-# Remainder of the series in v^2 for |v^2| <= 2: the omitted terms and their derivatives are below 5^30 100^2 / 60!.
+# Remainder for |v^2| <= 2: omitted terms of the series and their derivatives are below 5^30 100^2 / 60!.
 _TAIL = arb(0, 2.0**-150)
 _ORDERS = 3
 _REAL, _IMAGINARY = (np.frompyfunc(lambda z, part=part: getattr(z, part), 1, 1) for part in ("real", "imag"))
@@ -51,15 +51,14 @@ Box = tuple[tuple[float, float], ...]
 class Proof:
     """Result of the proof for the fixed points of a system, whose float64 hatted parameters are taken as exact.
 
-    isolated: interval boxes ((C_1 from, to), (C_2 from, to)), ascending, each with exactly one fixed point. For
-        asymmetric fixed points, each entry is (pair of charts, intervals of the chart parameters) instead; see the
-        module docstring. For a single machine, each entry has one interval (and one chart) instead of two.
-    undecided: interval boxes in which nothing is proved, in the same format. Outside the isolated and undecided
-        interval boxes, no fixed point exists for any real C_i and v_i^2 in [-1, 1].
-    motions: number of isolated fixed points that are motions at leading order: C_i > 0 for each symmetric module, and
-        v_i^2 > 0 for each asymmetric module. A fixed point is not counted if one of its intervals contains 0.
-    complete: True if nothing is undecided, and the numerical search finds exactly one fixed point in each isolated
-        interval box.
+    isolated: interval boxes ((C_1 from, to), (C_2 from, to)), ascending, each with exactly one fixed point. An entry
+        for asymmetric fixed points is (pair of charts, intervals of the parameters x_i); see the module docstring. A
+        single machine has one interval and one chart.
+    undecided: interval boxes in which nothing is proved, in the same format. Outside both lists, no fixed point exists
+        for any real C_i and v_i^2 in [-1, 1].
+    motions: number of isolated fixed points with C_i > 0 for each symmetric module and v_i^2 > 0 for each asymmetric
+        module. A fixed point is not counted if one of its intervals contains 0.
+    complete: True if nothing is undecided, and the numerical search finds exactly one fixed point per isolated entry.
     """
 
     isolated: list
@@ -71,8 +70,8 @@ class Proof:
 def certify(system) -> Proof:
     """Prove how many fixed points a system has, with C_i of either sign.
 
-    A system without forces has no fixed point: impacts dissipate mu rho C_i^2, which no force compensates. Only a free
-    motion with C_i = 0 could persist; `symmetric_points.search` raises ValueError for systems with such a free motion.
+    A system without forces has no fixed point: impacts dissipate mu rho C_i^2. Only a free motion with C_i = 0 could
+    persist; `symmetric_points.search` raises ValueError for such a system.
 
     Raises
     ------
@@ -91,7 +90,7 @@ def certify(system) -> Proof:
 
 
 def certify_asymmetric(system) -> Proof:
-    """Prove how many fixed points have an asymmetric module; a fixed point and its mirror image are counted once.
+    """Prove how many fixed points have an asymmetric module; mirror images count as one fixed point.
 
     Raises
     ------
@@ -121,7 +120,7 @@ def _matched(boxes, points):
 
 
 def _in_amplitudes(pair, box) -> Box:
-    """Return the intervals of C_i from `box`, the intervals of x_i: C_i is x_i on the chart SMALL, 1 / x_i on LARGE."""
+    """Return the intervals of C_i for the intervals `box` of x_i: x_i is C_i on the chart SMALL, 1 / C_i on LARGE."""
     ends = []
     for name, (low, high) in zip(pair, box, strict=True):
         if name == LARGE:
@@ -138,9 +137,9 @@ def _same(box, known):
 
 
 def _all_zeros(system, pairs):
-    """Return the interval boxes with exactly one zero of the conditions, and the undecided ones, with their charts.
+    """Return the interval boxes with exactly one zero, and the undecided ones, each with its charts.
 
-    Zeros outside the square |x_i| <= 1 are left out.
+    Zeros outside |x_i| <= 1 are left out.
     """
     found, undecided = [], []
     with ctx.workprec(_BITS):
@@ -178,7 +177,7 @@ def _subdivide(conditions):
     distinct = []
     for zero in sorted(found):
         gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
-        # Zeros this close are the same zero, since the enlarged interval box of a zero contains no other zero.
+        # Zeros this close are the same: the enlarged interval box of a zero contains no other.
         if any(gap < 0.5 for gap in gaps):
             continue
         (undecided if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
@@ -186,10 +185,9 @@ def _subdivide(conditions):
 
 
 def _narrowed(conditions, x, y, half):
-    """Return the centre and half-width of a small interval box about the only zero in a wide interval box, or None.
+    """Return the centre and half-width of a small interval box about the only zero of a wide one, or None.
 
-    The wide interval box has the centre (x, y) and the half-width `half`. The result is None if the wide interval box
-    cannot be narrowed, or if the phases at the zero are not unique.
+    None means that the wide one cannot be narrowed, or that the phases at the zero are not unique.
     """
     while half > _ISOLATED_WIDTH:
         _, (x, y, half) = conditions.count(x, y, half)
@@ -206,11 +204,10 @@ def _box(x, y, half) -> Box:
 
 
 class _Conditions:
-    """The two conditions for a fixed point in one pair of charts, as polynomials on an interval box.
+    """The conditions |Delta|^2 - |beta_i m_i|^2 = 0 in one pair of charts, as polynomials on an interval box.
 
-    The variables of the polynomials are t = (x - centre) / half, with the centre and half-width of the interval box.
-    The conditions are |Delta|^2 - |beta_i m_i|^2 = 0 for i = 1, 2. A local polynomial, valid for |t| <= _REACH, is an
-    array of intervals: entry [j, k] is the coefficient of t_1^j t_2^k.
+    The variables of the polynomials are t = (x - centre) / half, |t| <= _REACH. A polynomial is an array of intervals:
+    entry [j, k] is the coefficient of t_1^j t_2^k.
     """
 
     def __init__(self, system, pair):
@@ -223,11 +220,10 @@ class _Conditions:
         self._chart = functools.lru_cache(maxsize=None)(self._expanded)
 
     def count(self, x, y, half):
-        """Return the number of zeros in an interval box, with centre (x, y) and half-width `half`, and their position.
+        """Return the number of zeros in an interval box, and the position of the zero.
 
-        The number is 0 if the interval box has no zero, 1 if the interval box enlarged by the factor _REACH has exactly
-        one zero, and None if undecided. The position is (centre x, centre y, half-width) of an interval box around the
-        zero if the number is 1, else None.
+        x, y, half: centre and half-width of the interval box. The number 1 means exactly one zero in the interval box
+        enlarged by _REACH; None means undecided. The position is (centre x, centre y, half-width) if the number is 1.
         """
         delta, one, two = self.sides(x, y, half)
         local = np.array([delta - one, delta - two])
@@ -239,7 +235,7 @@ class _Conditions:
         (a, b), (c, d) = (map(float, (polynomial[1, 0], polynomial[0, 1])) for polynomial in local)
         if (determinant := a * d - b * c) == 0:
             return None, None
-        # With F = `local` and Y = `inverse`, t - Y F(t) maps |t| <= s into -Y F(0) +- a bound on all other terms.
+        # t - Y F(t), with F = `local` and Y = `inverse`, maps |t| <= s into -Y F(0) +- all other terms.
         inverse = np.array([[d, -b], [-c, a]]) / determinant
         mapped = np.tensordot(inverse.astype(object), local, 1)
         mapped[0, 1, 0] -= 1
@@ -261,11 +257,10 @@ class _Conditions:
         return _modulus_squared(delta), np.multiply.outer(beta1, n1), np.multiply.outer(n2, beta2)
 
     def _expanded(self, module, at, half):
-        """Return the coefficients of z, q = e z + n, beta^2 and |m|^2 as polynomials in t = (x - at) / half.
+        """Return z, q = e z + n, beta^2 and |m|^2 as polynomials in t = (x - at) / half.
 
-        z, q and beta are those of `module`; m is the numerator m_j of the other module j, a function of z and q only.
-
-        The highest coefficients of z, q, beta and m are intervals that include the remainder for |t| <= _REACH.
+        m is the numerator of the other module, a function of z and q. The highest coefficients of z, q, beta and m
+        include the remainder for |t| <= _REACH.
         """
         exact, wide = (_functions(self.names[module], arb(at, radius), self.kappa) for radius in (0, _REACH * half))
         powers = [arb(half) ** k for k in range(_ORDERS)]
@@ -277,7 +272,7 @@ class _Conditions:
 
 
 def _functions(name, at, kappa):
-    """Return the Taylor coefficients at a point, or over an interval, of Re z, Im z, n and beta of a chart."""
+    """Return the Taylor coefficients of Re z, Im z, n and beta of a chart, at a point or over an interval."""
     pi = arb.pi()
     rho, mu, x = 2 * (1 - kappa) / (pi * (1 + kappa)), 8 / pi**2, arb_series([at, 1], prec=_ORDERS)
     one = arb_series([1], prec=_ORDERS)
@@ -322,7 +317,7 @@ def _size(polynomial, reach):
 
 
 def _slope(polynomial, reach):
-    """Return a bound on the sum of the moduli of the derivatives with respect to t_1 and to t_2 for |t| <= reach."""
+    """Return a bound on |dp/dt_1| + |dp/dt_2| of a polynomial p for |t| <= reach."""
     degrees = _degrees(polynomial)
     return (degrees * abs(polynomial) * reach ** np.maximum(degrees - 1, 0)).sum()
 
