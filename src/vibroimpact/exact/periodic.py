@@ -1,8 +1,7 @@
 """Find periodic motions of any period and any sequence of events, by Newton's method on the stroboscopic map.
 
-The stroboscopic map takes the state at a time tau to the state `periods` forcing periods later. `simulate` computes the
-map and its derivative through impacts, chatter, sticking and release. The map is discontinuous at a state for which an
-event occurs exactly at tau. Therefore tau is placed in the middle of the longest interval without events.
+The map takes the state at a time tau to the state `periods` forcing periods later. It is discontinuous at a state with
+an event exactly at tau. Therefore tau is the middle of the longest interval without events.
 """
 
 from dataclasses import dataclass
@@ -23,8 +22,8 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED
 SAME = 1e-6
 """Largest difference between states that count as equal; near a bifurcation, errors are about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-# D is `run.jacobian` - identity, and m is the largest modulus of an entry of D. A ball is neutral if no entry in
-# the row of D for the ball's velocity exceeds _NEUTRAL * max(1, m) in modulus.
+# A ball is neutral if its velocity at the end depends only on its velocity at the start. The limit applies to the
+# velocity's row of `run.jacobian` - identity, relative to the largest entry or 1.
 _NEUTRAL = 1e-10
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
@@ -47,7 +46,7 @@ class PeriodicOrbit(Representation):
     state : ndarray
         State at tau = 0, just after any events at this time, (8,).
     run : Run
-        Run over one period of the motion; the run starts between two events.
+        Run over one period, from a time between two events.
 
     Examples
     --------
@@ -74,9 +73,8 @@ class PeriodicOrbit(Representation):
     def stability(self) -> str:
         """Stability: "stable", "unstable" or "undecided".
 
-        A motion is unstable if a multiplier is outside the unit circle by more than its numerical error. Otherwise the
-        stability is undecided in two cases: a multiplier is on the unit circle within its numerical error, or a ball
-        hits no wall, so that two multipliers are 1.
+        It is "unstable" if a multiplier is outside the unit circle by more than its error. Otherwise it is "undecided"
+        if a multiplier is on the circle within its error, or if a ball hits no wall.
         """
         part = _determined(self.run)
         states, rows = self._impacts["state"], np.arange(len(self._impacts))
@@ -89,7 +87,7 @@ class PeriodicOrbit(Representation):
     def impacts(self) -> np.ndarray:
         """Number of impacts per period, (2, 2), [module, wall +1 / wall -1].
 
-        Of the infinitely many impacts of a chatter, only the simulated ones are counted.
+        Only the simulated impacts of a chatter are counted.
         """
         events = self._impacts
         return np.array([[np.sum((events["module"] == i) & (events["wall"] == w)) for w in (1, -1)] for i in (1, 2)])
@@ -129,29 +127,26 @@ class PeriodicOrbit(Representation):
 def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> PeriodicOrbit:
     """Find a periodic motion of any period, with any impacts, chatter and sticking, from a state near it.
 
-    Newton's method is applied to the map over `periods` forcing periods, with the exact derivative `run.jacobian`. It
-    also finds unstable motions. From a distant start it may converge to a motion that is not the nearest one.
+    Newton's method also finds unstable motions. It may miss the nearest motion.
 
     Parameters
     ----------
     system : System
         Dimensionless parameters.
     state : array_like
-        State at tau = 0, (8,), usually the end of a settled run. An inactive module (`System.modules`) is put
-        at rest.
+        State at tau = 0, (8,), such as the end of a settled run. An inactive module (`System.modules`) is put at rest.
     periods : int, default 1
         Smallest number of forcing periods after which the motion repeats.
 
     Returns
     -------
     PeriodicOrbit
-        The motion, with .state, .period, .multipliers, .stability, .impacts, .symmetric, .amplitudes and .residual.
+        The periodic motion.
 
     Raises
     ------
     ValueError
-        If an argument is malformed, if Newton's method does not converge, or if the motion already repeats after fewer
-        than `periods` forcing periods.
+        If an argument is malformed, if Newton's method does not converge, or if the motion repeats after fewer periods.
     ArithmeticError
         If a run could not be finished.
 
@@ -174,12 +169,7 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
 def refined(system, state, periods) -> PeriodicOrbit:
     """Return the motion near `state` (8,) that repeats after `periods` forcing periods or a divisor of `periods`.
 
-    Raises
-    ------
-    ValueError
-        If Newton's method does not converge.
-    ArithmeticError
-        If a run could not be finished.
+    Without convergence, ValueError is raised; ArithmeticError means that a run could not be finished.
     """
     run = given = simulate(system, inactive_at_rest(system, state), periods)
     edges = np.array([run.tau0, *run.events["tau"], float(run.end)])
@@ -201,15 +191,15 @@ def refined(system, state, periods) -> PeriodicOrbit:
         return PeriodicOrbit(system, periods, at_zero[-1].copy() if len(at_zero) else _state_at(run, tau), run)
     grazes = "; a ball grazes a wall" if _grazes(given) or _grazes(run) else ""
     raise ValueError(
-        f"state: Newton's method found no motion with periods={periods} near this state; where it stopped, the states "
+        f"state: Newton's method found no motion with periods={periods} near this state; the states "
         f"at the start and at the end of the motion still differ by {_gap(run):.2g}{grazes}"
     )
 
 
 def _determined(run):
-    """Return a mask (8,) of the coordinates of active modules (`System.modules`), without those of neutral balls.
+    """Return a mask (8,) of the coordinates of active modules, without those of neutral balls.
 
-    A neutral ball hits no wall or has an immense mass, so that its position is a free parameter of the motion.
+    A neutral ball hits no wall or has an immense mass; its position is free.
     """
     changes = np.abs(run.jacobian - np.eye(8))
     turned = changes[[5, 7]].max(axis=1) > _NEUTRAL * max(1.0, changes.max())
@@ -218,10 +208,7 @@ def _determined(run):
 
 
 def _nearer(run, step):
-    """Move the start of a run by `step`, halved until `_gap` decreases, and return the new run.
-
-    None is returned if `_gap` does not decrease in _HALVINGS trials.
-    """
+    """Return the run from a start moved by `step`, halved until `_gap` decreases, or None if it never does."""
     for _ in range(_HALVINGS):
         x = run.start + step
         if within_walls(x[None])[0]:

@@ -1,22 +1,21 @@
 """Find asymmetric 1:1 responses (unequal flight times) by Newton's method from many starts.
 
-Ball i hits wall +1 at the time p_i and wall -1 at q_i = p_i + u_i T, where T is the forcing period. The ball velocity
-changes by I_i at p_i and by -I_i at q_i. The velocity is therefore I_i (1 - u_i) on the flight from wall +1 and -I_i
-u_i on the flight back. The distance is I_i u_i (1 - u_i) T on both flights. The velocity of box i changes by -epsilon
-I_i at p_i and by +epsilon I_i at q_i. The motion of the boxes is the sum of the forced response and the responses to
-all impulses. Each module has two equations from Newton's rule and one for the distance,
+T is the forcing period. Ball i hits wall +1 at the time p_i and wall -1 at q_i = p_i + u_i T. The ball velocity changes
+by I_i at p_i and by -I_i at q_i. It is I_i (1 - u_i) on the flight from wall +1 and -I_i u_i on the flight back. Both
+flights cover the distance I_i u_i (1 - u_i) T. The velocity of box i changes by -epsilon I_i at p_i and by +epsilon I_i
+at q_i. The boxes respond to the forcing and to all impulses. Each module has two equations from Newton's rule and one
+for the distance:
 
     (1 + kappa) X_i'(p_i-) = I_i (1 - u_i - kappa u_i + epsilon),
     (1 + kappa) X_i'(q_i-) = I_i (kappa (1 - u_i) - u_i - epsilon),
-    I_i u_i (1 - u_i) T = 2 + X_i(q_i) - X_i(p_i),
+    I_i u_i (1 - u_i) T = 2 + X_i(q_i) - X_i(p_i).
 
-in total six equations for p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions are the roots with u_1 = u_2 = 1/2. An
-inactive module (see `System.modules`) has p_i = q_i = I_i = 0.
+The six unknowns are p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions have u_1 = u_2 = 1/2. An inactive module (see
+`System.modules`) has p_i = q_i = I_i = 0.
 
-The starts of Newton's method cover u_1, u_2 and the lag p_2 - p_1 evenly. For given values of these three, the
-equations are linear in I_1, I_2 and the cosine and sine of the forcing phase. These four numbers start at their
-least-squares values.
-Roots may be missed.
+The starts cover u_1, u_2 and the lag p_2 - p_1 evenly. For given values of these, the equations are linear in I_1, I_2
+and the cosine and sine of the forcing phase. These four numbers start at their least-squares values. Roots may be
+missed.
 """
 
 import numpy as np
@@ -33,17 +32,14 @@ _KICKS = np.array([-1.0, 1.0, -1.0, 1.0])
 MODULES = np.array([1, 1, 2, 2, 1, 2])
 """Module of each unknown (p_1, q_1, p_2, q_2, I_1, I_2), and of each equation."""
 _MODULES = np.eye(2)[MODULES - 1]
-_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # derivatives of flight times from wall +1 with respect to impact times
-_PLASTIC = 1.2207440846057596  # root of x^4 = x + 1; its powers give a low-discrepancy sequence
+_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # derivatives of flight times from wall +1 by impact times
+_PLASTIC = 1.2207440846057596  # root of x^4 = x + 1, for a low-discrepancy sequence
 
 
 class AsymmetricConditions:
-    """Six equations for the impact times and the changes of ball velocity in 1:1 motions of one system.
+    """Six equations for the impact times and changes of ball velocity of 1:1 motions.
 
-    Raises
-    ------
-    ValueError
-        If the boxes have an undamped resonance at a harmonic of the impacts (see ImpulseResponse).
+    An undamped resonance raises ValueError.
     """
 
     def __init__(self, system):
@@ -53,11 +49,7 @@ class AsymmetricConditions:
         self._response = impulse_response(system, sign=1)
 
     def __call__(self, unknowns: np.ndarray):
-        """Return the residual (n, 6) and Jacobian (n, 6, 6) for unknowns of shape (n, 6).
-
-        The unknowns are (p_1, q_1, p_2, q_2, I_1, I_2): times of the impacts at wall +1 (p_i) and at wall -1 (q_i), and
-        changes I_i of the ball velocity at wall +1.
-        """
+        """Return the residual (n, 6) and Jacobian (n, 6, 6) of the six equations for `unknowns` (n, 6)."""
         system = self.system
         times, strengths = unknowns[:, :4], unknowns[:, 4:]
         forced = self.amplitude * np.exp(1j * system.Omega * times)
@@ -69,29 +61,25 @@ class AsymmetricConditions:
         return residual, jacobian
 
     def linear_system(self, times: np.ndarray):
-        """Return the matrix (n, 6, 4) of the linear equations for (I_1, I_2, c, s) at impact times (n, 4).
+        """Return the coefficients (n, 6, 4) of I_1, I_2, and the cosine and sine of the forcing phase in the equations.
 
-        The forcing is proportional to Im((c + i s) exp(i Omega tau)), where c and s are the cosine and sine of an
-        unknown phase.
+        I_i is the change of ball velocity in module i.
         """
         forced = self.amplitude * np.exp(1j * self.system.Omega * times)
         by_phase = np.stack([self._forced(forced), self._forced(1j * forced)], axis=2)
         return np.concatenate([self._linear(times)[0], by_phase], axis=2)
 
     def _forced(self, forced):
-        """Return the terms of the equations due to the forced response, (n, 6).
-
-        forced (n, 4): forced response at the impacts, as complex displacements.
-        """
+        """Return the terms (n, 6) of the equations due to `forced` (n, 4), the complex forced response at impacts."""
         velocity = (1 + self.system.kappa) * self.system.Omega * forced.real
         distance = forced.imag[:, 0::2] - forced.imag[:, 1::2]
         return np.concatenate([velocity, distance], axis=1)
 
     def _linear(self, times):
-        """Return the coefficients (n, 6, 2) of I_1 and I_2 in the equations, and the box responses to unit impacts.
+        """Return the coefficients (n, 6, 2) of both changes of ball velocity, and box velocities and accelerations.
 
-        I_i is the change of ball velocity in module i. Entry [:, m, k] of a response is the velocity or acceleration of
-        a box before impact m, per unit change of ball velocity at impact k.
+        Velocity and acceleration [:, m, k] are responses just before impact m to impact k, per unit change of ball
+        velocity.
         """
         system = self.system
         x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))
@@ -120,15 +108,9 @@ class AsymmetricConditions:
 
 
 def asymmetric_solutions(system):
-    """Return the roots (p_1, q_1, p_2, q_2, I_1, I_2), shape (n, 6), and how many of the STARTS led to each root.
+    """Return the roots (n, 6), and how many of the STARTS led to each root or to its mirror image.
 
-    p_i and q_i are the times in [0, T) of the impacts at wall +1 and wall -1, I_i the change of ball velocity at wall
-    +1. Mirror images are separate roots; a start that led to one of them counts for both.
-
-    Raises
-    ------
-    ValueError
-        If the boxes have an undamped resonance at a harmonic of the impacts (see ImpulseResponse).
+    Mirror images are separate roots.
     """
     if not system.modules:
         return np.empty((0, 6)), np.empty(0, dtype=int)

@@ -18,7 +18,7 @@ _ROUNDING = 100 * np.finfo(float).eps
 
 
 def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    """Return d state / d tau in free flight by (10.2), (..., 8), for states (..., 8) at times tau (...)."""
+    """Return d state / d tau in free flight by (10.2), for states (..., 8) at times tau (...)."""
     phase = system.Omega * np.asarray(tau)[..., None]
     field = np.zeros(state.shape)
     boxes = np.concatenate([state[..., BOXES], np.sin(phase), np.cos(phase)], axis=-1)
@@ -28,10 +28,7 @@ def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
 
 
 def restitution_matrix(system, module: np.ndarray) -> np.ndarray:
-    """Return the restitution matrix R, shape (..., 8, 8), of an impact in `module` (1 or 2).
-
-    R maps the state just before the impact to the state just after.
-    """
+    """Return the matrix (..., 8, 8) by which an impact in `module` (1 or 2) multiplies the state."""
     matrices = np.stack([np.eye(8)] * 2)
     for matrix, velocities in zip(matrices, ([4, 5], [6, 7]), strict=True):
         matrix[np.ix_(velocities, velocities)] = after_impact(system.epsilon, system.kappa, *np.eye(2))
@@ -39,22 +36,11 @@ def restitution_matrix(system, module: np.ndarray) -> np.ndarray:
 
 
 def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.ndarray) -> np.ndarray:
-    """Return the saltation matrix S, shape (..., 8, 8), which maps perturbations before an impact to those after.
+    """Return the saltation matrices S (..., 8, 8), which map perturbations before impacts to those after.
 
-    S applies to perturbations at the time tau of the unperturbed impact.
-
-    before (..., 8): states just before the impacts. tau, module (...): times and modules (1 or 2) of the impacts.
-
-    With a perturbation dx, the motion reaches the wall n . x = const later by -n . dx / (n . f-). This delay leads to
-    S = R + (f+ - R f-) n^T / (n . f-), where R is the restitution matrix and f-, f+ are the vector fields before and
-    after the impact (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). The forcing enters only through f- and
-    f+, since wall and impact law do not depend on time. det S = kappa^2. `engine.variation` names the other
-    implementations of S.
-
-    Raises
-    ------
-    ValueError
-        If the relative velocity before an impact is zero (grazing), so that S does not exist.
+    before: states just before the impacts, (..., 8). The determinant of S is kappa^2. The forcing enters only through
+    the vector fields, since wall and impact law do not depend on time. An impact with zero relative velocity (grazing)
+    raises ValueError. Sources: Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004.
     """
     normal = _NORMALS[np.asarray(module) - 1]
     before_field = vector_field(system, before, tau)
@@ -67,6 +53,8 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
         )
     restitution = restitution_matrix(system, module)
     after, carried = np.moveaxis(restitution @ np.stack([before, before_field], axis=-1), -1, 0)
+    # A perturbation dx delays the impact by -n . dx / (n . f-), with the normal n of the wall and the vector fields f-,
+    # f+ before and after the impact. Therefore S = R + (f+ - R f-) n^T / (n . f-).
     change = vector_field(system, after, tau) - carried
     return restitution + change[..., :, None] * (normal / approach[..., None])[..., None, :]
 
@@ -74,8 +62,8 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
 class Passage(NamedTuple):
     """Motion from tau = 0 to tau = end through n impacts.
 
-    first (8,), final (8,): states at tau = 0 and at the end. times (n,): times of the impacts. before (n, 8), after
-    (n, 8): states just before and after each impact. jacobian (8, 8): derivative of `final` with respect to `first`.
+    first, final: states at tau = 0 and at the end, (8,). times: times of the impacts, (n,). before, after: states just
+    before and after each impact, (n, 8). jacobian: derivative of `final` by `first`, (8, 8).
     """
 
     first: np.ndarray
@@ -95,18 +83,16 @@ class Passage(NamedTuple):
 def impact_sequence(times: np.ndarray, period: float):
     """Return the times, modules and walls of the impacts of one period, each (n,), in order of time.
 
-    times: impact times in [0, T), shape (2, 2) with indices [module, wall +1 / wall -1].
-
-    An impact at 0 is moved to T and comes last, since the state at tau = 0 is the state after this impact. A module
-    with NaN times has no impacts; if both modules have impacts, n is 4.
+    times: in [0, T), (2, 2); NaN for a module without impacts.
     """
+    # An impact at 0 is moved to T, since the state at tau = 0 is the state after this impact.
     within = np.where(times == 0, period, times).ravel()
     order = np.argsort(within, kind="stable")[: np.isfinite(within).sum()]
     return within[order], _MODULES[order], _WALLS[order]
 
 
 def free_flights(system, begins: np.ndarray, durations: np.ndarray):
-    """Return A (n, 8, 8) and b (n, 8) of the maps x -> A x + b of free flights from times (n,) over durations (n,)."""
+    """Return A (n, 8, 8) and b (n, 8) of free flights x -> A x + b from times (n,) over durations (n,)."""
     flow = expm(rate_matrix(system) * durations[:, None, None])
     phases = system.Omega * begins
     maps, pushes = np.zeros((len(durations), 8, 8)), np.zeros((len(durations), 8))
@@ -118,15 +104,9 @@ def free_flights(system, begins: np.ndarray, durations: np.ndarray):
 
 
 def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, end: float) -> Passage:
-    """Follow the motion from `state` (8,) at tau = 0 to tau = end, through impacts at given times.
+    """Follow the motion from `state` (8,) at tau = 0 to tau = end, through impacts at given ascending times.
 
-    times: ascending in [0, end]. modules: the module of each impact, 1 or 2. The caller ensures that the ball is at its
-    wall at these times.
-
-    Raises
-    ------
-    ValueError
-        If the relative velocity before an impact is zero (see `impact_saltation`).
+    modules: 1 or 2 for each impact. The caller ensures that each ball is at its wall.
     """
     edges = np.array([0.0, *times, end])
     flights, pushes = free_flights(system, edges[:-1], np.diff(edges))
@@ -142,16 +122,13 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
 
 
 def active_part(system, jacobian: np.ndarray) -> np.ndarray:
-    """Return the monodromy matrix of the active modules: (8, 8), or its part (4, 4) for a single machine."""
+    """Return the part of a monodromy matrix for the active modules, (8, 8) or, for a single machine, (4, 4)."""
     part = active_mask(system)
     return jacobian[part][:, part]
 
 
 def multipliers(jacobian: np.ndarray) -> np.ndarray:
-    """Return the complex eigenvalues (n,) of a monodromy matrix (n, n).
-
-    The eigenvalues are sorted by descending modulus, then by descending imaginary part.
-    """
+    """Return the complex eigenvalues (n,) of a monodromy matrix (n, n) by descending modulus, then imaginary part."""
     values = np.linalg.eigvals(jacobian).astype(complex)
     return values[np.lexsort((-values.imag.round(12), -abs(values).round(12)))]
 
@@ -165,24 +142,14 @@ def floquet(orbit) -> str:
 def by_multipliers(jacobian: np.ndarray, residual: float, slowest: float) -> str:
     """Return "stable" if all multipliers are inside the unit circle, "unstable" if one is outside, else "undecided".
 
-    A multiplier counts as inside or outside if its modulus differs from 1 by more than its error. The error of a
-    multiplier is estimated to first order, as the condition number of the eigenvalue times the error of the monodromy
-    matrix. The monodromy matrix has an error from rounding and an error from the orbit, both relative to its norm. The
-    error from the orbit is `residual` / (d `slowest`), where d is the distance between +1 and the nearest multiplier.
-
-    Parameters
-    ----------
-    jacobian : ndarray
-        Monodromy matrix of the active modules, (n, n).
-    residual : float
-        Largest difference between the states at the start and at the end of the period.
-    slowest : float
-        Smallest relative speed of a ball at a wall.
+    A modulus must differ from 1 by more than its error. residual: largest difference between the states at the start
+    and at the end of the period. slowest: smallest relative speed of a ball at a wall.
     """
     values, left, right = eig(jacobian, left=True, right=True)
     size = np.linalg.norm(jacobian)
     with np.errstate(divide="ignore"):
         condition = 1 / np.abs(np.einsum("ij,ij->j", left.conj(), right))
         displaced = (residual + _ROUNDING) / np.abs(values - 1).min()
+    # To first order, the condition number multiplies the error of the matrix, from rounding and from the orbit.
     errors = size * condition * (_ROUNDING + displaced / slowest)
     return all_stable(verdict(1 - abs(value), error) for value, error in zip(values, errors, strict=True))

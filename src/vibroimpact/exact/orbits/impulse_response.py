@@ -15,12 +15,9 @@ _UNIT_IMPULSES = np.eye(4)[:, 2:]
 
 
 def forced_amplitude(system) -> np.ndarray:
-    """Return the complex amplitude a, shape (2,), of the boxes without balls, X = Im(a exp(i Omega tau)).
+    """Return the complex amplitude a (2,) of the boxes without balls, X = Im(a exp(i Omega tau)).
 
-    Raises
-    ------
-    ValueError
-        If the undamped boxes are at a resonance, where the amplitude is not unique.
+    An undamped resonance raises ValueError.
     """
     try:
         return np.linalg.solve(dynamic_stiffness(system.with_inactive_damped()), system.forcing.astype(complex))
@@ -31,20 +28,16 @@ def forced_amplitude(system) -> np.ndarray:
 def _resonance(system, multiple):
     """Return the error message for an undamped resonance of the boxes at a multiple of the forcing frequency."""
     return (
-        f"system: the boxes have an undamped resonance at {multiple}the forcing frequency Omega = {system.Omega}, "
-        "where no unique steady response exists; add damping (gamma1_hat, gamma2_hat)"
+        f"system: the boxes have an undamped resonance at {multiple}the forcing frequency Omega = {system.Omega}; "
+        "add damping (gamma1_hat, gamma2_hat)"
     )
 
 
 class ImpulseResponse:
     """Steady motion [X1, X2, X1', X2'] of the unforced boxes under a train of unit impulses on one box.
 
-    sign: +1 for equal impulses, one per forcing period T; -1 for impulses of alternating sign, one every T / 2.
-
-    Raises
-    ------
-    ValueError
-        If the boxes are undamped and in resonance with the train, so that no steady response exists.
+    sign: +1 for equal impulses, one per forcing period; -1 for alternating impulses, one per half period. An undamped
+    resonance raises ValueError.
     """
 
     def __init__(self, system, sign: int):
@@ -53,14 +46,13 @@ class ImpulseResponse:
         self._rate = rate_matrix(system)[:4, :4]
         advance = expm(self._rate * self.interval)
         closure = np.eye(4) - sign * advance
-        # The condition number would not detect a resonance of both boxes, at which all entries of `closure` vanish.
+        # A condition number would miss a resonance of both boxes, where `closure` vanishes.
         if np.linalg.norm(closure, -2) <= 1e-12 * (1.0 + np.linalg.norm(advance, 2)):
             raise ValueError(_resonance(system, f"{'a' if sign == 1 else 'an odd'} multiple of "))
         start = np.linalg.solve(closure, _UNIT_IMPULSES)
         nodes = math.ceil(self.interval * np.linalg.norm(self._rate, 2) * _NODES_PER_RADIAN)
         self._spacing = self.interval / nodes
-        # Taylor series are stored at the first nodes only, with the propagators from these nodes to later ones, since a
-        # table of all nodes would grow as 1/Omega.
+        # Taylor series are stored at the first nodes only, since a table of all nodes would grow as 1/Omega.
         self._fine = max(_FINE_NODES, math.isqrt(nodes))
         at_nodes = powers(expm(self._rate * self._spacing), min(nodes + 1, self._fine)) @ start
         self._onward = powers(expm(self._rate * self._spacing * self._fine), nodes // self._fine + 1)
@@ -71,7 +63,7 @@ class ImpulseResponse:
     def __call__(self, s: np.ndarray, boxes: np.ndarray) -> np.ndarray:
         """Return the motion (..., 4) at times s after an impulse on box `boxes` (0 or 1).
 
-        The arguments broadcast. At the time of an impulse, the result is the state just after the impulse.
+        At an impulse, the motion is the state just after the impulse.
         """
         impulses, within = np.divmod(s, self.interval)
         node = np.rint(within / self._spacing).astype(int)
@@ -86,10 +78,9 @@ class ImpulseResponse:
         return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None] % 2))
 
     def between(self, times: np.ndarray, boxes: np.ndarray):
-        """Return box displacements, velocities and accelerations just before impulses, each (*times.shape, n).
+        """Return displacements, velocities and accelerations of the boxes just before impulses, each (..., n, n).
 
-        Train k has an impulse on box boxes[k] at times[..., k]. Entry [..., m, k] is the response of box boxes[m] to
-        train k, just before the impulse of train m.
+        Entry [..., m, k] is the response of box boxes[m] at times[..., m] to impulses on box boxes[k] at times[..., k].
         """
         motion = self(times[..., :, None] - times[..., None, :], boxes)
         own = np.arange(len(boxes))
@@ -98,12 +89,9 @@ class ImpulseResponse:
 
 
 def powers(matrix: np.ndarray, count: int) -> np.ndarray:
-    """Return the powers matrix^n for n = 0 .. count - 1, stacked.
-
-    Each step doubles the number of powers, so that rounding errors grow only with log(count).
-    """
+    """Return the powers matrix^n for n = 0 .. count - 1, stacked."""
     powers = np.eye(len(matrix))[None]
-    while len(powers) < count:
+    while len(powers) < count:  # rounding errors grow only with log(count)
         powers = np.concatenate([powers, powers @ np.linalg.matrix_power(matrix, len(powers))])
     return powers[:count]
 

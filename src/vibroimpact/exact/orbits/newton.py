@@ -12,12 +12,8 @@ _CONVERGED, _CONVERGED_LATE = 1e-12, 1e-8
 def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
     """Return the roots reached from `starts` (n, d), in no particular order and with repetitions.
 
-    equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x of shape (k, d). Steps are shortened so that no
-    component of a step exceeds `reach`. A start has converged once its step is below 1e-12 (1 + |x|) or, in step 30,
-    which is the last, below 1e-8 (1 + |x|). A start gives no root if it does not converge or if the Jacobian becomes
-    singular.
-
-    `starts` may have further columns after the d unknowns; they are passed to the equations and returned unchanged.
+    equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x (k, d). No component of a step exceeds `reach`.
+    Further columns of `starts` are passed to the equations and returned unchanged.
     """
     x = np.array(starts, dtype=float)
     found = [np.empty((0, x.shape[1]))]
@@ -38,11 +34,10 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
 
 
 def follow(equations: Callable, x: np.ndarray, values: Iterable[float], near: float) -> Iterator[tuple]:
-    """Yield each value of a parameter with the root (d,) of equations(value), found by Newton's method.
+    """Yield each value of a parameter with the root (d,) of equations(value), found from the previous root.
 
-    Each start is the root at the previous value; the first start is x (d,). The iteration ends if equations(value)
-    raises ValueError, if no root is found, or if a component of the root differs from the previous root by
-    `near` or more.
+    The first start is x (d,). The iteration ends if equations(value) raises ValueError, if there is no root, or if a
+    component of the root changes by `near` or more.
     """
     for value in values:
         try:

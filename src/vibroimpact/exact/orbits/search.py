@@ -18,8 +18,8 @@ from vibroimpact.system.representation import Found, Representation, brief
 from vibroimpact.system.state import BALLS, BOXES, NAMES, inactive_at_rest
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
-_STEP = 0.005  # spacing of samples of W in radians of the fastest oscillation; Hermite interpolation is exact to 2e-12
-_SAMPLES = 4096  # samples of each flight computed at a time, so that memory does not grow with the period
+_STEP = 0.005  # radians of the fastest oscillation between samples of W; interpolation is exact to 2e-12
+_SAMPLES = 4096  # samples of a flight in memory at a time
 _TOUCH = 1e-9
 _SIDES = "1_plus", "1_minus", "2_plus", "2_minus"
 COLUMNS = (
@@ -33,10 +33,10 @@ COLUMNS = (
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Orbit(Representation):
-    """A periodic response with two impacts per forcing cycle and module.
+    """A periodic response with two impacts per forcing cycle and module, in dimensionless quantities.
 
-    All quantities are dimensionless. Arrays (2, 2) have the indices [module, wall +1 / wall -1]. For a single machine
-    (`PhysicalSystem.single`), the entries of the second module are 0 in the state and NaN elsewhere.
+    Arrays (2, 2) have the indices [module, wall +1 / wall -1]. For a single machine, values of the second module are 0
+    in the state and NaN elsewhere.
 
     Attributes
     ----------
@@ -45,26 +45,24 @@ class Orbit(Representation):
     symmetric : bool
         True if state(tau + T/2) = -state(tau).
     impact_phases : ndarray
-        Impact times as fractions of the period, in [0, 1), shape (2, 2).
+        Impact times as fractions of the period, in [0, 1), (2, 2).
     ball_speeds : ndarray
-        Ball speeds on the flights that start at each wall, shape (2, 2); some are negative for an inadmissible root.
+        Ball speeds after the impacts, (2, 2); they can be negative for an inadmissible root.
     multipliers : ndarray
-        Complex Floquet multipliers by descending modulus, shape (8,), or (4,) for a single machine. If both modules
-        impact at the same instant and gamma12 is not 0, the multipliers depend on which module impacts first in the
-        perturbed motion; they are computed for module 1 first.
+        Complex Floquet multipliers by descending modulus, (8,), or (4,) for a single machine. If both modules impact at
+        the same instant and gamma12 is not 0, they hold for perturbed motions in which module 1 impacts first.
     state : ndarray
-        State at tau = 0, shape (8,); if there is an impact at tau = 0, the state just after it.
+        State at tau = 0, just after an impact at this time, (8,).
     passage : Passage
-        The motion over one period, from `state` through all impacts.
+        Motion over one period from `state`.
     excursion : float
-        Largest |W_i| at extrema of W_i between impacts (the walls are at |W_i| = 1); 0 if W_i has no extremum.
+        Largest |W_i| at extrema of W_i between impacts (the walls are at 1); 0 without extrema.
     admissible : bool
-        True if the orbit is a motion of the system: all speeds are positive, so that every ball meets its wall from
-        inside, and |W_i| <= 1 at all times.
+        True if all ball speeds are positive and |W_i| <= 1 at all times.
     residual : float
-        Largest error over one period in two conditions: |W_i| = 1 at the impacts, and state(T) = state(0).
+        Largest error of |W_i| = 1 at the impacts and of state(T) = state(0).
     proof : OrbitProof, optional
-        Proof of the orbit, set by `with_proof`; None otherwise.
+        Proof of the orbit from `with_proof`, or None.
 
     Examples
     --------
@@ -101,12 +99,7 @@ class Orbit(Representation):
         return self.proof is not None and self.proof.stability in (STABLE, UNSTABLE)
 
     def with_proof(self) -> "Orbit":
-        """Return the orbit with a `proof` of its existence, its motion between the walls and its stability.
-
-        Returns
-        -------
-        Orbit
-            A copy with the attribute `proof`.
+        """Return a copy of the orbit with the attribute `proof` from `prove`.
 
         Raises
         ------
@@ -116,10 +109,9 @@ class Orbit(Representation):
         return replace(self, proof=prove(self))
 
     def row(self) -> dict:
-        """Return the row of `to_frame` for this orbit, as numbers and verdicts by column name.
+        """Return the row of `to_frame` for this orbit, as {column name: number or verdict}.
 
-        If the orbit has a proof, the columns of the proof are added. Phases are in periods. A single machine has only 4
-        multipliers; the remaining moduli are NaN.
+        Phases are in periods. A single machine has only 4 multipliers; the other moduli are NaN.
         """
         moduli = np.pad(np.abs(self.multipliers), (0, 8 - len(self.multipliers)), constant_values=np.nan)
         numbers = (self.C, self.impact_phases.ravel(), self.ball_speeds.ravel(), moduli, self.state, [self.residual])
@@ -139,7 +131,7 @@ class Orbit(Representation):
     def C(self) -> np.ndarray:
         """Saw-tooth amplitudes C_i, (10.11), shape (2,); C_i can be negative for an inadmissible root."""
         plus, minus = self.ball_speeds.T
-        # The paths from wall +1 (speed `plus`, time t) and from wall -1 (speed `minus`, time T - t) are equally long.
+        # Both flights are equally long: plus t = minus (T - t), where t is the time from wall +1.
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
         return sawtooth_amplitude(self.system.epsilon, path)
 
@@ -153,17 +145,17 @@ class Orbit(Representation):
 
 @dataclass(frozen=True, eq=False)
 class OrbitSearch:
-    """Result of a search for orbits, with the effort spent on asymmetric orbits.
+    """Orbits of a system, and the effort of the search for asymmetric orbits.
 
     Attributes
     ----------
     orbits : list of Orbit
-        The orbits. The list of symmetric orbits is complete up to rounding (see `exact.orbits.symmetric`).
+        Orbits; the symmetric orbits are complete up to rounding.
     starts : int
-        Number of Newton starts in the search for asymmetric orbits, which may miss some of them.
+        Number of Newton starts for asymmetric orbits.
     fewest_hits : int
-        Number of starts that led to the asymmetric orbit that was found least often (mirror images count as one), or 0
-        if none was found. A small number is a warning that other orbits may have been missed.
+        Smallest number of starts that led to the same asymmetric orbit or its mirror image; 0 if none was found. A
+        small number suggests that orbits were missed.
     """
 
     orbits: list[Orbit]
@@ -174,8 +166,7 @@ class OrbitSearch:
 def orbits(system: System) -> list[Orbit]:
     """Return all 1:1 responses of (10.2) with one impact per cycle at each wall of each module.
 
-    The orbits are exact at any epsilon. Asymmetric orbits are found by Newton's method from many starts, so that some
-    may be missed.
+    The orbits are exact at any epsilon. Asymmetric orbits may be missed.
 
     Parameters
     ----------
@@ -185,9 +176,8 @@ def orbits(system: System) -> list[Orbit]:
     Returns
     -------
     list of Orbit
-        Orbits, including roots that are not motions of the system (see Orbit.admissible). Symmetric orbits come first,
-        then asymmetric orbits. Each group is sorted by the sum of the two ball speeds of module 1, then of module 2,
-        then by the phases. An asymmetric orbit is next to its mirror image.
+        Orbits, including roots that are not motions of the system (see Orbit.admissible). Symmetric orbits come first.
+        Each group is sorted by ball speeds. An asymmetric orbit is next to its mirror image.
 
     Raises
     ------
@@ -203,15 +193,7 @@ def orbits(system: System) -> list[Orbit]:
 
 
 def search(system: System) -> OrbitSearch:
-    """Return the orbits that `orbits` finds, and the effort of the search for asymmetric orbits.
-
-    The effort indicates how likely it is that an orbit was missed.
-
-    Raises
-    ------
-    ValueError
-        As for `orbits`.
-    """
+    """Return the orbits that `orbits` finds, and the effort of the search; exceptions as in `orbits`."""
     instance("system", system, System)
     symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
     roots, hits = asymmetric_solutions(system)
@@ -221,7 +203,7 @@ def search(system: System) -> OrbitSearch:
 
 
 def prove(orbit: Orbit):
-    """Prove the existence of an orbit, its motion between the walls and its stability in interval arithmetic.
+    """Prove existence, motion between the walls and stability of an orbit in interval arithmetic.
 
     Parameters
     ----------
@@ -231,8 +213,7 @@ def prove(orbit: Orbit):
     Returns
     -------
     OrbitProof
-        Verdicts, error bounds, and the half-width of intervals, centred at the numbers of the orbit, in which exactly
-        one root lies.
+        Verdicts, error bounds, and the half-width of intervals with exactly one root.
 
     Raises
     ------
@@ -255,15 +236,9 @@ def prove(orbit: Orbit):
 
 
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:
-    """Return the half-period multipliers of a symmetric orbit; their squares are the multipliers of the orbit.
+    """Return the eigenvalues of the derivative of -state(T/2) by state(0) on a symmetric orbit.
 
-    The half-period multipliers are the eigenvalues of the derivative of -state(T/2) with respect to state(0). They
-    distinguish a fold (multiplier +1) from symmetry breaking (multiplier -1).
-
-    Raises
-    ------
-    ValueError
-        If the orbit is not symmetric.
+    Their squares are the multipliers. A fold has the eigenvalue +1, symmetry breaking -1.
     """
     if not orbit.symmetric:
         raise ValueError("orbit: the orbit is not symmetric, so half a period does not map it to its mirror image")
@@ -281,10 +256,7 @@ def _order(orbit):
 
 
 def symmetric_orbit(system, root) -> Orbit:
-    """Return the Orbit for a root (4,) of `SymmetricConditions`.
-
-    The root contains the impact times of both modules at wall +1, then C_1 and C_2.
-    """
+    """Return the Orbit for a root (tau_1, tau_2, C_1, C_2) of `SymmetricConditions`."""
     return _orbit(system, *_symmetric_impacts(system, root), np.full(2, 0.5), sign=-1)
 
 
@@ -301,10 +273,7 @@ def _symmetric_impacts(system, root):
 
 
 def asymmetric_orbit(system, root) -> Orbit:
-    """Return the Orbit for a root (6,) of `AsymmetricConditions`.
-
-    The root contains the impact times in the order of (module, wall), then the changes of ball velocity.
-    """
+    """Return the Orbit for a root (p_1, q_1, p_2, q_2, I_1, I_2) of `AsymmetricConditions`."""
     times = root[:4].reshape(2, 2)
     fractions = wrapped(times[:, 1] - times[:, 0], system.period) / system.period
     return _orbit(system, times, root[4:], fractions, sign=1)
@@ -313,10 +282,7 @@ def asymmetric_orbit(system, root) -> Orbit:
 def _orbit(system, times, changes, fractions, sign):
     """Return the Orbit with impacts at `times` (2, 2) and changes of ball velocity `changes` (2,).
 
-    fractions (2,): durations of the flights from wall +1, as fractions of the period.
-
-    sign: -1 for a symmetric orbit, in which the impacts of each module form one train of alternating impulses; +1 for
-    an asymmetric orbit, in which the impacts of each module form two trains of equal impulses, one at each wall.
+    fractions: durations of the flights from wall +1 in periods, (2,). sign: -1 for a symmetric orbit, else +1.
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
     state = inactive_at_rest(system, _state(system, times, changes, speeds, sign))
@@ -342,13 +308,9 @@ def _orbit(system, times, changes, fractions, sign):
 
 
 def _boxes(system, times, changes, sign, tau):
-    """Return the motion [X_1, X_2, X_1', X_2'] of the boxes at times tau, shape (n, 4).
-
-    The motion is the sum of the response to the forcing and the responses to the trains of impulses.
-
-    times (2, 2), changes (2,), sign: as for `_orbit`.
-    """
+    """Return the motion [X_1, X_2, X_1', X_2'] of the boxes at times tau, (n, 4); other arguments as for `_orbit`."""
     response, amplitude = impulse_response(system, sign), forced_amplitude(system)
+    # In a symmetric orbit, the impacts of a module form one train of alternating impulses, else a train per wall.
     trains = 1 if sign == -1 else 2
     kicks = (system.epsilon * changes[:, None] * [-1.0, 1.0])[:, :trains]
     forced = amplitude * np.exp(1j * system.Omega * tau[:, None])
@@ -357,7 +319,7 @@ def _boxes(system, times, changes, sign, tau):
 
 
 def _state(system, times, changes, speeds, sign):
-    """Return the state (8,) at tau = 0; times, changes, sign: as for `_orbit`; speeds: ball speeds (2, 2)."""
+    """Return the state (8,) at tau = 0 for ball speeds (2, 2); other arguments as for `_orbit`."""
     since = wrapped(-times, system.period)
     modules, last = np.arange(2), since.argmin(axis=1)
     walls = np.array([1, -1])[last]
@@ -371,10 +333,9 @@ def _state(system, times, changes, speeds, sign):
 
 
 def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
-    """Return the largest |X_i - c Y_i| of each module at the extrema of X_i - c Y_i inside the free flights, (2,).
+    """Return the largest |X_i - c Y_i| at its extrema inside free flights for both modules, (2,), with c = `balls`.
 
-    The factor c is `balls`: c = 1 gives the largest |W_i|, and c = 0 the largest |X_i|. The result is 0 for a module
-    without such extrema.
+    c = 1 gives |W_i|, c = 0 gives |X_i|. The result is 0 without extrema.
     """
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
@@ -391,22 +352,19 @@ def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
         boxes = samples[:, -1]
         W = samples[..., :2] - places - velocities * (spacing * steps[:, None])
         V = (samples[..., 2:4] - velocities) * spacing
-        # the values of W where V changes sign, by Hermite interpolation between samples
+        # extrema of W, by Hermite interpolation between samples
         turns = V[:, :-1] * V[:, 1:] < 0
         w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
-        s = v0 / (v0 - v1)  # zero of V to O(spacing^2); the error in W is of higher order, since V = 0 there
+        s = v0 / (v0 - v1)  # zero of V to O(spacing^2); W is more accurate, since V = 0
         values = w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)
         np.maximum.at(found, turns.nonzero()[2], abs(values))
     return found
 
 
 def _samples(step, start, count):
-    """Return step^k start for k < count, shape (n, count, d).
-
-    Each pass doubles the number of samples, so that rounding errors grow only with log(count).
-    """
+    """Return step^k start for k < count, shape (n, count, d)."""
     samples, ahead = start[:, None], step.swapaxes(1, 2)
-    while (made := samples.shape[1]) < count:
+    while (made := samples.shape[1]) < count:  # rounding errors grow only with log(count)
         samples = np.concatenate([samples, samples[:, : count - made] @ ahead], axis=1)
         ahead = ahead @ ahead
     return samples

@@ -1,18 +1,18 @@
 """Find all symmetric 1:1 responses, state(tau + T/2) = -state(tau), as roots of a function of one variable.
 
-Ball i meets wall +1 at tau_i and wall -1 half a period later. With C_i = 1 - U_i(tau_i), as in (10.12), the ball flies
-the distance 2 C_i / (1 + epsilon) in half a period: its speed is V_i = 4 C_i / ((1 + epsilon) T). Each impact reverses
-the ball, which changes the velocity of box i by -2 epsilon V_i at wall +1 and by +2 epsilon V_i at wall -1. The motion
-of the boxes is the sum of the forced response and the responses to both trains of impulses. Each module has two
-conditions: the ball meets the wall, and Newton's rule. They are the imaginary and the real part of its component of
+Ball i meets wall +1 at tau_i and wall -1 half a period later. Let C_i = 1 - U_i(tau_i), as in (10.12). In half a
+period, the ball flies the distance 2 C_i / (1 + epsilon). Its speed is therefore V_i = 4 C_i / ((1 + epsilon) T). The
+velocity of box i changes by -2 epsilon V_i at wall +1 and by +2 epsilon V_i at wall -1. The boxes respond to the
+forcing and to both trains of impulses. Each module has two conditions: the ball meets the wall, and Newton's rule. They
+are the imaginary and the real part of its component of
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
 with the imaginary unit i, C = (C_1, C_2), a complex 2 x 2 matrix P and the forced amplitudes a_1, a_2. For a given
-delta these four real equations are linear in C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Their solution
-turns c^2 + s^2 = 1 into one equation for delta alone. Multiplied by the squared determinant of the linear system, this
-equation has no poles. It is analytic except at the kinks delta = 0 and T/2, so that Chebyshev interpolants between the
-kinks give all roots to rounding. An inactive module (see `System.modules`) has tau_i = C_i = 0.
+delta these equations are linear in C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Their solution turns c^2 +
+s^2 = 1 into one equation for delta. Multiplied by the squared determinant of the linear system, this equation has no
+poles. It is analytic except at the kinks delta = 0 and T/2. Chebyshev interpolants between the kinks therefore give all
+roots to rounding. An inactive module (see `System.modules`) has tau_i = C_i = 0.
 """
 
 import math
@@ -26,10 +26,10 @@ from vibroimpact.system.amplitude import path_of
 from vibroimpact.system.matrices import stiffness_matrix
 
 _DEGREE = 32
-_PIECES_AT_ONCE = 256  # pieces of the range of delta computed at once; memory then does not grow with the period
-_RADIANS_PER_PIECE = 1.0  # radians of the fastest oscillation; interpolation of degree 32 is then exact to rounding
-_NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are due to rounding
-_NEAR = 1e-3  # tolerance for the imaginary part of a real root; a double root may be computed as a complex pair
+_PIECES_AT_ONCE = 256  # pieces of the range of delta in memory at a time
+_RADIANS_PER_PIECE = 1.0  # of the fastest oscillation; interpolation of degree 32 is then exact to rounding
+_NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are rounding errors
+_NEAR = 1e-3  # smaller imaginary parts count as zero; rounding makes double roots complex
 _SAME = 1e-8
 _BOXES = np.array([0, 1])
 MODULES = np.array([1, 2, 1, 2])
@@ -37,17 +37,10 @@ MODULES = np.array([1, 2, 1, 2])
 
 
 class SymmetricConditions:
-    """Conditions of symmetric 1:1 motions (ball at wall, Newton's rule) of one system, optionally under several forces.
+    """Conditions of symmetric 1:1 motions: each ball is at its wall, and Newton's rule holds.
 
-    Parameters
-    ----------
-    forced : ndarray, optional
-        Forced amplitudes of the boxes, one row per force, (m, 2) complex. By default, one row for the system's force.
-
-    Raises
-    ------
-    ValueError
-        If the boxes have an undamped resonance at a harmonic of the impacts (see ImpulseResponse).
+    forced: complex amplitudes of the boxes without balls, one row per force, (m, 2). An undamped resonance raises
+    ValueError.
     """
 
     def __init__(self, system, forced=None):
@@ -61,10 +54,9 @@ class SymmetricConditions:
         self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
 
     def matrix(self, times: np.ndarray):
-        """Return the matrix P, (..., 2, 2) complex, of the conditions at impact times (..., 2), and its derivatives.
+        """Return the complex matrix P (..., 2, 2) of the conditions at impact times (..., 2), and its derivatives.
 
-        The conditions are P C + i (1, 1) = forced response, where C contains the saw-tooth amplitudes. An entry (m, k)
-        of P depends only on tau_m - tau_k, and its derivative is with respect to this difference.
+        Entry (m, k) of P is differentiated by tau_m - tau_k.
         """
         x, v, a = self._response.between(times, _BOXES)
         own = np.eye(2)
@@ -73,9 +65,9 @@ class SymmetricConditions:
         return matrix, change
 
     def __call__(self, unknowns: np.ndarray):
-        """Return the residual (n, 4) and Jacobian (n, 4, 4) for unknowns (tau_1, tau_2, C_1, C_2), (n, 4).
+        """Return the residual (n, 4) and Jacobian (n, 4, 4) for `unknowns` (n, 4).
 
-        An optional fifth column of the unknowns is the index of the force.
+        A fifth column of the unknowns, if present, is the index of the force.
         """
         times, C = unknowns[:, :2], unknowns[:, 2:4]
         amplitudes = self.amplitudes[unknowns[:, 4].astype(int)] if unknowns.shape[1] > 4 else self.amplitudes
@@ -90,11 +82,9 @@ class SymmetricConditions:
         return residual, jacobian
 
     def linear_system(self, delta: np.ndarray, force: np.ndarray):
-        """Return the matrix (..., 4, 4) and right-hand side (4,) for (C_1, C_2, c, s) at each delta (...).
+        """Return the matrix (..., 4, 4) and right-hand side (4,) for (C_1, C_2, cos Omega tau_1, sin Omega tau_1).
 
-        delta = tau_2 - tau_1 is the difference of the impact times; c and s are cosine and sine of Omega tau_1.
-
-        force: indices of the forces, (...).
+        delta: tau_2 - tau_1. force: index of the force.
         """
         times = np.stack([np.zeros_like(delta), delta], axis=-1)
         forced = (self.amplitudes[force] * np.exp(1j * self.omega * times))[..., None]
@@ -105,23 +95,15 @@ class SymmetricConditions:
 def symmetric_solutions(system) -> np.ndarray:
     """Return every root (tau_1, tau_2, C_1, C_2) of `SymmetricConditions` with 0 <= tau_i < T, shape (n, 4).
 
-    Roots that are not admissible are included. An inactive module has tau_i = C_i = 0.
-
-    Raises
-    ------
-    ValueError
-        If the boxes have an undamped resonance at a harmonic of the impacts (see ImpulseResponse).
+    Inadmissible roots are included.
     """
     return _solutions(system, [system])[0]
 
 
 def symmetric_solutions_under(system, forces) -> list[np.ndarray]:
-    """Return `symmetric_solutions` of the system for each pair (f10_hat, f20_hat) in a sequence of forces.
+    """Return `symmetric_solutions` of the system for each pair of forces (f10_hat, f20_hat).
 
-    Raises
-    ------
-    ValueError
-        As for `symmetric_solutions`, or if a force does not give a valid system.
+    A force that gives no valid system raises ValueError.
     """
     return _solutions(system, [system.with_(f10_hat=one, f20_hat=other) for one, other in forces])
 
@@ -143,17 +125,14 @@ def _solutions(system, systems):
 
 
 def _uncoupled_starts(conditions, modules):
-    """Return the Newton starts of uncoupled modules: each root of module 1 with each root of module 2.
-
-    For each module alone, the equation |P_ii C_i + i| = |a_i| is quadratic in C_i, where P is the matrix of
-    `conditions` and a_i the forced amplitude of box i.
-    """
+    """Return the Newton starts of uncoupled modules: each root of module 1 with each root of module 2."""
     diagonal = np.diagonal(conditions.matrix(np.zeros((1, 2)))[0][0])
     starts = []
     for force, amplitudes in enumerate(conditions.amplitudes):
         single = [[(0.0, 0.0)], [(0.0, 0.0)]]
         for i in (module - 1 for module in modules):
             p, a = diagonal[i], amplitudes[i]
+            # |P_ii C_i + i| = |a_i|, with the forced amplitude a_i, is quadratic in C_i.
             C = np.roots([abs(p) ** 2, 2 * p.imag, 1 - abs(a) ** 2])
             C = C.real[abs(C.imag) < _NEAR]
             single[i] = [(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C]
@@ -170,10 +149,9 @@ def _coupled_starts(system, conditions):
 
 
 def _roots_of_condition(system, conditions):
-    """Return the roots delta of c^2 + s^2 = 1 in [0, T], and the index of the force for each root.
+    """Return the roots delta of `_condition` in [0, T], and the index of the force for each root.
 
-    c and s are taken from the solution of `linear_system` at delta. The condition is interpolated by Chebyshev
-    polynomials on pieces of the interval. For a root that is nearly real, the real part is returned.
+    Nearly real roots are included.
     """
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     pieces = 2 * math.ceil(system.period / 2 * fastest / _RADIANS_PER_PIECE)
@@ -195,17 +173,15 @@ def _roots_of_condition(system, conditions):
 
 
 def _condition(conditions, delta, force):
-    """Return N_c^2 + N_s^2 - D^2, which is zero where c^2 + s^2 = 1, at each delta (pieces, n).
+    """Return N_c^2 + N_s^2 - D^2 at each delta (pieces, n), which is zero where c^2 + s^2 = 1.
 
-    N_c, N_s and D are the determinants of Cramer's rule for the linear system in (C_1, C_2, c, s): c = N_c / D and
-    s = N_s / D. Each row is multiplied by a positive factor that keeps the squares within the range of floats.
-
-    force: index of the force for each row of delta, (pieces, 1).
+    By Cramer's rule, c = N_c / D and s = N_s / D are the cosine and sine of Omega tau_1. force: its index, (pieces, 1).
     """
     matrices, constant = conditions.linear_system(delta, force)
     size = np.abs(matrices).max(axis=2).mean(axis=1)  # one scale per unknown, so that the determinants are of order 1
     matrices, strength = matrices / size[:, None, None, :], size[:, 2, None]
 
+    # Positive factors keep the squares within the range of floats.
     def cramer(column):
         replaced = matrices.copy()
         replaced[..., column] = constant
@@ -215,20 +191,17 @@ def _condition(conditions, delta, force):
 
 
 def _line_starts(matrices, constant):
-    """Return three starts (C_1, C_2, c, s) for each linear system, shape (n, 3, 4).
+    """Return three starts (C_1, C_2, c, s) for each linear system, (n, 3, 4): its solution and two points of a line.
 
-    The first start is the solution of the linear system. The second and the third start are the two points
-    with c^2 + s^2 = 1 on a line through this solution, along the right singular vector of the smallest singular value.
-    If the line has no such points, the second and the third start are the point of the line with the smallest
-    c^2 + s^2. A start is not finite if its computation divides by zero.
-
-    The second and the third start are needed if the matrix is singular or almost singular, for example for identical
-    modules in phase. If the matrix is singular, all points of the line are solutions.
+    If the matrix is singular, as for identical modules in phase, the whole line solves the system. A division by zero
+    gives a start that is not finite.
     """
     u, values, v = np.linalg.svd(matrices)
     parts = constant @ u
     with np.errstate(divide="ignore", invalid="ignore"):
         strong = ((parts / values)[:, None, :3] @ v[:, :3])[:, 0]
+        # The line runs along the right singular vector of the smallest singular value. The starts are its points with
+        # c^2 + s^2 = 1 or, if there are none, with the smallest c^2 + s^2.
         weak, along = v[:, 3], np.where(values[:, 3] > 0, parts[:, 3] / values[:, 3], 0.0)
         a, b, c = (weak[:, 2:] ** 2).sum(1), (weak * strong)[:, 2:].sum(1), (strong[:, 2:] ** 2).sum(1) - 1
         depth = np.sqrt(np.maximum(b * b - a * c, 0.0))
@@ -245,7 +218,7 @@ def wrapped(value, modulus):
 def distinct(roots: np.ndarray, period: float, phases: int):
     """Return the first row of each group of equal rows, and the size of each group.
 
-    Rows are equal within rounding; the first `phases` columns are compared modulo the period.
+    The first `phases` columns are compared modulo the period.
     """
     kept, sizes = np.empty((0, roots.shape[1])), []
     for root in roots:

@@ -1,10 +1,9 @@
 """Evaluate the equations of asymmetric.py in interval arithmetic.
 
-The six unknowns are p_1, q_1, p_2, q_2, I_1, I_2: ball i hits wall +1 at the time p_i and wall -1 at q_i, and its
-velocity changes by I_i at p_i. The equations are smooth as long as the order of the impacts stays the same. Symmetric
-orbits are roots too; a symmetric orbit is its own mirror image. The motion of the boxes is the steady response to the
-forcing and to trains of impulses. An inactive module has p_i = q_i = I_i = 0. Impacts are numbered from 0 to 3: those
-of module 1 at wall +1 and -1, then those of module 2.
+The six unknowns are p_1, q_1, p_2, q_2, I_1, I_2. Ball i hits wall +1 at the time p_i and wall -1 at q_i. Its velocity
+changes by I_i at p_i. An inactive module has p_i = q_i = I_i = 0. The equations are smooth while the order of the
+impacts stays the same. Symmetric orbits are roots too. Impacts 0 and 1 are those of module 1 at wall +1 and -1, impacts
+2 and 3 those of module 2.
 """
 
 import itertools
@@ -23,17 +22,10 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 class SteadyBoxes:
     """Steady motion [X1, X2, X1', X2'] of the boxes under the forcing and under trains of unit impulses.
 
-    The float64 matrices and the forcing of the system are taken as exact.
+    The float64 matrices and the forcing are taken as exact. An undamped resonance raises ValueError.
 
-    sign: +1 for trains of equal impulses, one per forcing period; -1 for trains of impulses of alternating sign, one
-    every half period. omega, period: frequency and period of the forcing. rate (4, 4): rate matrix of free motion.
-    start (4, 2): column j is the state just after an impulse +1 of the train on box j, without forcing. amplitude
-    (4, 1): without impulses the state is Im(amplitude exp(i omega tau)).
-
-    Raises
-    ------
-    ValueError
-        If the boxes have an undamped resonance at a harmonic of a train or at the forcing frequency.
+    sign: as in `ImpulseResponse`. start: column j is the unforced state just after an impulse on box j, (4, 2).
+    amplitude: the state without impulses is Im(amplitude exp(i omega tau)).
     """
 
     def __init__(self, system, sign: int):
@@ -48,8 +40,8 @@ class SteadyBoxes:
             self.amplitude = receptance.solve(acb_mat([[acb(f)] for f in rate[:4, 4].tolist()]))
         except ZeroDivisionError:
             raise ValueError(
-                "system: the boxes have an undamped resonance at the forcing frequency or a multiple of it, where no "
-                "unique steady response exists; add damping (gamma1_hat, gamma2_hat)"
+                "system: the boxes have an undamped resonance at the forcing frequency or a multiple of it; add "
+                "damping (gamma1_hat, gamma2_hat)"
             ) from None
 
 
@@ -61,12 +53,7 @@ def identity(size: int) -> arb_mat:
 class EnclosedConditions:
     """The six equations of asymmetric.py in interval arithmetic.
 
-    The float64 matrices and the forcing of the system are taken as exact.
-
-    Raises
-    ------
-    ValueError
-        If the boxes have an undamped resonance at the forcing frequency or a multiple of it.
+    The float64 matrices and the forcing are taken as exact. An undamped resonance raises ValueError.
     """
 
     def __init__(self, system):
@@ -77,10 +64,7 @@ class EnclosedConditions:
         self.epsilon, self.kappa = arb(system.epsilon), arb(system.kappa)
 
     def __call__(self, unknowns):
-        """Return the residual (6, 1) and Jacobian (6, 6) of the equations over intervals of the six unknowns.
-
-        Returns None if two impacts may coincide.
-        """
+        """Return the residual (6, 1) and Jacobian (6, 6) for six intervals, or None if two impacts may coincide."""
         lags = self.lags(unknowns)
         if lags is None:
             return None
@@ -100,10 +84,7 @@ class EnclosedConditions:
         return arb_mat([row[:1].tolist() for row in rows]), arb_mat([row[1:].tolist() for row in rows])
 
     def lags(self, unknowns):
-        """Return {(m, k): time from impact k to the next impact m}, or None if two impacts may coincide.
-
-        The times are above 0 and below one period.
-        """
+        """Return {(m, k): time from impact k to the next impact m}, or None if two impacts may coincide."""
         lags = {}
         for m, k in itertools.permutations(self.impacts, 2):
             lag = unknowns[m] - unknowns[k]
@@ -118,10 +99,7 @@ class EnclosedConditions:
         return lags[2 * i + 1, 2 * i] / self.period
 
     def before(self, m, unknowns, lags):
-        """Return the state of the boxes just before impact m with its derivatives, (4, 7).
-
-        Column 0 is the state; columns 1 to 6 are its derivatives with respect to the six unknowns.
-        """
+        """Return the state of the boxes just before impact m, and its derivatives by the six unknowns, (4, 7)."""
         rate = acb(0, self.boxes.omega)
         forced = (self.boxes.amplitude * (rate * unknowns[m]).exp()).entries()
         state = np.full((4, 1 + _UNKNOWNS), arb(0))
@@ -140,10 +118,7 @@ class EnclosedConditions:
 
 
 def _jet(value, unknown=None):
-    """Return a value with its derivatives with respect to the six unknowns, (7,).
-
-    unknown: index k if the value is the k-th unknown, whose derivative is 1; None if all derivatives are 0.
-    """
+    """Return a value and its six derivatives, (7,): 1 for the unknown with index `unknown`, 0 for the others."""
     return np.array([value, *(arb(int(k == unknown)) for k in range(_UNKNOWNS))])
 
 

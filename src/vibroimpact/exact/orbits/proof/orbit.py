@@ -1,11 +1,10 @@
 """Prove existence, motion between the walls and stability of a computed orbit in interval arithmetic.
 
-Krawczyk's test (Krawczyk 1969; Neumaier 1990) on the six equations of asymmetric.py proves that exactly one root lies
-in a box, which is a product of six intervals around the computed numbers. If the mirror image of the root also lies in
-the box, the root is its own mirror image and therefore symmetric. If a flight certainly does not last half a period,
-the root is asymmetric. The enclosure of the root gives enclosures of the states at the impacts, of the monodromy matrix
-and of its eigenvalues (flint's acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017). Numbers of the Orbit,
-computed in float64, are called listed numbers.
+Krawczyk's test (Krawczyk 1969; Neumaier 1990) proves that exactly one root of the six equations of asymmetric.py lies
+in six intervals around the computed numbers. If the mirror image of the root also lies in these intervals, it is the
+root itself, so that the root is symmetric. If a flight certainly does not last half a period, the root is asymmetric.
+The enclosure of the root gives enclosures of the states at impacts, the monodromy matrix and its eigenvalues (flint's
+acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017). Float64 numbers of the Orbit are called listed numbers.
 """
 
 import math
@@ -32,24 +31,21 @@ _STEPS = 20  # largest number of steps to narrow the enclosure of a root; the co
 
 @dataclass(frozen=True)
 class OrbitProof:
-    """Proof of an orbit of a system; the float64 matrices and forcing of the system are taken as exact.
-
-    The numbers of the Orbit, computed in float64, are called listed numbers.
+    """Proof of an orbit; the float64 matrices and forcing of the system are taken as exact.
 
     Attributes
     ----------
     radius : float
-        Half-width of six intervals around the listed impact times and changes of ball velocity. The equations of
-        asymmetric.py have exactly one root in these intervals. The root is proved to be symmetric if `Orbit.symmetric`
-        is True, and asymmetric otherwise. The half-width is 0 if nothing is proved.
+        Half-width of intervals around the impact times and changes of ball velocity of the Orbit; 0 if nothing is
+        proved. Exactly one root lies in these intervals. It is symmetric or not as `Orbit.symmetric` states.
     error : float
-        Bound on the error of the listed impact phases and speeds; inf if no root is proved.
+        Bound on the error of the impact phases and speeds of the Orbit; inf if nothing is proved.
     motion : str
         "legal" if every ball meets its walls from inside and |W_i| < 1 in between; else "not legal" or "not proved".
     multipliers : tuple of acb
-        Enclosures of the 8 multipliers (4 for a single machine), by descending modulus; empty if none were found.
+        Enclosures of the multipliers by descending modulus; empty if none were found.
     moduli_error : float
-        Bound on the error of the listed moduli of the multipliers; inf if there are no enclosures.
+        Bound on the error of the moduli of the multipliers of the Orbit; inf without enclosures.
     """
 
     radius: float
@@ -76,12 +72,9 @@ _NOTHING = OrbitProof(0.0, math.inf, NOT_PROVED, (), math.inf)
 
 
 def prove(orbit) -> OrbitProof:
-    """Prove as much as possible about an Orbit, starting from its numbers in float64.
+    """Prove as much as possible about an Orbit.
 
-    Raises
-    ------
-    ValueError
-        If the boxes have an undamped resonance at a harmonic of the impacts.
+    An undamped resonance of the boxes raises ValueError.
     """
     with ctx.workprec(_BITS):
         conditions = EnclosedConditions(orbit.system)
@@ -125,10 +118,7 @@ def _of_kind(symmetric, conditions, root, listed, radius):
 
 
 def _has_multipliers(orbit, proved):
-    """Return True if the multipliers of the orbit agree with the enclosures `proved`, or if there are no enclosures.
-
-    They agree if every multiplier is close to an enclosure, and every enclosure to a multiplier.
-    """
+    """Return True if each multiplier is close to an enclosure and vice versa, or if there are no enclosures."""
     near = np.array(
         [[_near(one, other, _SPOILT_MULTIPLIER) for other in proved] for one in map(acb, orbit.multipliers.tolist())]
     )
@@ -148,12 +138,8 @@ def _distance(enclosures, listed):
 def krawczyk(equations, approximate: np.ndarray):
     """Return intervals that enclose a root near `approximate` (n,), and the half-width of wider intervals.
 
-    The wider intervals are centred at `approximate` and contain no other root. Several half-widths are tried, from the
-    largest to the smallest, until the intervals pass Krawczyk's test. If no half-width passes, the result is
-    (None, 0.0).
-
-    equations(x) returns the residual (n, 1) and Jacobian (n, n) for a list x of n intervals, or None if residual and
-    Jacobian are not defined on all of x.
+    The wider intervals are centred at `approximate` and contain no other root. On failure, the result is (None, 0.0).
+    equations(x) returns the residual (n, 1) and Jacobian (n, n) for a list x of n intervals, or None if undefined.
     """
     centre = [arb(value) for value in approximate.tolist()]
     for exponent in range(_WIDEST, _NARROWEST, -1):
@@ -166,9 +152,9 @@ def krawczyk(equations, approximate: np.ndarray):
 
 
 def _image(equations, box):
-    """Return the image of a list of intervals under Krawczyk's operator, or None on failure.
+    """Return the image of intervals under Krawczyk's operator, or None on failure.
 
-    The image contains every root of the equations that lies in the intervals.
+    The image contains every root in the intervals.
     """
     found, at = equations(box), equations([value.mid() for value in box])
     if found is None or at is None:

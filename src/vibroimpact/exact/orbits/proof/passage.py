@@ -1,9 +1,9 @@
 """Follow an orbit over one period in interval arithmetic: flights, monodromy matrix, distances from the walls.
 
-The state includes sin(Omega tau) and cos(Omega tau) at indices 8 and 9. A free flight over a time t is therefore a
-linear map with the matrix exp(A t), where A (10, 10) is a rate matrix. With the restitution matrix R and the normal n
-of the wall, the saltation matrix of floquet.py is R + (A R - R A) z n^T / (n . A z) for the state z just before the
-impact. Impacts are numbered from 0 to 3 as in conditions.py.
+Entries 8 and 9 of the state are sin(Omega tau) and cos(Omega tau). A free flight over a time t is therefore a linear
+map exp(A t) with a rate matrix A (10, 10). The saltation matrix is R + (A R - R A) z n^T / (n . A z). R is the
+restitution matrix, n the normal of the wall, and z the state just before the impact. Impacts are numbered as in
+conditions.py.
 """
 
 from flint import arb, arb_mat
@@ -23,11 +23,10 @@ _MOST = 2000  # largest number of pieces of a flight
 
 
 class EnclosedPassage:
-    """Enclosure of the periodic motion that belongs to a root of `EnclosedConditions`.
+    """Enclosure of the periodic motion of a root of `EnclosedConditions`.
 
-    unknowns: intervals that contain the root. rate (10, 10): rate matrix of free flight. phases: times of the impacts
-    in forcing periods. speeds: ball speeds on the flights after the impacts. The keys of phases and speeds are the
-    numbers of the impacts.
+    unknowns: intervals that contain the root. phases, speeds: impact time in periods and ball speed after the impact,
+    by the number of the impact.
     """
 
     def __init__(self, system, conditions, unknowns):
@@ -46,22 +45,16 @@ class EnclosedPassage:
             yield m, following, self._impacts[m // 2] * self._before(m), self._lags[following, m]
 
     def states(self):
-        """Yield the state (10, 1) at tau = 0.
-
-        If the first impact is within 1e-9 of tau = 0, also yield the state just after this impact.
-        """
+        """Yield the state (10, 1) at tau = 0, and the state just after a first impact within 1e-9 of tau = 0."""
         *_, (last, first, state, _) = self.flights()
         yield (self.rate * (self._conditions.period - self._unknowns[last])).exp() * state
         if abs(self._unknowns[first]) < _NEAR:
             yield self._impacts[first // 2] * self._before(first)
 
     def monodromy(self) -> arb_mat:
-        """Return the monodromy matrix (8, 8).
+        """Return the monodromy matrix from just before the first impact: (8, 8), or (4, 4) for a single machine.
 
-        The matrix maps perturbations just before the first impact to the perturbations one period later.
-
-        For a single machine, the matrix (4, 4) of the active module is returned. Entries are not finite if the relative
-        velocity at an impact may be zero.
+        Its entries are not finite if an impact may have zero relative velocity.
         """
         whole = identity(_SIZE)
         for m, _, after, duration in self.flights():
@@ -110,18 +103,20 @@ def _impact(i, conditions):
 
 
 def between_walls(passage) -> str:
-    """Return LEGAL or ILLEGAL if the motion of an EnclosedPassage is proved to be legal or illegal, else NOT_PROVED.
+    """Return LEGAL or ILLEGAL if an enclosed motion is proved to be legal or illegal, else NOT_PROVED.
 
-    In a legal motion |W_i| < 1 between impacts, and every ball hits its walls from inside. Flights are halved
-    until it is proved on each piece that |W_i| < 1 or, next to an impact, that W_i leaves or approaches the wall
-    monotonically. W_i is expanded to first order about the centre of a piece, with an enclosure of the remainder.
+    In a legal motion |W_i| < 1 between impacts, and every ball hits its walls from inside.
     """
     verdicts = {_of_flight(passage.rate, *flight) for flight in passage.flights()}
     return next(verdict for verdict in (ILLEGAL, NOT_PROVED, LEGAL) if verdict in verdicts)
 
 
 def _of_flight(rate, start, end, state, duration):
-    """Return the verdict on a free flight with the initial state (10, 1), from impact `start` to impact `end`."""
+    """Return the verdict on a free flight from impact `start` to impact `end`.
+
+    state: state at the beginning of the flight, shape (10, 1).
+    """
+    # Halve the flight until each piece is proved: |W_i| < 1 or, next to an impact, W_i is monotonic.
     pending = [(0.0, 1.0)]
     for _ in range(_MOST):
         if not pending:
@@ -139,7 +134,7 @@ def _of_flight(rate, start, end, state, duration):
 
 
 def _ranges(rate, state, duration, low, high):
-    """Return enclosures of W_i and W_i' over a piece of a flight, and of W_i at its centre, for i = 1, 2.
+    """Return enclosures of W_i and W_i' on a piece of a flight, and of W_i at its centre, for both modules.
 
     low, high: ends of the piece as fractions of the flight.
     """
@@ -147,6 +142,7 @@ def _ranges(rate, state, duration, low, high):
     offset = arb(0, (high - low) / 2) * duration
     around = (rate * offset).exp() * centre
     W, V, A = (GAPS * term for term in (centre, rate * centre, rate * (rate * around)))
+    # Expand W_i to first order about the centre of the piece; A encloses W_i'' for the remainder.
     over = [W[i, 0] + V[i, 0] * offset + A[i, 0] * offset * offset / 2 for i in range(2)]
     return over, [V[i, 0] + A[i, 0] * offset for i in range(2)], [W[i, 0] for i in range(2)]
 
@@ -154,7 +150,7 @@ def _ranges(rate, state, duration, low, high):
 def _inside(i, W, V, leaving, nearing):
     """Return True if ball i is proved to stay between its walls on a piece of a flight.
 
-    leaving, nearing: the impact at the start and at the end of the piece, or None.
+    leaving, nearing: impact at the start and at the end of the piece, or None.
     """
     touched = {WALLS[k]: sign for k, sign in ((leaving, -1), (nearing, 1)) if k is not None and k // 2 == i}
     return all(touched[wall] * wall * V > 0 if wall in touched else wall * W < 1 for wall in (1, -1))
