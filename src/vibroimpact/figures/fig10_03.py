@@ -33,7 +33,7 @@ SPEC = {
 def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
     """Return the saw-tooth Z(tau_0) of (10.11) and its impacts on [0, tau0_max].
 
-    The amplitude C and the phase theta [rad] are constant.
+    amplitude is the constant C, and theta the constant phase [rad].
 
     Returns columns panel, series ("Z" or "impacts"), tau0, Z. The points of Z include its corners.
 
@@ -65,7 +65,7 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(amplitude: float, theta: float, tau0_max: float) -> str:
-    """Return a text in Markdown on the shape of Z in exact motions of the system; arguments as in `compute`."""
+    """Return a text in Markdown on Z in exact motions; arguments as in `compute`."""
     return (
         f"{EXACTLY} between its impacts a ball flies freely, so that $Z = W - U = -(1 + \\varepsilon)Y$ consists of "
         "straight lines there, too. Its corners are half a period apart only in symmetric motions."

@@ -35,16 +35,14 @@ INSET = (0.335, 0.43, 0.31, 0.38)
 
 
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
-    """Return the manifold B(C), (10.16), for 0 <= C <= C_max, and the level of its fold.
+    """Return the manifold B(C), (10.16), for 0 <= C <= C_max, and the level B_min of its fold, (10.25).
 
-    The branches are stable or unstable by (10.26). The fold is at the level B_min, (10.25).
-
-    Returns columns panel, series ("SIM stable", "SIM unstable", "B_min"), C, B.
+    Returns columns panel, series ("SIM stable" and "SIM unstable" by (10.26), "B_min"), C, B.
 
     Raises
     ------
     ValueError
-        If C_max does not reach beyond the fold C_min.
+        If C_max is not above the fold C_min.
     """
     level = curve("SIM", "B_min", C=[0.0, C_max], B=B_min(rho(kappa)))
     return join([*branches("SIM", kappa, C_max), level])
@@ -58,7 +56,7 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(kappa: float, C_max: float) -> str:
-    """Return a text in Markdown on the exact impact map at the stability limit (10.26); arguments as in `compute`."""
+    """Return a text in Markdown on the exact impact map at the stability limit (10.26)."""
     border, low, high = printed_limit(rho(kappa)), lower_limit(kappa), upper_limit(kappa)
     growth = abs(impact_multipliers(border, kappa)).max()
     return (
@@ -69,9 +67,9 @@ def exact(kappa: float, C_max: float) -> str:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: stable branch bold solid, unstable branch dashed, B_min and C_min dotted.
+    """Draw the table of `compute`: stable branch bold, unstable branch dashed, B_min and C_min dotted.
 
-    The inset shows the stable piece of the left arm, from the stability limit (10.26) to the fold.
+    The inset shows the manifold from the stability limit (10.26) to the fold.
     """
     figure = new_figure(SINGLE_COLUMN, 66.0)
     axes = figure.add_subplot()

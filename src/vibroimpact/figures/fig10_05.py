@@ -31,11 +31,9 @@ REGIONS = {"stable": LIGHT_GREY, "unstable": "white"}
 
 
 def compute(C_range: tuple[float, float]) -> pd.DataFrame:
-    """Return the stable and unstable regions by (10.26) and the fold C_min(kappa), (10.25).
+    """Return the stable and unstable regions by (10.26) and the fold C_min(kappa), (10.25), for C in C_range.
 
-    The plane is 0 <= kappa <= 1 with C in C_range.
-
-    Returns columns panel, series, kappa, C; the series "stable" and "unstable" are the outlines of the regions.
+    Returns columns panel, series, kappa (0 to 1), C; the series "stable" and "unstable" are outlines of the regions.
 
     Raises
     ------
@@ -59,7 +57,7 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """Return one row for each of six evenly spaced kappa: the limit (10.26) of C, C_min, and C_min minus this limit."""
+    """Return the limit (10.26) of C, C_min and their difference at six evenly spaced kappa."""
     fold = select(table, "regions", "C_min")["C"].to_numpy()
     border = select(table, "regions", "stable").iloc[: len(fold)]
     rows = np.linspace(0, len(fold) - 1, 6).astype(int)
@@ -68,7 +66,7 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(C_range: tuple[float, float]) -> str:
-    """Return a text in Markdown on the exact impact map at the stability limit (10.26); arguments as in `compute`."""
+    """Return a text in Markdown on the exact impact map at the stability limit (10.26)."""
     kappa = np.linspace(0.0, 1.0, 201)
     growth = max(abs(impact_multipliers(printed_limit(rho(k)), k)).max() for k in kappa)
     return (

@@ -79,16 +79,17 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
     Parameters
     ----------
     points : DataFrame
-        The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
+        Fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
     model : str, default 'slow_flow'
-        slow_flow or exact_orbit. With exact_orbit, P_i and S_i are computed from the exact orbit next to the fixed
-        point. Fixed points without an exact orbit next to them are left out.
+        With exact_orbit, P_i and S_i belong to the exact orbits next to the fixed points. Fixed points without such an
+        orbit are left out.
     C_max
-        Largest C_i of the planes: one number, or one per module. If a fixed point has C_i > C_max / 1.1, the planes of
-        module i end at 1.1 times the largest C_i of a fixed point.
+        Largest C_i of the planes, one number or one per module. If 1.1 times the largest C_i of a fixed point is
+        larger, the planes end there.
 
-    Returns columns panel (label and module: "a1", "a2", ...), series ("SIM stable", "SIM unstable", "P_i", "S_i", and
-    "S_i beyond" for singular points outside the planes), C, B. Without fixed points the planes show the manifold alone.
+    Returns columns panel (label and module, such as "a1"), series, C, B. The series are "SIM stable", "SIM unstable",
+    "P_i", "S_i", and "S_i beyond" for singular points outside the planes. Without fixed points the planes show the
+    manifold alone.
 
     Raises
     ------
@@ -100,7 +101,7 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
 
 
 def planes(system, points, C_max) -> list[pd.DataFrame]:
-    """Return a table for each curve and each set of points in both planes of each fixed point; see `compute`."""
+    """Return the tables of `compute`, one per curve or set of points in a plane."""
     ends = np.fmax.reduce([np.broadcast_to(C_max, 2), *(1.1 * point.C for point in points)])
     if not points:
         return [branch for i in MODULES for branch in branches(str(i), system.kappa, ends[i - 1])]
@@ -124,13 +125,12 @@ def _plane(system, point, module, end):
 
 @styled
 def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
-    """Draw the table of `compute`: a row of planes per fixed point, with P_i as black circles and S_i as grey squares.
+    """Draw the table of `compute`: one row per fixed point, P_i as black circles, S_i as grey squares.
 
     Parameters
     ----------
     chapter : dict, optional
-        Verdicts of the chapter by label. The heading of a fixed point shows the chapter's verdict if the verdict of
-        (10.26) is different.
+        The chapter's verdicts by label; headings show them where (10.26) differs.
     """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + MARGINS)
@@ -160,7 +160,7 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
 def verdict(table: pd.DataFrame, label: str) -> str:
     """Return the verdict of (10.26) on a fixed point, or "" if `table` does not contain the point.
 
-    The verdict is "stable" if the point lies on the stable branch in the plane of each active module, else "unstable".
+    A "stable" point lies on the stable branch in the plane of each active module.
     """
     beyond = [
         select(table, f"{label}{module}", "SIM stable")["C"].min() < C
@@ -171,9 +171,9 @@ def verdict(table: pd.DataFrame, label: str) -> str:
 
 
 def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
-    """Return a text with the C_i of all singular points outside the frame of a panel.
+    """Return a text with the C_i of all singular points outside the frame of a panel, or "" if all are inside.
 
-    The text is "no S_i" if the panel has no singular points at all, and "" if all of them are inside the frame.
+    The text is "no S_i" if the panel has no singular points.
     """
     name = f"S_{panel[-1]}"
     beyond = select(table, panel, f"{name} beyond")["C"]

@@ -55,14 +55,13 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
     Parameters
     ----------
     points : DataFrame
-        The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
+        Fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
     fixed_point : str
         Label of the fixed point.
     model : str, default 'slow_flow'
         slow_flow, exact_orbit or second_term; see `vibroimpact.accuracy.model_choice`.
 
-    Returns columns panel ("module 1", "module 2"), series ("U_1", ...), tau, value. The impacts, where W_i and Y_i
-    have their corners, are among the points.
+    Returns columns panel ("module 1", "module 2"), series ("U_1", ...), tau, value. The points include the impacts.
 
     Raises
     ------
@@ -100,7 +99,7 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def draw_response(axes, table: pd.DataFrame, module: int) -> dict:
-    """Draw coordinates and walls of one module over tau; return entries for the argument `panels` of `name_curves`."""
+    """Draw the coordinates and walls of one module over tau, and return the argument `panels` of `name_curves`."""
     lines = {name: select(table, f"module {module}", f"{name}_{module}") for name in COORDINATES}
     time_plot(axes, [(line["tau"], line["value"], COORDINATES[name]) for name, line in lines.items()])
     axes.set_ylabel(f"box $X_{module}$, ball $Y_{module}$")

@@ -35,12 +35,7 @@ def compute(
 ) -> pd.DataFrame:
     """Return the planes of figure 10.6 and the response of figure 10.7 for one fixed point.
 
-    Returns columns panel, series, C, B, tau, value; see `fig10_06.compute` and `fig10_07.compute`.
-
-    Raises
-    ------
-    ValueError
-        If `fig10_06.compute` or `fig10_07.compute` raises it.
+    Returns columns panel, series, C, B, tau, value. Exceptions are those of both figures.
     """
     point = motion(system, points, fixed_point, model).point
     return join(

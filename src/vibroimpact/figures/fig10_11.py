@@ -46,7 +46,7 @@ SPEC = {
 
 
 def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """Return the motion as in figure 10.8, keyed "csv", and amplitude statistics of both boxes, keyed "statistics"."""
+    """Return the motion as in figure 10.8, keyed "csv", and its amplitude statistics, keyed "statistics"."""
     return {"csv": simulated.compute(system, samples, events), "statistics": simulated.statistics(system, samples)}
 
 

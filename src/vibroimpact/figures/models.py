@@ -77,13 +77,12 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
     Parameters
     ----------
     scenes : dict
-        One dict per figure, keyed by the name of the figure. Each dict has the keys module (name of the Python module),
-        notebook (name of the notebook), model (model in use), system (parameters) and settings (of the figure or of
-        its simulation, see `vibroimpact.accuracy.window.window`).
+        A dict per figure, keyed by its name. The keys of each dict are module and notebook (names), model (in use),
+        system (parameters), and settings (of the figure or of its simulation).
     seconds : float
-        Time [s] for which each run is repeated to measure its run time.
+        Time [s] for which each run is repeated.
 
-    Returns columns figure, model, compared_with, error, tolerance, seconds, in_use; see SPEC.
+    Returns the columns of SPEC.
     """
     rows = []
     for figure, scene in scenes.items():
@@ -95,10 +94,7 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
 
 
 def _motions(module, system, settings, models, seconds):
-    """Yield, for each model of a figure of fixed points: its name, what it is compared with, its error, its cost [s].
-
-    The cost is the run time of the whole computation from the parameters.
-    """
+    """Yield name, reference, error and run time [s] of each model of a figure of fixed points."""
 
     def made(model):
         try:
@@ -113,19 +109,16 @@ def _motions(module, system, settings, models, seconds):
 
 
 def _simulations(module, system, settings, models, seconds):
-    """Return, for each model of a simulated motion: its name, what it is compared with, its error, its cost [s].
-
-    The runs in float64 and in arbitrary precision both start where the transient in float64 ends, since the transient
-    takes a minute in arbitrary precision. The cost in arbitrary precision includes an estimate for the transient: the
-    number of periods of the transient, multiplied by the run time per period of a run with few samples.
-    """
+    """Return name, reference, error and run time [s] of each model of a simulated motion."""
     whole = window(system, settings | {"model": "float64"})
+    # Runs for the error start after the transient, which takes a minute in arbitrary precision.
     part = settings | {"initial_state": whole.samples[list(NAMES)].iloc[0].tolist(), "transient_cycles": 0}
     part["window_cycles"] = min(part["window_cycles"], COMPARED)
     run = window(system, part | {"model": "float64"})
     ((_, fast),) = interleaved([lambda: window(system, settings | {"model": "float64"})], seconds)
     ((reference, slow),) = interleaved([lambda: window(system, part | {"model": "reference"})], seconds)
     if transient := settings["transient_cycles"]:
+        # The transient in arbitrary precision is estimated from the run time per period of a run with few samples.
         few = part | {"model": "reference", "samples_per_cycle": 8}
         slow += interleaved([lambda: window(system, few)], seconds)[0][1] * transient / part["window_cycles"]
     chaotic = "horizon" in run.trust["certificate"]
@@ -139,10 +132,9 @@ def _simulations(module, system, settings, models, seconds):
 
 
 def largest_error(table, reference) -> float:
-    """Return the largest difference between the points P_i, or the curves, of two tables of a figure [percent].
+    """Return the largest difference between the points P_i, or the curves, of two tables [percent of the range].
 
-    A difference in a column is divided by the range of the column in the same panel of `reference`. Curves are compared
-    at the times that are in both tables. The result is inf if a table is None, or if the tables show different points.
+    Curves are compared at common times. The result is inf if a table is None, or if the points do not match.
     """
     if table is None or reference is None:
         return np.inf
@@ -164,10 +156,9 @@ def _plotted(table, column):
 
 
 def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
-    """Return four statistics of a run with bursts of resonance (`modulation.bursts`) [percent].
+    """Return the share of time in bursts of ball 2, and smallest, mean and largest amplitude of X_2 [percent].
 
-    The first is the share of the time that belongs to bursts of ball 2. The others are the smallest, the mean and the
-    largest amplitude of X_2, relative to the range of X_2 in `reference`; each forcing period has one amplitude.
+    Amplitudes are relative to the range of X_2 in `reference`.
     """
     impacts = run.events[(run.events["module"] == 2) & (run.events["kind"] == "impact")]
     bursts = modulation.bursts(impacts["tau"], impacts["wall"], system.period)
@@ -180,7 +171,7 @@ def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: errors and run times, one row per model, filled markers for the models in use."""
+    """Draw errors and run times of the table of `compute`, with filled markers for the models in use."""
     starts = table["figure"].ne(table["figure"].shift())
     places = (np.arange(len(table)) + GAP * (starts.cumsum() - 1)).to_numpy()
     figure = new_figure(DOUBLE_COLUMN, 5.5 * places[-1] + 32.0)

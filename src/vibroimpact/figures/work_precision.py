@@ -58,7 +58,7 @@ def compute(problems: dict, seconds: float, short: bool) -> pd.DataFrame:
     Parameters
     ----------
     problems : dict
-        For each problem, by name: `system` (parameters by name), `initial_state` and `cycles`.
+        By name, a dict with `system` (parameters by name), `initial_state` and `cycles`.
     seconds, short
         As in `measure`.
     """
@@ -80,11 +80,11 @@ def draw(table: pd.DataFrame) -> Figure:
     for axes, problem, letter in zip(panels, problems, ascii_lowercase, strict=False):
         axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel="error of the final state")
         axes.axvspan(LARGEST * 2, END, color=LIGHT_GREY, linewidth=0, zorder=0)
-        axes.axvline(LARGEST * 2, color=LIGHT_GREY)  # keeps the names of curves off the edge of the shading
+        axes.axvline(LARGEST * 2, color=LIGHT_GREY)  # names avoid lines, so that none crosses the edge of the shading
         axes.vlines(GOALS, 0, 1, transform=axes.get_xaxis_transform(), **GUIDE)
         measured = drawn[(drawn["problem"] == problem) & drawn["seconds_per_cycle"].notna()]
         by_method = measured.groupby("method", sort=False)
-        # Methods without a result are named first: their lines are in the shading at the right, which has little room.
+        # Methods without a result get their names first, since the grey lane of their markers has little room.
         by_room = sorted(by_method, key=lambda one: one[1]["outcome"].eq("finished").any())
         curves[axes] = [(method, lines) for method, rows in by_room for lines in _method(axes, method, rows)]
         axes.set_xticks(10.0 ** np.arange(-15, 1, 3))

@@ -1,7 +1,6 @@
 """Provide the motion that a notebook shows: simulate it, or read it from files of a build.
 
-The argument `inputs` gives the paths of the files. An error is raised if the files were computed with parameters other
-than those of the notebook.
+The files must belong to the parameters of the notebook.
 """
 
 import json
@@ -23,19 +22,9 @@ AS_ASYMMETRIC = "as in no motion of the chapter's theory"
 
 
 def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Return samples and events of the motion of a case, read from the files in `inputs` or, without files, simulated.
+    """Return samples and events of the motion of a case, from the files in `inputs` or, without files, simulated.
 
-    Parameters
-    ----------
-    parameters : dict
-        Parameters of the system, by name.
-    settings : dict
-        Settings of the simulation, see `vibroimpact.accuracy.window.window`.
-
-    Raises
-    ------
-    ValueError
-        If the files belong to another case, or were computed with other parameters or settings.
+    Files of another case, other parameters or other settings raise ValueError.
     """
     if inputs:
         summary = json.loads(Path(inputs["summary"]).read_text(encoding="utf-8"))
@@ -53,16 +42,10 @@ def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tupl
 
 
 def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -> str:
-    """Return sentences in Markdown on a simulated motion: whether it repeats, and how long its balls fly.
+    """Return a text in Markdown on whether a simulated motion repeats, and on its flight times.
 
-    Parameters
-    ----------
-    displacements
-        Displacements in the window, shape (n, 4), with `per_cycle` samples per forcing period.
-    impacts : DataFrame
-        Impacts in the window, columns tau, module, wall.
-    period : float
-        Forcing period.
+    displacements: in the window, (n, 4), with `per_cycle` samples per forcing period. impacts: in the window, columns
+    tau, module, wall.
     """
     mirror = mirror_distance(displacements, per_cycle)
     kind = f"symmetric, {AS_SYMMETRIC}" if mirror <= SETTLED else f"**asymmetric**, {AS_ASYMMETRIC}"
@@ -77,7 +60,7 @@ def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -
 
 
 def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, float]]:
-    """Return, for each ball that leaves both walls, its module and mean flight times [periods] from walls +1 and -1."""
+    """Return module and mean flight times [periods] from walls +1 and -1 of each ball that leaves both walls."""
     found = []
     for module, mine in impacts.groupby("module"):
         flown = mine["tau"].diff().shift(-1).groupby(mine["wall"]).mean() / period
@@ -87,11 +70,7 @@ def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, floa
 
 
 def repetition(displacements, per_cycle: int) -> str:
-    """Return a phrase on how many periods a motion takes to repeat.
-
-    The phrase also gives the largest change of a displacement over this number of periods, or over one period if the
-    motion does not repeat.
-    """
+    """Return a phrase on how many periods a motion takes to repeat, and on its largest change until then."""
     longest = max(1, (len(displacements) - 1) // (2 * per_cycle))
     changes = {lag: distance_after(displacements, per_cycle, lag) for lag in range(1, longest + 1)}
     settled, near = (next((n for n in changes if changes[n] <= limit), None) for limit in (SETTLED, NEAR))

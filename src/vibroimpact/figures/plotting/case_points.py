@@ -1,7 +1,6 @@
 """Provide the fixed points that a notebook shows: compute them, or read them from files of a build.
 
-The argument `inputs` gives the paths of the files. An error is raised if the files were computed with parameters other
-than those of the notebook.
+The files must belong to the parameters of the notebook.
 """
 
 import numpy as np
@@ -21,12 +20,9 @@ HINT = "set inputs = {} to compute from the parameters of the notebook"
 
 
 def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
-    """Return the fixed points of a case, read from inputs["points"] if `inputs` is given; see `fixed_point_table`.
+    """Return the fixed points of a case, computed or, if `inputs` is given, read from inputs["points"].
 
-    Raises
-    ------
-    ValueError
-        If the file contains another case, or other points than the fixed points of the system.
+    A file with another case or other points raises ValueError.
     """
     computed = fixed_point_table(case, system)
     if not inputs:
@@ -37,15 +33,10 @@ def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
 
 
 def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFrame:
-    """Return the verdicts of all criteria on each fixed point, read from files of a build if `inputs` is given.
+    """Return the verdicts of all criteria on each fixed point, computed or, if `inputs` is given, read from files.
 
-    Columns label, orbit (label of the exact orbit next to the point), exact (verdict by the multipliers of the orbit),
-    largest multiplier (largest modulus of these multipliers), and the other columns of `fixed_point_rows`.
-
-    Raises
-    ------
-    ValueError
-        If the file contains another case, or other points.
+    Columns are those of `fixed_point_rows`, and largest multiplier (in modulus, of the exact orbit next to the point).
+    A file with another case or other points raises ValueError.
     """
     if inputs:
         orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["points"])

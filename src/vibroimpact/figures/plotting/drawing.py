@@ -15,7 +15,7 @@ HATCH = 1.5
 
 
 def sheet(width: float, height: float) -> tuple[Figure, object]:
-    """Return a figure with one bare set of axes whose data units are mm from the lower left corner of the paper."""
+    """Return a figure with one bare set of axes, measured in mm from the lower left corner."""
     figure = new_figure(width, height, layout=None)
     axes = figure.add_axes((0, 0, 1, 1), xlim=(0, width), ylim=(0, height))
     axes.set_axis_off()
@@ -40,7 +40,7 @@ def centre_line(axes, x, bottom, top):
 
 
 def ground(axes, x, y, outside):
-    """Draw the surface of the ground through the points (x, y), hatched on the side of the unit vector `outside`."""
+    """Draw the ground through the points (x, y), hatched on the side of the unit vector `outside`."""
     polyline(axes, x, y, OUTLINE)
     start, end = np.array([x[0], y[0]]), np.array([x[-1], y[-1]])
     run = np.linalg.norm(end - start)
@@ -61,7 +61,7 @@ def spring(axes, x0, x1, y):
 
 
 def damper(axes, x0, x1, y):
-    """Draw a viscous damper from (x0, y) to (x1, y): a cup fixed to the left end, a piston to the right one."""
+    """Draw a viscous damper from (x0, y) to (x1, y), with the cup on the left and the piston on the right."""
     height, length = 1.5, 4.0
     left, right = 0.5 * (x0 + x1 - length), 0.5 * (x0 + x1 + length)
     piston = left + 0.45 * length

@@ -12,14 +12,10 @@ BRANCHES = {"SIM unstable": UNSTABLE, "SIM stable": STABLE}
 
 
 def branches(panel: str, kappa: float, C_max: float) -> list[pd.DataFrame]:
-    """Return both branches of B(C), (10.16), for 0 <= C <= C_max, divided at the limit of (10.26); columns C, B.
+    """Return the unstable and the stable branch of B(C), (10.16), for 0 <= C <= C_max, by (10.26).
 
-    Both branches contain the point where they meet. The stable branch contains the fold C_min of (10.25).
-
-    Raises
-    ------
-    ValueError
-        If C_max does not reach beyond the fold.
+    Both branches contain their common point, the stable branch also the fold C_min of (10.25). C_max must be above
+    C_min.
     """
     r = rho(kappa)
     limit, fold = printed_limit(r), C_min(r)

@@ -16,7 +16,7 @@ def one_line(text) -> str:
 
 
 def plain(text) -> str:
-    """Return a text with escapes, so that it has no markup, formula, link or entity and does not end a table cell."""
+    """Return a text on one line with escapes, so that it has no markup and does not end a table cell."""
     return ESCAPED.sub(r"\\\1", one_line(text))
 
 
@@ -34,8 +34,8 @@ WORDS = {"None": "–", "nan": "–", "inf": "∞", "True": "yes", "False": "no"
 def digits(value, number: int = 3) -> str:
     """Return a value as text; numbers have `number` significant digits.
 
-    Nonzero numbers of modulus below 1e-4, or of 1e6 and above, are written with a power of ten. None, NaN, infinity,
-    True and False are replaced by the texts in WORDS.
+    Nonzero numbers of modulus below 1e-4 or from 1e6 on are written with a power of ten. WORDS contains the texts for
+    None and other values.
     """
     try:
         value = float(value) if isinstance(value, str) else value

@@ -31,7 +31,7 @@ def mark(method: str) -> dict:
 
 
 def draw_method(axes, method: str, x, y, wrong) -> list:
-    """Draw the curve of a method, with hollow markers where `wrong` (n,) is True; return its lines."""
+    """Draw the curve of a method, with hollow markers where `wrong` is True, and return its lines."""
     width = 1.6 if method == "this engine" else 0.8
     return [
         *axes.plot(x, y, **mark(method) | {"linestyle": DASHES.get(method, "-"), "linewidth": width}),

@@ -25,13 +25,12 @@ which curve the name belongs. OVERLAPS: the name covers something."""
 def name_curves(figure, panels: dict, **style) -> None:
     """Write the name of each curve next to it, in its colour, where it covers no line, marker, text or inset.
 
-    Call `name_curves` after all other drawing, since the places of the names depend on the axes limits and on the
-    layout. A halo separates names from shading.
+    Call this function last, since the places of the names depend on axes limits and layout.
 
     Parameters
     ----------
     panels : dict
-        For each axes, a list of pairs: the name of a curve, and a list of the Line2D that show the curve.
+        For each axes, a list of pairs: the name of a curve, and the Line2D that show the curve.
     style
         Text properties of the names.
     """
@@ -41,7 +40,7 @@ def name_curves(figure, panels: dict, **style) -> None:
 
 
 def name_walls(axes, name: str = "wall") -> None:
-    """Write a name at the right ends of the thin lines at the walls W = +-1."""
+    """Write a name at the right ends of the lines at the walls W = +-1."""
     for wall in (-1.0, 1.0):
         place = {"xycoords": axes.get_yaxis_transform(), "textcoords": "offset points"}
         axes.annotate(name, (1.0, wall), (3, 0), va="center", linespacing=0.9, fontsize=10, **place)
@@ -78,11 +77,8 @@ class _Names:
     def _place(self, half, own, others):
         """Return the centre of a name near its curve, and both ends of the leader line from the name to the curve.
 
-        The nearest place without a defect (UNCLEAR or OVERLAPS) is chosen. If there is no such place near the curve, a
-        place with a defect is chosen.
-
-        half: half the width and height of the name. own: discs that cover the curve (see `_outline`). others: discs
-        that cover all other named curves.
+        half: half the width and height of the name. own, others: discs that cover the curve, and the other named
+        curves.
         """
         frame, margin = self.axes.get_window_extent(), half + GAP * self.point
         x = np.arange(frame.x0 + margin[0], frame.x1 - margin[0], STEP * self.point)
@@ -116,7 +112,7 @@ class _Names:
 def _outline(line, point):
     """Return discs that cover a line and its markers: centre x, centre y and radius in pixels, (n, 3).
 
-    point: one typographic point in pixels.
+    point: pixels per typographic point.
     """
     corners = line.get_transform().transform(line.get_xydata())
     corners = corners[np.isfinite(corners).all(axis=1)]

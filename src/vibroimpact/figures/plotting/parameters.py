@@ -10,19 +10,9 @@ OF_ALL = ("figure", "alt", "case", "inputs")
 
 
 def refuse_unknown(shell, known) -> None:
-    """Check the names that the parameter cells of a notebook assigned when they were last run.
+    """Raise ValueError if a parameter cell of a notebook assigns an unknown name.
 
-    Parameters
-    ----------
-    shell
-        The running IPython, which keeps the sources of cells.
-    known
-        Names of the parameters of this notebook, without the parameters that all notebooks have.
-
-    Raises
-    ------
-    ValueError
-        If an assigned name is neither in `known` nor a parameter that all notebooks have.
+    shell: the running IPython. known: parameters of this notebook, without those of all notebooks.
     """
     cells = shell.user_ns["In"]
     last = max(number for number, source in enumerate(cells) if source.startswith(FIRST))

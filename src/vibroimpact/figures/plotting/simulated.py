@@ -23,13 +23,12 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame
     Parameters
     ----------
     samples : DataFrame
-        Columns tau, X2, Y2 (others are ignored), ascending in tau.
+        Columns tau, X2, Y2, ascending in tau.
     events : DataFrame
-        Impacts, sticks and releases, columns tau, module, wall, X2 (others are ignored).
+        Impacts, sticks and releases, columns tau, module, wall, X2.
 
     Returns columns panel ("a", "b"), series ("X_2", "W_2"), tau, cycle (tau in forcing periods), value. The points
-    include the events of module 2 between the first and the last sample, where W_2 is exactly at a wall and has its
-    corners.
+    include the events of module 2, where W_2 is exactly at a wall.
     """
     inside = (events["module"] == 2) & events["tau"].between(samples["tau"].min(), samples["tau"].max())
     corners = events.loc[inside, ["tau", "X2"]].assign(W2=events.loc[inside, "wall"].astype(float))
@@ -46,12 +45,12 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame
 def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
     """Return statistics of the amplitudes of each box.
 
-    An amplitude is half the peak-to-peak displacement of a box in one forcing period. A modulation period is the time
-    from one swell of the amplitude to the next (`exact.measures.modulation.swells`).
+    An amplitude is half the peak-to-peak displacement in one forcing period. A modulation period is the time from one
+    swell of the amplitude to the next.
 
     Returns columns displacement ("X1", "X2"), smallest amplitude, largest amplitude, amplitude variation (standard
-    deviation divided by mean), modulation periods (number of modulation periods), mean length in cycles (mean length of
-    a modulation period in forcing cycles; NaN if there are none).
+    deviation divided by mean), modulation periods (their number), mean length in cycles (mean modulation period in
+    forcing cycles, or NaN).
     """
     per_cycle = samples_per_cycle(samples["tau"].to_numpy(), system.period)
     amplitudes = {name: modulation.cycle_amplitudes(samples[name], per_cycle) for name in ("X1", "X2")}
@@ -71,12 +70,9 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
 
 @styled
 def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
-    """Draw the table of `compute`: X_2 in panel a, and below, in panel b, W_2 with thin lines for the walls.
+    """Draw the table of `compute`: X_2 in panel a, and W_2 with its walls in panel b below.
 
-    Parameters
-    ----------
-    shaded : ndarray, default ()
-        Time intervals with a grey background [forcing cycles], (n, 2).
+    shaded: time intervals with a grey background [forcing cycles], (n, 2).
     """
     figure = new_figure(SINGLE_COLUMN, 80.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True)
@@ -99,10 +95,7 @@ def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
 
 
 def without_resonance(table: pd.DataFrame) -> np.ndarray:
-    """Return the time intervals without resonance [forcing cycles], (n, 2).
-
-    In such an interval, ball 2 needs more than one forcing cycle to reach the opposite wall.
-    """
+    """Return the time intervals in which ball 2 does not reach the opposite wall within a cycle [cycles], (n, 2)."""
     motion = select(table, "b", "W_2")
     time, wall = motion.loc[motion["value"].abs() == 1, ["cycle", "value"]].to_numpy().T
     reached = time[np.diff(wall, prepend=0) != 0]

@@ -46,18 +46,18 @@ def new_figure(width: float, height: float, layout: str | None = "constrained") 
 
 
 def side_by_side(panels: int, most: int = 3) -> tuple[int, int]:
-    """Return the numbers of columns and rows for a number of panels, with at most `most` panels in a row."""
+    """Return the numbers of columns and rows for a number of panels, at most `most` in a row."""
     columns = min(panels, most)
     return columns, -(-panels // columns)
 
 
 def heading(axes, letter: str = "", words: str = "") -> None:
-    """Write the heading of a panel: its letter in bold, as in captions, and words on its content."""
+    """Write the heading of a panel: its letter in bold, and words on its content."""
     axes.set_title("   ".join(filter(None, [letter and rf"$\mathbf{{{letter}}}$", words])), loc="left", pad=4)
 
 
 def time_plot(axes, lines, walls: bool = True) -> None:
-    """Draw lines over time, each given as (times (n,), values (n,), style), and thin lines at the walls W = +-1."""
+    """Draw lines over time, each given as (times, values, style), and the walls W = +-1."""
     for wall in (-1.0, 1.0) if walls else ():
         axes.axhline(wall, color=BLACK, linewidth=0.4, zorder=0)
     for time, values, style in lines:
@@ -82,9 +82,9 @@ def png(figure: Figure) -> bytes:
 def save(figure: Figure, outputs: dict) -> None:
     """Write a figure to outputs["png"], ["pdf"] and ["svg"], if present, all with the layout of the first file.
 
-    Versions of the packages in this process are written to outputs["provenance"], if present.
+    Package versions are written to outputs["provenance"], if present.
     """
-    # The order is fixed, since the last digits of the axes' positions depend on what was drawn before.
+    # The order is fixed, since earlier drawing changes the last digits of the axes' positions.
     for kind in (kind for kind in _METADATA if kind in outputs):
         figure.savefig(outputs[kind], format=kind, metadata=_METADATA[kind])
         figure.set_layout_engine(None)  # one layout for all files; a layout engine would draw each file twice
@@ -94,10 +94,9 @@ def save(figure: Figure, outputs: dict) -> None:
 
 
 def draw_tables(figure, read: dict) -> Figure:
-    """Draw a figure from its tables `read`, {name: DataFrame}; `figure` is the Python module of the figure.
+    """Draw a figure (given as its Python module) from its tables `read`, {name: DataFrame}.
 
-    If the figure has no tables, `figure.draw` is called without an argument. If the figure has only the table "csv",
-    the argument is this table. Otherwise the argument is `read`.
+    `figure.draw` gets one table if "csv" is the only one, else `read`; without tables it gets no argument.
     """
     if not read:
         return figure.draw()
@@ -108,15 +107,8 @@ def draw_tables(figure, read: dict) -> Figure:
 def write_and_draw(figure, computed, outputs: dict) -> None:
     """Write the tables of a figure to files, and draw the figure from the tables as written.
 
-    Parameters
-    ----------
-    figure
-        Python module of the figure.
-    computed
-        Result of its `compute`.
-    outputs : dict
-        Paths of the files to write. The keys are the names of tables and the keys that `save` uses. A table without a
-        path is not written.
+    figure: Python module of the figure. computed: result of its `compute`. outputs: paths, by the name of a table or by
+    a key of `save`. Tables without a path are not written.
     """
     drawn = _by_name(computed)
     for name in drawn.keys() & outputs.keys():
@@ -126,18 +118,10 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
 
 
 def shown(figure, inputs: dict, *args, **settings) -> tuple:
-    """Return the tables of a figure, in the form in which `compute` returns them, and its PNG (a path or the bytes).
+    """Return the tables of a figure, as `compute` returns them, and its PNG (a path or the bytes).
 
-    Parameters
-    ----------
-    figure
-        Python module of the figure.
-    inputs : dict
-        Paths of the files of a build: the path of each table, keyed by the name of the table, and the path of the
-        picture, keyed "png". This path is then returned as the PNG. If `inputs` is empty, the figure is computed and
-        drawn, and the bytes of the PNG are returned.
-    args, settings
-        Arguments of `compute`.
+    figure: Python module of the figure. inputs: paths of the tables by name, and path of the PNG by "png". If `inputs`
+    is empty, the figure is computed and drawn.
     """
     if not inputs:
         computed = figure.compute(*args, **settings)
