@@ -1,10 +1,9 @@
-"""Free flight in closed form: the linear flow of the boxes and the forcing phase, evaluated without time stepping.
+"""Free flight in closed form: the linear flow of the boxes and the forcing phase.
 
-Between events the boxes and the forcing phase obey z' = A z, z = [X1, X2, X1', X2', sin, cos] (matrices.rate_matrix). A
-table gives Taylor polynomials of the motion about the times j h (`jet_at`). The motion at a time t is the value of the
-polynomial about the nearest j h. The distance of t from j h is at most h/2, so that the value is exact to rounding. No
-eigenvalues are used, so that repeated, defective, undamped and resonant spectra need no special treatment. The phase
-Omega tau is reduced exactly at the start of a run (`Instant`) and advanced without loss of digits.
+Between events, z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. A table contains Taylor polynomials of the motion about
+the times j h (`jet_at`). The nearest j h differs from a time t by at most h / 2. The polynomial about this j h gives
+the motion at t to rounding. No eigenvalues are used, so repeated, defective, undamped and resonant spectra need no
+special treatment. The phase Omega tau is reduced exactly at the start of a run (`Instant`).
 """
 
 import math
@@ -34,12 +33,11 @@ _GUARD_BITS = 192
 
 
 class Coefficients(NamedTuple):
-    """Scalars of (10.2) used by the compiled loops.
+    """Scalars of (10.2) for the compiled loops.
 
-    ground: stiffness of the spring between box 2 and the ground (that of box 1 is 1). drive: amplitude of the force
-    vector, |(f1, f2)|. growth: amplitude of its sixth derivative, drive omega^6. shift: bound on the displacement that
-    the force causes in a period, for a box initially at rest. mass: mass of box and ball together. impulse,
-    impulse_rest: (1 + kappa) / (1 + epsilon), as the nearest float and the remainder.
+    ground: stiffness between box 2 and the ground. drive: force amplitude |(f1, f2)|. growth: drive omega^6.
+    shift: bound on the displacement that the force causes in a period.
+    mass: mass of box and ball. impulse, impulse_rest: (1 + kappa) / (1 + epsilon) as a float and its remainder.
     """
 
     k11: float
@@ -66,10 +64,10 @@ class Coefficients(NamedTuple):
 class Flow(NamedTuple):
     """Coefficients and flow tables of one system.
 
-    series (4, n, 6, 16), rotations (n, 2): tables of the motion and of the forcing phase, from `flow_tables.tables`.
-    spacing: time step of the tables. density: 1 / spacing. longest: last time of the tables. unit: inverse of the
-    fastest rate of the system, a time over which its state changes little. rate: bound on the rate of change of the
-    boxes in free flight, in the energy norm.
+    series (4, n, 6, 16), rotations (n, 2): tables from `flow_tables.tables`.
+    spacing: time step of the tables. density: 1 / spacing. longest: last time of the tables.
+    unit: inverse of the fastest rate of the system.
+    rate: bound on the rate of the boxes in free flight, in the energy norm.
     """
 
     coefficients: Coefficients
@@ -93,12 +91,9 @@ PARAMETERS = (
 
 
 def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the scalars of the flows of n systems, (n, NUMBERS), and the rate matrices from `exact_rates`.
+    """Return the scalars of the flows of n systems, (n, NUMBERS), and their rate matrices.
 
-    `count` is the number of times in the flow tables of each system.
-
-    The scalar `shift` is a bound on the displacement of a box that the force causes in a period. It follows from a
-    bound on the energy: sqrt(2 energy) grows by at most the time integral of the force.
+    count: number of times in each flow table.
     """
     parameters = np.array([[getattr(system, name) for name in PARAMETERS] for system in systems])
     rates, impulses, fastest = exact_rates(parameters)
@@ -109,6 +104,7 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
     fastest = np.maximum(np.maximum(1.0, omega), np.maximum(stiff, damped))
     spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two, whose multiples are exact
     drive, longest = np.hypot(f1, f2), spacing * (count - 1)
+    # bound on a displacement: sqrt(2 energy) grows by at most the time integral of the force
     shift = drive * (2.0 * np.pi / omega) * np.maximum(1.0, 1.0 / np.sqrt(ground))
     numbers = [
         *(k[:, 0, 0], k[:, 0, 1], k[:, 1, 1], ground, c[:, 0, 0], c[:, 0, 1], c[:, 1, 1], f1, f2, omega, e, kappa),
@@ -122,7 +118,7 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
 def flow_of(system) -> Flow:
     """Return the coefficients and flow tables of a system.
 
-    The tables cover at least one forcing period, unless this needs more than LONGEST_TABLE entries.
+    The tables cover at least one forcing period, or have LONGEST_TABLE entries.
     """
     (numbers,), (rates,) = numbers_of([system], 2)
     count = min(LONGEST_TABLE, int(np.ceil(system.period / numbers[SPACING])) + 1)
@@ -133,10 +129,9 @@ def flow_of(system) -> Flow:
 
 @lru_cache(maxsize=64)
 def tables_of(system) -> tuple[np.ndarray, ...]:
-    """Return the Flow of a system, packed into three arrays: (scalars, series, rotations).
+    """Return the Flow of a system as three arrays: (scalars, series, rotations).
 
-    A call of a compiled function with these arrays takes 1.5 us. A call with a Flow would take 4 us, because Numba
-    inspects each field.
+    With these arrays, a compiled function is called in 1.5 us instead of 4 us.
     """
     coefficients, series, rotations, *rest = flow_of(system)
     return np.array([*coefficients, *rest]), series, rotations
@@ -151,10 +146,7 @@ def unpacked(numbers, series, rotations):
 
 @inlined
 def jet_at(flow, mode, boxes, sine, cosine, j):
-    """Return the Taylor coefficients (see `jet`) of both boxes about the time t = j * flow.spacing of a free flight.
-
-    boxes, sine, cosine: boxes and forcing phase at the start of the flight, t = 0.
-    """
+    """Return the Taylor coefficients of both boxes about the time j * flow.spacing after the given state."""
     return weighted_sum(flow.series, mode, j, (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine))
 
 
@@ -162,10 +154,7 @@ def jet_at(flow, mode, boxes, sine, cosine, j):
 def acceleration(q, inverses, positions, velocities, forces):
     """Return the accelerations of both boxes.
 
-    inverses: inverse mass of each box, with its ball if the ball sticks (`inverse_masses`).
-
-    Given the k-th time derivatives of positions, velocities and forces, the result is the k-th time derivative of the
-    accelerations.
+    For k-th derivatives of positions, velocities and forces, return the k-th derivatives of the accelerations.
     """
     (i1, i2), (x1, x2), (v1, v2), (s1, s2) = inverses, positions, velocities, forces
     a1 = i1 * (s1 - q.k11 * x1 - q.k12 * x2 - q.c11 * v1 - q.c12 * v2)
@@ -175,7 +164,7 @@ def acceleration(q, inverses, positions, velocities, forces):
 
 @inlined
 def inverse_masses(q, mode):
-    """Return 1 / moving mass of each module in contact state `mode`: the box, or box and ball if the ball sticks."""
+    """Return 1 / (moving mass) of each module; a sticking ball adds its mass to the box."""
     return (q.inverse_mass if mode & 1 else 1.0), (q.inverse_mass if mode & 2 else 1.0)
 
 
@@ -187,7 +176,7 @@ def mode_of(walls):
 
 @inlined
 def jet(q, mode, boxes, sine, cosine):
-    """Return the Taylor coefficients X_i^(k) / k!, k = 0 to 7, in free flight: one tuple (8,) for each box."""
+    """Return the Taylor coefficients X_i^(k) / k!, k = 0 to 7, of both boxes in free flight as two tuples."""
     i1, i2 = inverse_masses(q, mode)
     x1, x2, v1, v2 = boxes
     fall = -q.omega * q.omega
@@ -205,7 +194,7 @@ def jet(q, mode, boxes, sine, cosine):
 
 @inlined
 def _scaled(x, v, a, b, c, d, e, g):
-    """Return the eight given derivatives of the orders k = 0 to 7, each divided by k!."""
+    """Return the given derivatives of orders k = 0 to 7, each divided by k!."""
     return x, v, a * (1 / 2), b * (1 / 6), c * (1 / 24), d * (1 / 120), e * (1 / 720), g * (1 / 5040)
 
 
@@ -248,7 +237,7 @@ def rotate_phase(flow, sine, cosine, j):
 
 @inlined
 def advance(flow, mode, boxes, sine, cosine, t):
-    """Return ((X1, X2, X1', X2'), sine, cosine of the forcing phase) a time t later, 0 <= t <= flow.longest."""
+    """Return ((X1, X2, X1', X2'), sine, cosine) after a free flight of duration t, 0 <= t <= flow.longest."""
     j = int(t * flow.density + 0.5)
     r = t - j * flow.spacing
     jets = jet_at(flow, mode, boxes, sine, cosine, j)
@@ -262,16 +251,14 @@ def advance(flow, mode, boxes, sine, cosine, t):
 
 @dataclass(frozen=True)
 class Instant:
-    """Exact time offset + 2 pi * turns with rational numbers offset and turns, for example the end of a run.
-
-    float(instant) is the nearest float.
+    """Exact time offset + 2 pi * turns, for example the end of a run.
 
     Attributes
     ----------
     offset, turns : Fraction
-        The two numbers in offset + 2 pi * turns.
+        Rational numbers.
     reached : bool
-        True if this is the end time of a run; a run that starts here continues that run.
+        True if a run that starts here continues another run.
     """
 
     offset: Fraction
@@ -279,7 +266,7 @@ class Instant:
     reached: bool = False
 
     def later(self, cycles: int, omega: float) -> "Instant":
-        """Return the time after `cycles` more periods 2 pi / omega, marked as the end of a run."""
+        """Return the end of a run that starts here and takes `cycles` periods 2 pi / omega."""
         return Instant(self.offset, self.turns + Fraction(cycles) / Fraction(omega), reached=True)
 
     def __float__(self):
@@ -292,13 +279,13 @@ def exactly(tau: float | Instant) -> Instant:
 
 
 def continues(begin: float | Instant) -> bool:
-    """Return True if a run from this time continues another run, so that a ball at rest on a wall already sticks."""
+    """Return True if a run from this time continues another run."""
     return isinstance(begin, Instant) and begin.reached
 
 
 @lru_cache(maxsize=1024)
 def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
-    """Return the phase omega tau modulo 2 pi as (float in [0, 2 pi), remainder of its rounding)."""
+    """Return the phase omega tau modulo 2 pi as a float in [0, 2 pi) and its rounding remainder."""
     instant = exactly(tau)
     part, turns = Fraction(omega) * instant.offset, Fraction(omega) * instant.turns % 1
     two_pi = _two_pi(_digits(part))
@@ -308,10 +295,7 @@ def phase_at(tau: float | Instant, omega: float) -> tuple[float, float]:
 
 
 def _digits(value):
-    """Return the number of bits of 2 pi after the binary point that are needed to compute value x 2 pi.
-
-    The product is then accurate to _GUARD_BITS bits after the binary point.
-    """
+    """Return how many binary places of 2 pi are needed for value * 2 pi to _GUARD_BITS binary places."""
     return _GUARD_BITS + math.ceil(abs(value)).bit_length()
 
 
@@ -335,9 +319,9 @@ def _arctan(inverse, one):
 
 @inlined
 def sine_and_cosine(phase, tail):
-    """Return sine and cosine of phase + tail, phase in [0, 2 pi], to one unit in the last place.
+    """Return sine and cosine of phase + tail, 0 <= phase <= 2 pi, to one unit in the last place.
 
-    Taylor series about the nearest multiple of a quarter turn give the same bits on every machine.
+    The bits are the same on every machine.
     """
     quarters = math.floor(phase * (1.0 / QUARTER) + 0.5)
     x, y = fused(-quarters, QUARTER, phase), tail - quarters * QUARTER_TAIL
@@ -349,7 +333,7 @@ def sine_and_cosine(phase, tail):
 
 @inlined
 def sine_and_cosine_near(x, y):
-    """Return sine and cosine of x + y, where |x| is at most an eighth of a turn and y is the rounding error of x."""
+    """Return sine and cosine of x + y, where |x| <= pi / 4 and y is the rounding remainder of x."""
     z = x * x
     half = 0.5 * z
     one = 1.0 - half
@@ -368,10 +352,7 @@ def _series(c, z):
 
 @inlined
 def advance_phase(phase, tail, omega, t):
-    """Return (phase, tail) a time t later, without reducing the phase to one turn.
-
-    The rounding errors of the product omega t and of the sum are added to the tail.
-    """
+    """Return (phase, tail) a time t later, not reduced to one turn; the tail collects all rounding errors."""
     step = omega * t
     total = phase + step
     part = total - phase

@@ -1,8 +1,7 @@
-"""Tabulate Taylor polynomials of the linear flow z' = A z at many equally spaced times.
+"""Tabulate Taylor polynomials of the linear flow z' = A z at equally spaced times.
 
-The matrices exp(A t) are computed with double-double numbers ("pairs"), each a float and its remainder (Dekker 1971).
-They are rounded to floats only at the end. Matrices in pairs have shape (2, 6, 6, times). The times are the last axis,
-so that one vector instruction computes a matrix entry at several times.
+The matrices exp(A t) are computed in double-double numbers, each a float and its remainder (Dekker 1971). The matrices
+have shape (2, 6, 6, times). The times are the last axis, so that one vector instruction handles several of them.
 """
 
 import math
@@ -12,8 +11,8 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.vectors import fused
 
-SIZE, BOXES = 6, 4  # length of z = [X1, X2, X1', X2', sin, cos], and number of its entries for the boxes
-TERMS = 20  # number of terms in the series of exp(A h), h the spacing of a flow table; the next term is below 1e-40
+SIZE, BOXES = 6, 4  # z = [X1, X2, X1', X2', sin, cos] has 6 entries, 4 of them for the boxes
+TERMS = 20  # terms in the series of exp(A h), where h is the table spacing; the next is below 1e-40
 ORDERS = 8  # number of coefficients in a Taylor polynomial
 
 
@@ -21,14 +20,13 @@ ORDERS = 8  # number of coefficients in a Taylor polynomial
 def exact_rates(parameters):
     """Return (rate matrices, velocity changes, fastest rates) of n systems.
 
-    parameters: (n, 10), in the order of `flow.PARAMETERS`.
+    parameters (n, 10): in the order of `flow.PARAMETERS`.
+    rate matrices (n, 2, 4, 6, 6): floats and their rounding remainders, for each contact state.
+    velocity changes (n, 2): (1 + kappa) / (1 + epsilon) at an impact, and its rounding remainder.
+    fastest rates (n, 2): due to stiffness and due to damping.
 
-    The rate matrices, one for each contact state, are double-double numbers (n, 2, 4, 6, 6). The velocity changes are
-    double-double numbers (n, 2): the ratio (1 + kappa) / (1 + epsilon) of the velocity change of a ball at an impact to
-    its relative velocity before the impact. The fastest rates are those due to stiffness and due to damping, (n, 2).
-
-    If the entries of the rate matrices were rounded to single floats, the forces of a stiff coupling would not cancel
-    exactly when both boxes move equally. This would shift the lower natural frequency.
+    The forces of a stiff coupling must cancel exactly when both boxes move equally. Without the remainders, the lower
+    natural frequency would shift.
     """
     n = len(parameters)
     rates, impulses, fastest = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2)), np.empty((n, 2))
@@ -64,7 +62,7 @@ def exact_rates(parameters):
 
 @inlined_source
 def _put(rows, i, j, base, e, first, second):
-    """Set entry (i, j) of `rows` to base + e (first + second), computed with double-double numbers."""
+    """Set entry (i, j) of `rows` to base + e (first + second) in double-double numbers."""
     high, low = _plus_product(base, 0.0, e, 0.0, first, 0.0)
     high, low = _plus_product(high, low, e, 0.0, second, 0.0)
     rows[0, i, j], rows[1, i, j] = _normal(high, low)
@@ -79,14 +77,12 @@ def _ratio(high, low, other, other_low):
 
 
 def tables(rates, spacing, count):
-    """Return (series, rotations): tables of the flow z' = A z at the times j h, j < count, for k rate matrices A.
+    """Return (series, rotations): flow tables for k rate matrices A at the times j h, j < count.
 
-    rates: the matrices A as double-double numbers, (2, k, 6, 6). spacing: the time step h, a power of two. count: at
-    least 2.
-
-    series (k, count, 6, 16): Taylor coefficients of both boxes for each initial unit vector z. The coefficient of order
-    m is at index m for X_1 and at 8 + m for X_2. The coefficients of order 0 and 1 (positions and velocities) are the
-    entries of exp(A j h) to rounding. rotations (count, 2): cosine and sine of the forcing phase.
+    rates (2, k, 6, 6): the matrices A and their rounding remainders. spacing: h, a power of two. count: at least 2.
+    series (k, count, 6, 16): Taylor coefficients of both boxes for each initial unit vector z. Order m is at index m
+    for X_1 and at 8 + m for X_2.
+    rotations (count, 2): cosine and sine of the change of the forcing phase.
     """
     series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     for mode in range(rates.shape[1]):
@@ -98,7 +94,7 @@ def tables(rates, spacing, count):
 def fill_table(rates, mode, spacing, series, rotations, step, change):
     """Write series[mode] and rotations as in `tables`, and exp(A t) - I at t = step * spacing to `change`.
 
-    change: a matrix of double-double numbers, (2, 6, 6).
+    change (2, 6, 6): floats and their rounding remainders.
     """
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
@@ -129,7 +125,7 @@ def _fill_unit(matrices, place):
 
 @inlined_source
 def _fill_exponential(rates, k, spacing, powers, term, after):
-    """Write exp(A_k spacing), the first power, to index 1 of `powers`.
+    """Write exp(A_k spacing) to index 1 of `powers`.
 
     term, after: workspace, (2, 6, 6, 1).
     """
@@ -152,11 +148,9 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
 
 @inlined_source
 def _fill_coefficients(rates, k, rows, power, after):
-    """Write the Taylor coefficients of both boxes at time 0 to `rows` (6, 16), one row for each initial unit vector z.
+    """Write the Taylor coefficients of both boxes to `rows` (6, 16), one row for each initial unit vector.
 
-    The flow is z' = A_k z. The coefficient of order m is at index m for X_1 and at 8 + m for X_2.
-
-    power, after: workspace, (2, 6, 6, 1).
+    Order m is at index m for X_1 and at 8 + m for X_2.
     """
     _fill_unit(power, 0)
     for m in range(ORDERS):
@@ -186,29 +180,20 @@ def _expand(coefficients, powers, series, mode):
 
 @inlined_source
 def _multiply(powers, last, many):
-    """Extend the powers P, ..., P^last of P = exp(A h) by `many` more powers.
-
-    The new powers are the products of P^last with P, ..., P^many.
-
-    The forcing phase does not depend on the boxes. The rows of P for the phase are therefore zero in the columns for
-    the boxes. Products with these zeros are left out.
-    """
+    """Extend the powers P, ..., P^last of P = exp(A h) by `many` more powers."""
     for i in range(BOXES):
         for j in range(BOXES):
             _entries(powers, last, many, i, j, 0, BOXES)
         for j in range(BOXES, SIZE):
             _entries(powers, last, many, i, j, 0, SIZE)
-    for i in range(BOXES, SIZE):
+    for i in range(BOXES, SIZE):  # the forcing phase does not depend on the boxes: columns j < BOXES are zero
         for j in range(BOXES, SIZE):
             _entries(powers, last, many, i, j, BOXES, SIZE)
 
 
 @inlined
 def _entries(powers, last, many, i, j, first, end):
-    """Write entry (i, j) of the `many` new powers.
-
-    The matrix products are sums over n with first <= n < end, since all other terms are zero.
-    """
+    """Write entry (i, j) of the `many` new powers, as sums over first <= n < end."""
     for time in range(1, many + 1):
         high, low = 0.0, 0.0
         for n in range(first, end):
@@ -220,7 +205,7 @@ def _entries(powers, last, many, i, j, first, end):
 
 @inlined
 def _plus_product(high, low, a, a_low, b, b_low):
-    """Return (high, low) + (a, a_low) (b, b_low), not yet normalised: the low part may be large (see `_normal`)."""
+    """Return (high, low) + (a, a_low) (b, b_low), still to be normalised by `_normal`."""
     product = a * b
     total = high + product
     part = total - high

@@ -1,12 +1,11 @@
 """Measure how far a run is from a different event sequence, at every event and every turn.
 
 The constraint of a module is the gap between ball and wall while the ball flies, and the contact force while the ball
-sticks. A turn is a minimum of a constraint. To find all turns, a flight is cut into pieces in which the rate of the
-constraint, or the derivative of this rate, certainly keeps its sign. A piece therefore has at most one turn, which is
-found from the signs of the rate at both ends. As in `exclusion`, the proof that a rate keeps its sign uses Bernstein
-coefficients of Taylor polynomials and a bound on the seventh derivative of the boxes.
+sticks. A turn is a minimum of a constraint.
 
-A margin is the smallest error of the state that would change the event sequence.
+To find all turns, a flight is cut into pieces. In a piece, the rate of the constraint or the derivative of this rate
+certainly keeps its sign. A piece therefore has at most one turn. The signs of the rate at both ends show whether there
+is one. The proof uses Bernstein coefficients of Taylor polynomials, as in the module `exclusion`.
 """
 
 import math
@@ -28,20 +27,19 @@ from vibroimpact.exact.engine.flow import advance, advance_phase, inverse_masses
 from vibroimpact.exact.engine.variation import FORCING, LENGTH, completes_chatter, end_of, start_of
 from vibroimpact.system.state import IMPACT, RELEASE
 
-SHORTEST = 1e-9  # shortest piece of a flight, in units of `Flow.unit`; the motion in a shorter piece is below rounding
-TURN_TOLERANCE = 1e-10  # tolerance for the time of a least gap or force, in `Flow.unit`; the gap is then exact to 1e-20
-NEGLIGIBLE_DOUBT = 1e-17  # a smaller bound on the error of a gap or contact force is below rounding
+SHORTEST = 1e-9  # shortest piece of a flight, in `Flow.unit`; shorter motions are lost in rounding errors
+TURN_TOLERANCE = 1e-10  # tolerance for the time of a minimal gap, in `Flow.unit`; the gap is then exact to 1e-20
+NEGLIGIBLE_DOUBT = 1e-17  # truncation errors below 1e-17 in a gap or contact force are lost in rounding
 MOST_STEPS = 60
 GAP, FORCE, DOUBTS = 0, 1, 2
 
 
 @compiled
 def turning_points(flow, flights):
-    """Return the least gap, the least force and the number of doubtful turns of each flight, shape (m + 1, 3).
+    """Return the smallest gap, the smallest contact force and the number of doubtful turns of each flight, (m + 1, 3).
 
-    A turn is a minimum of a gap or of a contact force in the flight. The least gap and the least contact force (per
-    unit of ball mass) are taken over the turns; they are inf if there is no turn. A turn is doubtful if rounding
-    decides whether the ball misses the wall (DOUBT_FACTOR).
+    A turn is a minimum of a gap or force (per ball mass) in a flight. Gap and force are inf without turns. A turn is
+    doubtful if rounding decides whether the ball misses the wall.
     """
     turns = np.empty((len(flights), 3))
     for n in range(len(flights)):
@@ -59,10 +57,9 @@ def turning_points(flow, flights):
 
 @inlined_source
 def _search(flow, motion, length, least_of):
-    """Update `least_of` with the minima of gaps and contact forces in a flight; return the final boxes and balls.
+    """Update `least_of`, a row of `turning_points`, with a free flight; return the final boxes and balls.
 
-    length: duration of the flight, at most `flow.longest`. least_of (3,): row of the flight in the result of
-    `turning_points`.
+    length: duration, at most `flow.longest`.
     """
     q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
@@ -95,18 +92,16 @@ def _search(flow, motion, length, least_of):
 
 @inlined
 def _rate(q, jets, boxes, balls, walls, i, bound):
-    """Return the Taylor polynomial (8,) of a rate in module i, and bounds (8,) on the error of its coefficients.
+    """Return the polynomial (8,) of a rate in module i, and error bounds (8,) of its coefficients.
 
-    If the ball flies, the rate is X_i' - Y_i', which is the rate of the gap up to the sign. If the ball sticks, the
-    rate is X_i''', which is the rate of the contact force (per ball mass) up to the sign. Just after a release,
-    X_i' - Y_i' is 0. If X_i'' is then 0 within rounding, the coefficient of t is set to 0.
+    The rate is X_i' - Y_i' while the ball flies, and X_i''' while the ball sticks.
     """
     p = jets[0] if i == 0 else jets[1]
     if walls[i] != 0:
         polynomial = 6.0 * p[3], 24.0 * p[4], 60.0 * p[5], 120.0 * p[6], 0.0, 0.0, 0.0, 0.0
         return polynomial, (0.0, 0.0, 0.0, 0.0, 210.0 * bound, 0.0, 0.0, 0.0)
     speed, bend = boxes[2 + i] - balls[2 + i], 2.0 * p[2]
-    if speed == 0.0 and abs(bend) <= acceleration_rounding(q, boxes, i):
+    if speed == 0.0 and abs(bend) <= acceleration_rounding(q, boxes, i):  # just after a release
         bend = 0.0
     polynomial = speed, bend, 3.0 * p[3], 4.0 * p[4], 5.0 * p[5], 6.0 * p[6], 0.0, 0.0
     return polynomial, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 7.0 * bound, 0.0)
@@ -114,7 +109,7 @@ def _rate(q, jets, boxes, balls, walls, i, bound):
 
 @inlined
 def _turns_once(rate, doubt, t):
-    """Return True if the rate certainly changes sign at most once on [0, t]; doubt: bounds on the error of the rate."""
+    """Return True if a rate with error bounds `doubt` certainly changes sign at most once on [0, t]."""
     if value(doubt, t) * t < NEGLIGIBLE_DOUBT:
         doubt = (0.0,) * 8
     if _one_sign(rate, doubt, t):
@@ -124,10 +119,7 @@ def _turns_once(rate, doubt, t):
 
 @inlined
 def _one_sign(c, e, t):
-    """Return True if all polynomials with coefficients from c - e to c + e are certainly >= 0, or all <= 0, on [0, t].
-
-    c, e: coefficients and bounds on their errors, (8,).
-    """
+    """Return True if all polynomials with coefficients from c - e to c + e certainly have the same sign on [0, t]."""
     return least(_minus(c, e), t) >= 0.0 or least(_minus(_minus((0.0,) * 8, c), e), t) >= 0.0
 
 
@@ -143,9 +135,9 @@ def _derivative(c):
 
 @inlined_source
 def _note(flow, motion, i, times, rates, least_of):
-    """Find the time between `times` at which the rate of module i (`_rate`) is zero; record a minimum in `least_of`.
+    """Find the zero of the rate of module i (`_rate`) between two times; record a minimum in `least_of`.
 
-    times, rates: two times, and the rates at these times, which have opposite signs.
+    The rates at both times have opposite signs.
     """
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
     (low, high), (early, late) = times, rates
@@ -179,33 +171,25 @@ def _note(flow, motion, i, times, rates, least_of):
 
 @compiled
 def margins_of(q, flights, turns, events, start_phase, duration):
-    """Return margins at the start and the end of each flight (m + 1, 2), and depths (m,) and doubts (m,) of the events.
+    """Return margins at the start and end of each flight, (m + 1, 2), and depths (m,) and doubts (m,) of events.
 
-    A margin is the smallest error of the state that would cause one of these changes:
-
-    start and end of any flight         an additional event at a turn (`turning_points`)
-    start of the first flight           another contact state
-    start of a flight after an impact   a different decision whether the impact releases the ball in the other module
-    end of any flight but the last      the next event does not happen, or only after the end of the run
-    end of the last flight              an additional event before the end of the run
-
-    The depth of an impact is the distance u^2 / (2 b) that the ball would move beyond the wall if there were no impact,
-    with the relative speed u and the deceleration b. The depth is inf without deceleration, and for events other than
-    impacts. The doubt is 1 if rounding decides whether the ball hits the wall, else 0.
+    A margin is the smallest error of the state that would change the event sequence. Without an impact, the ball would
+    move beyond the wall by the depth u^2 / (2 b), with relative speed u and deceleration b. The depth is inf without
+    deceleration, and for other events. The doubt is 1 if rounding decides whether the ball hits the wall.
     """
     margins = np.full((len(flights), 2), math.inf)
     depths, doubts = np.full(len(events), math.inf), np.zeros(len(events))
     for n in range(len(flights)):
         boxes, balls, walls = start_of(flights[n])
         for i in range(2):
-            if walls[i] != 0:
+            if walls[i] != 0:  # an additional release at a turn
                 _lower(margins[n], turns[n, FORCE] / _force_weight(q, walls, i))
-        _lower(margins[n], turns[n, GAP])
+        _lower(margins[n], turns[n, GAP])  # an additional impact at a turn
         if n == 0:
             margins[n, 0] = min(margins[n, 0], _at_start(q, boxes, balls, start_phase))
         elif events[n - 1, 3] == IMPACT:
             other = 2 - int(events[n - 1, 1])
-            if walls[other] != 0:
+            if walls[other] != 0:  # another decision whether the impact releases the other ball
                 margins[n, 0] = min(margins[n, 0], abs(_force(q, walls, boxes, events[n - 1, PHASE], other)))
         boxes, balls = end_of(flights[n])
         if n < len(events):
@@ -230,26 +214,26 @@ def _lower(margins, margin):
 
 @inlined_source
 def _of_event(q, walls, boxes, balls, events, n, force, left):
-    """Return the error of the state at event n that would move the event to the end of the run, a time `left` later.
+    """Return the error of the state that would move event n to the end of the run, a time `left` later.
 
-    For a release, return the smaller of this error and the error that would prevent the release. For a stick that does
-    not complete a chatter, return inf.
+    For a release, a smaller error that prevents the release is returned instead. For a stick without chatter, return
+    inf.
     """
     i, wall, kind = int(events[n, 1]) - 1, events[n, 2], events[n, 3]
-    if kind == IMPACT:  # how far beyond the wall the ball would be at the end of the run without this impact
+    if kind == IMPACT:  # distance beyond the wall at the end of the run, without this impact
         return left * (wall * (boxes[2 + i] - balls[2 + i]) + 0.5 * left * max(force, 0.0))
     if kind == RELEASE:
         change, bend = _changes(q, walls, boxes, events[n, PHASE], i)
         depth = 0.5 * change * change / (wall * bend) if wall * bend > 0.0 else math.inf
         return min(left * abs(change), depth) / _force_weight(q, walls, i)
-    if completes_chatter(events, n):  # a chatter with rebound speed u and acceleration a takes 2 u / (a (1 - kappa))
+    if completes_chatter(events, n):  # a chatter from rebound speed u takes 2 u / (force (1 - kappa))
         return 0.5 * left * force * (1.0 - q.kappa)
     return math.inf
 
 
 @inlined_source
 def _at_start(q, boxes, balls, phase):
-    """Return the error of the state at the start of the run that would change the contact state of a ball."""
+    """Return the error of the initial state that would change the contact state of a ball."""
     margin = math.inf
     for i in range(2):
         gap, speed = 1.0 - abs(boxes[i] - balls[i]), abs(boxes[2 + i] - balls[2 + i])
@@ -262,11 +246,7 @@ def _at_start(q, boxes, balls, phase):
 
 @inlined_source
 def _at_end(q, walls, boxes, balls, phase):
-    """Return the error of the state at the end of the run that would cause another event before the end.
-
-    For a free ball that approaches a wall, the error is the gap. For a sticking ball whose contact force decreases, the
-    error is computed by `_force`. For any other ball, the error is inf. Return the smaller error of the two balls.
-    """
+    """Return the error of the final state that would cause another event before the end of the run."""
     margin = math.inf
     for i in range(2):
         relative, speed = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]

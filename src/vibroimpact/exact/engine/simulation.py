@@ -33,12 +33,9 @@ WALL_TOLERANCE = 1e-12
 
 
 def checked_state(state) -> np.ndarray:
-    """Return an initial state as an array (8,), after checking that both balls are between the walls.
+    """Return an initial state as an array (8,).
 
-    Raises
-    ------
-    ValueError
-        If the state is invalid.
+    Raise ValueError if the state is malformed or a ball is beyond a wall.
     """
     state = states_array("state", state)
     values = state.tolist()
@@ -66,12 +63,9 @@ def within_walls(states) -> np.ndarray:
 
 
 def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
-    """Return (exact start time, number of cycles) of a run, after checking both.
+    """Return (exact start time, number of cycles) of a run.
 
-    Raises
-    ------
-    ValueError
-        If an argument is malformed, or if |tau| reaches LARGEST_TIME during the run.
+    Raise ValueError if an argument is malformed, or if |tau| reaches LARGEST_TIME.
     """
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     if isinstance(tau0, Instant):
@@ -84,19 +78,16 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
     if not (abs(start) < LARGEST_TIME and abs(end) < LARGEST_TIME):
         name, tau = ("cycles", end) if abs(start) < LARGEST_TIME else ("tau0", start)
         raise ValueError(
-            f"{name}: the run reaches tau = {tau}; |tau| must stay below 2**43, since floats beyond are more than 1e-3 "
-            "apart. The motion stays the same if whole forcing periods are subtracted from tau0"
+            f"{name}: the run reaches tau = {tau}, but |tau| must stay below 2**43. Larger floats are more than 1e-3 "
+            "apart. Subtract whole forcing periods from tau0; the motion stays the same"
         )
     return begin, cycles
 
 
 def checked_times(name, times, start, end) -> np.ndarray:
-    """Return sample times as an array (n,), after checking that the run from start to end covers them.
+    """Return sample times as an array (n,).
 
-    Raises
-    ------
-    ValueError
-        If the times are not ascending, not finite or not within the run.
+    Raise ValueError if the times are not ascending, not finite or not within the run.
     """
     times = reals(name, times)
     if times.ndim != 1 or not np.isfinite(times).all() or (np.diff(times) < 0).any():
@@ -104,7 +95,7 @@ def checked_times(name, times, start, end) -> np.ndarray:
     slack = 4.0 * math.ulp(max(abs(start), abs(end)))
     if len(times) and not (start - slack <= times[0] and times[-1] <= end + slack):
         raise ValueError(
-            f"{name}: the times from {times[0]} to {times[-1]} are not within the run, from {start} to {end}"
+            f"{name}: needs times within the run, from {start} to {end}; got times from {times[0]} to {times[-1]}"
         )
     return times
 
@@ -118,7 +109,7 @@ class Run(Representation):
     Attributes
     ----------
     system : System
-        Parameters of the run.
+        Dimensionless parameters.
     start : ndarray
         Initial state, shape (8,).
     begin : float or Instant
@@ -126,12 +117,11 @@ class Run(Representation):
     cycles : int
         Number of forcing periods.
     samples : ndarray
-        States at the sample times, shape (n, 8). At the time of an event, the state after the event.
+        States at the sample times, shape (n, 8). At an event, the state after the event.
     final : ndarray
-        State at the end, shape (8,).
+        Final state, shape (8,).
     pieces, counters : list of ndarray, ndarray
-        Rows of the events, as arrays (n, ROW), and counters of the run; both are defined in
-        `vibroimpact.exact.engine.contact`.
+        Rows of events and counters, defined in `vibroimpact.exact.engine.contact`.
     """
 
     system: System
@@ -173,8 +163,8 @@ class Run(Representation):
     def events(self) -> np.ndarray:
         """Events in order of time, a structured array (m,) of type EVENT.
 
-        Fields: tau; module, 1 or 2; wall, +1 or -1 (X_i - Y_i = +1 or -1); kind, a key of KINDS (0 impact; 1 stick: the
-        ball comes to rest on the wall; 2 release: the ball leaves the wall); state, (8,), just after the event.
+        tau: time. module: 1 or 2. wall: X_i - Y_i, +1 or -1. state: (8,), just after the event.
+        kind: 0 impact, 1 stick (the ball comes to rest on the wall), 2 release (the ball leaves the wall).
         """
         rows = self.rows
         if continues(self.begin):  # omit sticks of balls that already stuck in the previous run
@@ -205,7 +195,7 @@ class Run(Representation):
     def jacobian(self) -> np.ndarray:
         """Derivative of the final state with respect to the initial state, shape (8, 8).
 
-        The derivative includes the effects of impacts, chatter, sticking and releases.
+        Impacts, chatter, sticking and releases are included.
         """
         jacobian = propagate(*self.trajectory, np.eye(8)[INNER_ORDER])[PUBLIC_ORDER]
         jacobian.flags.writeable = False
@@ -222,9 +212,7 @@ class Run(Representation):
         return Energy.of(self)
 
     def errors(self, times: ArrayLike) -> np.ndarray:
-        """Return estimated errors (n,) of the states at given times.
-
-        Unlike `certificate.error`, the estimates also include the effect of rounding the given times.
+        """Return estimated errors of the states at given times, including the rounding of these times.
 
         Parameters
         ----------
@@ -250,25 +238,22 @@ class Run(Representation):
         return frames.of_run(self)
 
     def section(self) -> np.ndarray:
-        """Return the states at the start and after each cycle (a stroboscopic Poincare section), shape (cycles + 1, 8).
+        """Return the stroboscopic section: the states at the start and after each cycle, shape (cycles + 1, 8).
 
-        The run is simulated again for these samples.
+        The run is simulated again.
         """
         return self._sampled(self.system.period * np.arange(self.cycles + 1))
 
     def plot(self):
-        """Return a Matplotlib Figure with the time histories of X_i and of W_i = X_i - Y_i.
-
-        The run is simulated again for the samples of the curves.
-        """
+        """Return a Matplotlib Figure with X_i and W_i = X_i - Y_i over time; the run is simulated again."""
         samples = min(PLOTTED_PER_CYCLE * self.cycles, MOST_PLOTTED)
         since = np.linspace(0.0, self.cycles * self.system.period, samples + 1)
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
-        """Return the states at the times `since` (n,), measured from the start of the run.
+        """Return the states at the times `since` (n,) after the start of the run.
 
-        Times from the start keep their digits even if tau0 is large.
+        Such times keep their digits even if tau0 is large.
         """
         start = self.start.copy()  # a read-only array would trigger another compilation
         return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
@@ -290,8 +275,7 @@ def simulate(
 ) -> Run:
     """Simulate the exact system over a number of forcing cycles.
 
-    The run includes impacts, chatter, sticking and release. Between events the flow is evaluated in closed form,
-    without time steps.
+    The run includes impacts, chatter, sticking and release.
 
     Parameters
     ----------
@@ -300,34 +284,29 @@ def simulate(
     state : array_like
         Initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), dimensionless.
     cycles : int
-        Number of forcing periods, from 0 to ten million (a run stores all its events). To continue a run, start from
-        `run.final` with tau0=run.end.
+        Number of forcing periods, from 0 to ten million.
     tau0 : float, Fraction or Instant, default 0.0
-        Dimensionless initial time, used without rounding; it sets the forcing phase. With tau0=run.end, the new run
-        continues `run`: a ball at rest on a wall already sticks, without a new event. |tau0| and the end time must be
-        below 2**43.
+        Dimensionless start time, used without rounding; |tau| must stay below 2**43.
+        To continue a run, start from `run.final` with tau0=run.end. A ball at rest on a wall then already sticks.
     sample_times : array_like, optional
-        Ascending times tau in [tau0, tau0 + cycles * system.period] at which to record states.
+        Ascending times in [tau0, tau0 + cycles * system.period] at which to record states.
 
     Returns
     -------
     Run
-        Events, samples and final state. `run.certificate`, `run.energy` and `run.jacobian` (the derivative of the final
-        state) are computed on first access.
+        Events, samples and final state.
 
     Raises
     ------
     ValueError
-        If an argument is malformed, or if the initial state has a ball beyond a wall (|X_i - Y_i| > 1).
+        If an argument is malformed, or if a ball starts beyond a wall (|X_i - Y_i| > 1).
     ArithmeticError
-        If an invariant of the motion is violated (a ball passes through a wall, or time does not advance), or if the
-        run has too many events (more than a million plus ten thousand per cycle) or needs too many proofs that no event
-        happens (docs/engine.md).
+        If a ball passes through a wall, time does not advance, or there are too many events (a million plus ten
+        thousand per cycle) or too many proofs that no event happens (docs/engine.md).
 
     Notes
     -----
-    On a new machine the first run prints a message and waits until the engine is compiled. To compile in advance, run
-    `python -m vibroimpact.compile`.
+    The first run on a new machine compiles the engine. `python -m vibroimpact.compile` compiles in advance.
 
     Examples
     --------
@@ -357,11 +336,11 @@ def simulate_many(
     system : System
         Dimensionless parameters.
     states : array_like
-        Initial states, shape (n, 8), each as for `simulate`.
+        Initial states, shape (n, 8).
     cycles, tau0
         As for `simulate`.
     progress : bool, default False
-        Report progress on standard error about once a second.
+        Report progress on standard error.
 
     Returns
     -------
@@ -371,7 +350,7 @@ def simulate_many(
     Raises
     ------
     ValueError
-        If an argument is malformed, or if an initial state is invalid (the message gives the row of the state).
+        If an argument is malformed or an initial state is invalid.
     ArithmeticError
         As for `simulate`, if one of the runs fails.
 
@@ -398,9 +377,9 @@ def simulate_many(
 
 
 def _run(system, state, cycles, begin, times, clock):
-    """Return a run, given checked arguments, or raise an ArithmeticError if the run failed.
+    """Return a run, given checked arguments, or raise ArithmeticError if the run fails.
 
-    times: sample times. clock: start time of the run, measured from the same origin as `times`.
+    clock: start time of the run, measured like the sample times.
     """
     status, run = attempt(system, state, cycles, begin, times, clock)
     if status != event_loop.FINISHED:

@@ -1,10 +1,11 @@
 """Flights of a finished run, replayed from its events, and their variational flow.
 
-Perturbations are multiplied by the linear flow for a flight, and by the saltation matrix for an impact. A release
-leaves perturbations unchanged, since the contact force is zero at the release. If an impact forces a release, the
-saltation matrix of the impact includes the release. For a completed chatter, one matrix replaces the product of
-infinitely many saltation matrices. This file orders states as [boxes, balls]. PUBLIC_ORDER and INNER_ORDER convert
-between this order and [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
+A flight multiplies perturbations by the linear flow. An impact multiplies them by the saltation matrix, which includes
+a release that the impact forces. Any other release leaves perturbations unchanged, since the contact force is then
+zero. For a completed chatter, one matrix replaces infinitely many saltation matrices.
+
+States are ordered [boxes, balls] here. PUBLIC_ORDER converts them to [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], and
+INNER_ORDER converts back.
 """
 
 import math
@@ -37,11 +38,10 @@ INNER_ORDER = np.argsort(PUBLIC_ORDER)
 
 @compiled
 def replayed(flow, start, events, start_phase, duration):
-    """Return the flights of a run, rows (m + 1, COLUMNS): one before each event and one to the end of the run.
+    """Return the flights of a run as rows (m + 1, COLUMNS): one before each event and one to the end.
 
-    events: rows of the log. start (8,): initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']. The flight before a stick
-    that completes a chatter has zero length, because the stick is applied at the last simulated impact, before the
-    chatter ends.
+    start: initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
+    The flight before a stick that completes a chatter has zero length.
     """
     q, flights = flow.coefficients, np.zeros((len(events) + 1, COLUMNS))
     leaving = first_departure(start, start_phase)
@@ -80,10 +80,9 @@ def first_departure(start, phase):
 
 @inlined
 def next_departure(q, events, n, leaving, end):
-    """Return the `Departure` of the flight after event n.
+    """Return the `Departure` after event n, given the one before event n (`leaving`).
 
-    leaving: `Departure` of the flight before event n. end: (time, phase) at the end of the run. If n is the number of
-    events, return `leaving` with its time and phase replaced by `end`.
+    end: (time, phase) at the end of the run. Without an event n, `end` replaces time and phase of `leaving`.
     """
     if n == len(events):
         return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
@@ -136,7 +135,7 @@ def completes_chatter(events, n):
 
 
 def rests_at_start(events, n):
-    """Return True if event n is a stick at the start of the run, of a ball that already rests on its wall."""
+    """Return True if event n is the stick of a ball that rests on its wall at the start of the run."""
     first = events[n, 0] == 0.0 and events[n, 3] == STICK
     for k in range(n):
         first = first and events[k, 1] != events[n, 1]
@@ -156,10 +155,7 @@ def walls_after(events, n, walls):
 
 @compiled
 def propagate(flow, flights, events, total):
-    """Propagate perturbations `total` (8, k) of the initial state to the end of a run and return them.
-
-    Rows are in the order [boxes, balls]. flights: from `replayed`. events: rows of the log. `total` is overwritten.
-    """
+    """Propagate perturbations `total` (8, k), rows [boxes, balls], to the end of a run; `total` is overwritten."""
     matrix, later = np.empty((8, 8)), np.empty_like(total)
     for n in range(len(flights)):
         if flights[n, LENGTH] > 0.0:
@@ -186,7 +182,7 @@ def fill_product(matrix, vectors, product):
 
 @compiled
 def fill_flight(flow, flight, matrix):
-    """Write the derivative (8, 8) of the state at the end of a flight with respect to the state at its start."""
+    """Write the derivative (8, 8) of the state after a flight with respect to the state before."""
     _, _, walls = start_of(flight)
     left = min(flight[LENGTH], flow.longest)
     _fill_free(flow, walls, left, matrix)
@@ -200,7 +196,7 @@ def fill_flight(flow, flight, matrix):
 
 @compiled
 def _fill_free(flow, walls, t, matrix):
-    """Write the derivative (8, 8) of the state after a flight of length t <= flow.longest w.r.t. the state before."""
+    """Write the derivative (8, 8) of the state after a flight with respect to the state before; t <= flow.longest."""
     mode = mode_of(walls)
     j = int(t * flow.density + 0.5)
     rest = t - j * flow.spacing
@@ -246,7 +242,7 @@ def fill_event(q, flights, events, n, matrix):
 
 @compiled
 def fill_rate(q, walls, state, phase, field):
-    """Write the time derivative (8,) of a state (8,), given the walls to which balls stick and the forcing phase."""
+    """Write the time derivative of a state (8,) to `field`, given the walls to which balls stick."""
     a1, a2 = box_accelerations(q, walls, (state[0], state[1], state[2], state[3]), math.sin(phase))
     field[0], field[1], field[2], field[3] = state[2], state[3], a1, a2
     field[4], field[5] = state[6], state[7]
@@ -256,12 +252,11 @@ def fill_rate(q, walls, state, phase, field):
 
 @compiled
 def _saltation_matrix(q, i, before, after, walls, walls_after, phase, matrix):
-    """Write the saltation matrix (8, 8) of an impact in module i (0 or 1), given the states (8,) before and after it.
+    """Write the saltation matrix (8, 8) of an impact in module i, 0 or 1.
 
-    S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004), where R is the
-    restitution matrix, n the normal of the wall, and f- and f+ the vector fields before and after the impact.
-    walls_after differs from walls if the impact releases the other ball. Other implementations:
-    `orbits.floquet.impact_saltation` for orbits, and `orbits.proof.passage` with intervals.
+    S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). R is the restitution
+    matrix and n the normal of the wall. The vector field is f- before and f+ after the impact. `walls_after` differs
+    from `walls` if the impact releases the other ball.
     """
     box, ball = 2 + i, 6 + i
     through, outgoing = np.empty(8), np.empty(8)
@@ -289,13 +284,11 @@ def _fill_identity(matrix):
 def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     """Write the derivative (8, 8) of the state after a stick of ball i with respect to the state before.
 
-    inward, push: 0, except for a completed chatter. Then inward is the relative speed u at which the ball leaves the
-    wall, and push is the acceleration a of the box towards the ball (`contact._hop`).
+    inward, push: rebound speed u and acceleration a of the box towards the ball in a completed chatter, else 0.
 
-    Box and ball keep their momentum and centre of mass. During the chatter, springs and dampers act on the box at its
-    actual position, not at the centre of mass. The effect on the velocities is included to first order in the
-    perturbation. The effect depends on two time integrals over the chatter. The integral of the gap is
-    2 u^3 / (3 a^2 (1 - kappa^3)). The integral of the rate of the gap is minus the gap at the start of the chatter.
+    Box and ball keep their momentum and centre of mass. During a chatter, springs and dampers act on the box, which is
+    not at the centre of mass. The matrix includes this effect to first order. The time integral of the gap is
+    2 u^3 / (3 a^2 (1 - kappa^3)). The time integral of the rate of the gap is minus the initial gap.
     """
     e = q.epsilon
     share = e / (1.0 + e)
@@ -325,9 +318,9 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 class Growth(NamedTuple):
     """Growth of k orthonormal perturbations in each of the n cycles of a run.
 
-    factors (n, k): growth factors, |diagonal of R| in the QR decomposition. Where sticking removes a perturbation, the
-    growth factor differs from 0 only by rounding. impacts (n,): number of impacts. stuck (n,): largest number of balls
-    that stick at the same time. frame (8, k): final perturbations, orthonormal again.
+    factors (n, k): growth factors, 0 up to rounding if sticking removes a perturbation.
+    impacts (n,): number of impacts. stuck (n,): largest number of balls that stick at once.
+    frame (8, k): final perturbations, orthonormal.
     """
 
     factors: np.ndarray
@@ -339,13 +332,7 @@ class Growth(NamedTuple):
 def growth(run, frame: np.ndarray) -> Growth:
     """Propagate k orthonormal perturbations along a run, with a QR decomposition after every cycle.
 
-    Parameters
-    ----------
-    run : Run
-        A simulated motion.
-    frame : ndarray
-        Perturbations of [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] as columns, shape (8, k), with zeros in the rows of an
-        inactive module (`System.modules`).
+    frame: perturbations (8, k) of [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], zero for an inactive module (`System.modules`).
     """
     flow, flights, events = run.trajectory
     factors, counts = np.empty((run.cycles, frame.shape[1])), np.zeros((run.cycles, 2), dtype=int)
@@ -358,9 +345,7 @@ def growth(run, frame: np.ndarray) -> Growth:
 def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, counts):
     """Return the perturbations `frame` (8, k) after the last cycle; fill `factors` (n, k) and `counts` (n, 2).
 
-    counts: numbers of impacts and of sticking balls, as in `Growth`; initially 0. places: indices of the rows in which
-    the frame is not 0. Flights are cut at the ends of cycles. The derivative of each piece depends only on the length
-    of the piece and on the balls that stick.
+    counts: numbers of impacts and of sticking balls, initially 0. places: rows in which the frame is not 0.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(frame)
     cycle, elapsed = 0, 0.0
@@ -373,7 +358,7 @@ def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, 
             ends = left >= period - elapsed and cycle < len(factors) - 1
             step = period - elapsed if ends else left
             if step > 0.0:
-                piece[LENGTH] = step
+                piece[LENGTH] = step  # the derivative depends only on this length and on the balls that stick
                 fill_flight(flow, piece, matrix)
                 fill_product(matrix, frame, later)
                 frame, later = later, frame
@@ -393,11 +378,8 @@ def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, 
 
 @compiled
 def _orthonormalize(a, places, sizes):
-    """Replace the rows `places` of the array `a` (m, k) by the factor Q of their QR decomposition.
-
-    Write |diag R| to `sizes` (k,). The other rows of `a` are 0; QR would fill them with rounding errors.
-    """
-    q, r = np.linalg.qr(a[places])
+    """Replace the rows `places` of `a` (m, k) by the factor Q of their QR decomposition; write |diag R| to `sizes`."""
+    q, r = np.linalg.qr(a[places])  # the other rows are 0, where QR would leave rounding errors
     for row in range(len(places)):
         for k in range(a.shape[1]):
             a[places[row], k] = q[row, k]

@@ -1,11 +1,10 @@
-"""Operations that Numba does not offer: fused multiply-add, weighted sums of table rows, vectors of eight floats.
+"""Operations that Numba lacks: fused multiply-add, weighted sums of table rows, vectors of eight floats.
 
-This is the only file that generates code through Numba's internals. It is tested with Numba 0.68 and llvmlite 0.50;
-pyproject.toml excludes later versions.
+Only this file generates code through Numba's internals. It is tested with Numba 0.68 and llvmlite 0.50; pyproject.toml
+excludes later versions.
 
-The weighted sums use vector instructions explicitly, since the compiler would not vectorise a loop. `Lanes` is the type
-of eight floats. An operation on `Lanes` rounds like the operation on a float, so that a formula gives the same bits for
-`Lanes` as for floats. Comparisons return a `Mask`, with which `where` selects values.
+`Lanes` is the type of eight floats. Operations on `Lanes` round like operations on floats, so a formula gives the same
+bits for both. Comparisons return a `Mask` for `where`.
 """
 
 import math
@@ -25,7 +24,7 @@ UNDEFINED = ir.Constant(NUMBERS, ir.Undefined)
 
 @intrinsic
 def weighted_sum(_, table, mode, j, weights):
-    """Return the sum over m of weights[m] * table[mode, j, m] as two tuples (8,); the table is (modes, n, m, 16).
+    """Return the sum of weights[m] * table[mode, j, m] over m as two tuples (8,).
 
     Product and sum are rounded together if the processor supports it.
     """
@@ -39,7 +38,7 @@ def weighted_sum(_, table, mode, j, weights):
         )
         weights = [builder.extract_value(arguments[3], m) for m in range(signature.args[3].count)]
         wide, halves = [_in_all(builder, weight) for weight in weights], []
-        for half in range(2):
+        for half in range(2):  # vector instructions, since the compiler does not vectorise a loop
             total = None
             for m, weight in enumerate(wide):
                 pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * (2 * m + half))])
@@ -89,10 +88,7 @@ def _wide(context, builder, value, kind):
 
 
 def _operation(function, operand, result, generate):
-    """Register code for an operation on one or two operands of the type `operand`.
-
-    If `operand` is LANES, an operation on two operands also accepts a scalar for one of them.
-    """
+    """Register code for an operation on one or two operands of a type; LANES combine with scalars."""
     kind, scalar = type(operand), (types.Float | types.Integer if operand is LANES else Mask)
 
     class Typing(AbstractTemplate):
@@ -184,7 +180,7 @@ def load(_, array, k):
 
 @intrinsic(prefer_literal=True)
 def load_rows(_, array, k, count):
-    """Return rows k, ..., k + count - 1 of an array (n, 8) as a tuple; count is a literal."""
+    """Return rows k to k + count - 1 of an array (n, 8) as a tuple; count is a literal."""
     kind = types.UniTuple(LANES, count.literal_value)
 
     def generate(context, builder, signed, args):
@@ -208,7 +204,7 @@ def store(_, array, k, value):
 
 @intrinsic
 def replace_rows(_, array, k, mask, values):
-    """Write a tuple of values to rows k, k + 1, ... of an array (n, 8), in the lanes where the mask is true."""
+    """Write `values` to rows k, k + 1, ... of an array (n, 8), in the lanes where the mask is true."""
 
     def generate(context, builder, signed, args):
         for n, kind in enumerate(signed.args[3]):
