@@ -71,28 +71,25 @@ def ensemble(
     systems : System or array_like of System
         One System, or an array of them (a list or nested lists).
     states : array_like
-        Initial states, shape (..., 8). Systems and states broadcast: n systems and n states form n pairs; one state is
-        used with every system; systems (m, 1) and states (n, 8) give all m n combinations.
+        Initial states, shape (..., 8). Systems and states broadcast: systems (m, 1) and states (n, 8) give m n runs.
     cycles, tau0
         As for `simulate`.
     settle : int, default 0
-        Number of cycles before the observation, from 0 to `cycles`. If settle equals cycles, only the final state is
-        computed, without statistics.
+        Number of cycles before the observation. With settle=cycles, only final states are computed.
     progress : bool, default False
-        Show the number of finished runs on standard error, about once a second.
+        Show the number of finished runs on standard error.
     energy : bool, default False
-        Add a field `energy` (ENERGY) with the energy balance over the observed cycles, as in `Run.energy`.
+        Add a field `energy` (ENERGY) with the energy balance of the observed cycles.
     by_cycle : bool, default False
-        Return an outcome for each observed cycle along an additional last axis. The field `final` of an outcome is then
-        the state at the end of the cycle.
+        Return an outcome, with the final state, for each observed cycle along an additional last axis.
 
     Returns
     -------
     ndarray
-        Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status (STATUSES) gives
-        the reason, its numbers are nan and its counts 0; other runs are not affected. Statistics of a run without
-        observed cycles are nan. The averages and the largest |X_i| are exact to rounding, with one exception: for a box
-        that is almost at rest around a turning point, the error of the largest |X_i| may be larger.
+        Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status is not 0
+        (STATUSES), its numbers are nan and its counts 0. Without observed cycles, statistics are also nan and counts 0.
+        The averages and the largest |X_i| are exact to rounding. The largest |X_i| is less exact for a box almost at
+        rest near a turning point.
 
     Raises
     ------
@@ -101,10 +98,9 @@ def ensemble(
 
     Notes
     -----
-    The numbers of impacts are those of `simulate`, with two exceptions: grazing contacts that the
-    certificate of the run counts as undecided, and impacts after which the ball hops by less than four units of
-    rounding. In a run without undecided contacts, the error of the final state is at most 2.6 times the estimate in
-    the certificate (docs/engine.md). Use `simulate` for events, samples or a certificate.
+    The numbers of impacts are those of `simulate`. They may differ in grazing contacts that the certificate of a run
+    counts as undecided, and in hops of a ball below four units of rounding. Without undecided contacts, the error of
+    the final state is at most 2.6 times the estimate in the certificate (docs/engine.md).
 
     Examples
     --------
@@ -131,12 +127,7 @@ def ensemble(
 def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
     """Return the final states (n, 8) of one system after `cycles` cycles, from initial states (n, 8) at tau = 0.
 
-    Raises
-    ------
-    ArithmeticError
-        If a run could not be finished.
-    ValueError
-        As for `ensemble`.
+    Raise ArithmeticError if a run fails.
     """
     outcomes = ensemble(system, states, cycles, settle=cycles)
     failed = np.flatnonzero(outcomes["status"] != FINISHED)
@@ -166,12 +157,13 @@ def _combined(systems, states):
 def _run(known, begins, numbers, starts, stages, outcomes, places):
     """Run the initial states with the indices `places` and write their results to `outcomes`.
 
-    known, begins: systems and initial times. numbers: index of the system of each run. stages: as for `loop.Piece`.
+    stages: as for `loop.Piece`.
     """
     (settle, cycles, length), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
     owners, energy, shape = numbers[places] - first, "energy" in outcomes.dtype.names, (len(places), outcomes.shape[1])
     systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
     scalars, rates = numbers_of(systems, loop.TABLE)
+    # lanes are unsuitable for systems with too many steps per flight, or with potentials that lose digits
     alone = abs(np.log(scalars[:, RATE] / scalars[:, OMEGA])) > MOST_LOG_RATIO
     potentials, drifts = np.empty((len(systems), 4, 0, 6, 6)), np.empty((len(systems), 4, 0))
     if settle < cycles:
@@ -203,12 +195,7 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 
 
 def _single_run(system, state, begin, stages, final, statistics):
-    """Compute a run with the event loop alone; write final states (k, 8) and statistics (k, STATISTICS).
-
-    Return the status of the run. Two kinds of systems are not simulated in vector lanes. In the first kind, the
-    frequencies of boxes and forcing are very different, so that a flight in a lane would consist of too many steps. In
-    the second kind, integrals would lose digits if computed as differences of potentials (`energy.Squares`).
-    """
+    """Compute a run by the event loop; fill `final` (k, 8) and `statistics` (k, STATISTICS); return the status."""
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]
     for cycle, stop in pairwise(stops):

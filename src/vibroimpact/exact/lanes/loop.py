@@ -18,18 +18,18 @@ from vibroimpact.exact.lanes import rows, steps
 from vibroimpact.exact.lanes.rows import STATISTICS, STATISTICS_AT
 from vibroimpact.exact.lanes.statistics import accumulate_statistics, find_turns, open_or_close
 
-TABLE = 64  # number of times in a flow table; it is small, since the event loop handles only few events
-NO_REST_DISTANCE = 1e-6  # a ball farther from a wall does not come to rest on it during one call of `run_until`
-INTERRUPT_INTERVAL = 500_000  # number of steps between two checks for an interrupt, about 20 ms
+TABLE = 64  # times in a flow table; few, since the event loop handles only few events
+NO_REST_DISTANCE = 1e-6  # a ball farther from a wall does not come to rest in one call of `run_until`
+INTERRUPT_INTERVAL = 500_000  # steps between two checks for an interrupt, about 20 ms
 
 
 class Piece(NamedTuple):
-    """A piece of work: n runs to be computed, and their results.
+    """A piece of work: n runs and their results.
 
-    numbers, rates, phases, potentials, drifts: data of each system, from `flow.numbers_of`, `flow.phase_at` and
-    `energy.potentials_of`. owners (n,): index of the system of each run. starts (n, 8): initial states. stages: number
-    of cycles before the observation, total number of cycles, and number of cycles in each of the k windows of the
-    observation. Results: status (n,), final (n, k, 8) and statistics (n, k, STATISTICS).
+    numbers, rates, phases, potentials, drifts: data of each system.
+    owners (n,): index of the system of each run. starts (n, 8): initial states.
+    stages: number of cycles before the observation, in all, and in each of its k windows.
+    status (n,), final (n, k, 8), statistics (n, k, STATISTICS): results.
     """
 
     numbers: np.ndarray
@@ -48,16 +48,13 @@ class Piece(NamedTuple):
 class Memory(NamedTuple):
     """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
-    The following fields have an entry for each lane. runs, constants: arrays with one column for each lane; the module
-    `rows` lists their rows. members: index of the initial state, or -1. slots: index of the slot that the lane uses.
-    counters: counters of the event log.
+    runs, constants: arrays with one column for each lane (module `rows`). members: index of the initial state in each
+    lane, or -1. slots: index of the slot that each lane uses. counters: counters of the event log for each lane.
 
-    The following fields have an entry for each slot; a slot contains the flow tables of one system. owners: index of
-    the system, or -1. made: True for each contact state whose tables are computed. series, rotations: tables as from
-    `flow_tables.tables`. known: constants of the system, to be copied to a column of `constants`.
+    A slot contains the flow tables of one system. owners: index of the system in each slot, or -1. made: True for each
+    contact state with computed tables. series, rotations: tables. known: constants of the system in each slot.
 
-    The last fields belong to all lanes. begun: number of initial states begun or skipped. work, log, statistics,
-    change: workspace.
+    begun: number of initial states begun or skipped. work, log, statistics, change: workspace.
     """
 
     runs: np.ndarray
@@ -100,12 +97,10 @@ def memory() -> Memory:
 
 @compiled
 def run_lanes(piece, memory):
-    """Simulate the runs of a piece of work in vector lanes; write status, final states and statistics.
+    """Simulate the runs of a piece of work in vector lanes; return True when all runs have ended.
 
-    Initial states whose status is not FINISHED before the first call are skipped.
-
-    Returns True when all runs have ended, and False for a pause in which the caller can handle an interrupt. After a
-    pause, call the function again.
+    Return False for a pause to handle interrupts; then call again. Initial states whose status is not FINISHED are
+    skipped.
     """
     m, done = memory, 0
     while True:
@@ -165,7 +160,7 @@ def begin_run(piece, n, lane, m):
 
 @inlined_source
 def _slot_of(piece, owner, m):
-    """Return the slot with the tables of a system; if there is none, compute the tables in a slot not in use."""
+    """Return the slot with the tables of a system; compute missing tables in an unused slot."""
     for slot in range(WIDTH):
         if m.owners[slot] == owner:
             return slot
@@ -239,9 +234,9 @@ def _handle_outcome(piece, lane, m):
 
 @in_place
 def _end_window(piece, flow, squares, motion, lane, m):
-    """Write the results of the observation window that ends now, if there is one; return True at the end of the run.
+    """Write the results of the window that ends now, if any; return True at the end of the run.
 
-    If the run has not ended, begin the next window and return False.
+    Otherwise begin the next window.
     """
     (settle, cycles, length), n = piece.stages, m.members[lane]
     stop, watched = int(m.runs[rows.STOP, lane]), m.runs[rows.WATCHED, lane] > 0.0
@@ -278,10 +273,9 @@ def _write_statistics(m, lane):
 
 @inlined_source
 def _run_by_events(piece, flow, squares, lane, m):
-    """Continue the run in a lane by the event loop until both balls fly or the run ends; return the status.
+    """Continue the run in a lane by the event loop; return the status.
 
-    The status is PAUSED if both balls fly; the lane then begins a new flight. Otherwise it is the final status of the
-    run.
+    The status is PAUSED when both balls fly, so that the lane can go on.
     """
     runs, counters, unsampled = m.runs[:, lane], m.counters[lane], (0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[rows.FIRST, lane], m.constants[rows.FIRST_TAIL, lane]
@@ -316,10 +310,7 @@ def _run_by_events(piece, flow, squares, lane, m):
 
 @inlined_source
 def _add_events(flow, squares, leaving, progress, lane, m):
-    """Add the statistics of one part of a run, computed by `run_until`, to the statistics of the run in a lane.
-
-    leaving, progress: `Progress` at the start and the end of the part.
-    """
+    """Add the statistics of a part of a run, from `leaving` to `progress`, to those in its lane."""
     noted, motion = int(m.counters[lane, EVENTS]), leaving.motion
     departure = Departure(motion.boxes, motion.balls, motion.walls, leaving.elapsed, leaving.phase)
     arrival = progress.motion.boxes, progress.elapsed, progress.phase

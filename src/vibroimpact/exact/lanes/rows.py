@@ -1,6 +1,6 @@
 """Row indices of the arrays for eight runs at once, and Taylor polynomials of the box positions.
 
-A lane is one of the eight runs, which are advanced together. Each lane has one column in the arrays.
+Each of the eight runs is a lane and has one column in the arrays.
 """
 
 import math
@@ -75,7 +75,7 @@ and the truncation error of a position is t / (n + 1) times as large.
 """
 SECOND = ORDER + 1
 """First row of the polynomial of box 2 in the workspace (2 ORDER + 2, 8); the polynomial of box 1 starts at row 0."""
-TERMS = 7  # number of Taylor terms that suffice to compute the time at which a box reverses its motion
+TERMS = 7  # Taylor terms that suffice to find the time at which a box reverses its motion
 
 
 @inlined
@@ -94,7 +94,7 @@ def most(a, b):
 def expand(c, x1, x2, v1, v2, s, k, work):
     """Write the Taylor coefficients of order 0 to ORDER of both box positions to `work`.
 
-    c: constants; x1, x2, v1, v2: positions and velocities of the boxes; s, k: sine and cosine of the forcing phase.
+    c: constants. s, k: sine and cosine of the forcing phase.
     """
     omega = load(c, OMEGA)
     store(work, 0, x1)

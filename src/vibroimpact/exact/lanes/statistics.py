@@ -1,13 +1,11 @@
 """Compute the statistics of runs in an ensemble: impacts, displacements of boxes, speeds of balls, integrals.
 
-In the lanes, statistics are added up flight by flight (`observe`); in the event loop, event by event
-(`accumulate_statistics`). The integrals, such as the work of the forces, are computed as differences of potentials
-(`energy.Squares`).
+Lanes add up statistics flight by flight (`observe`). The event loop adds them up event by event
+(`accumulate_statistics`). Integrals, such as the work of the forces, are differences of potentials (`energy.Squares`).
 
-A turn is an instant at which a box reverses its motion. If the Bernstein coefficients of a step show that the box may
-reach its largest displacement so far at a turn, the turn is stored, but not yet computed. A stored turn may be replaced
-by a turn with a larger displacement. The remaining stored turns are computed later for all lanes together
-(`find_turns`), since all lanes would have to wait while a turn is computed in one lane.
+A turn is an instant at which a box reverses its motion. If Bernstein coefficients show that a box may reach its largest
+displacement so far at a turn, the turn is stored. A turn with a larger displacement may replace it. The stored turns
+are computed for all lanes together (`find_turns`). All lanes would wait if a turn were computed in one.
 """
 
 import math
@@ -42,7 +40,10 @@ STEPS = 4  # number of Newton steps to find the time at which a box reverses its
 
 @compiled
 def accumulate_run(flow, squares, start, events, final, end, statistics):
-    """Add the statistics of a finished run to `statistics` (STATISTICS,); end: duration and final phase of the run."""
+    """Add the statistics of a finished run to `statistics` (STATISTICS,).
+
+    end: duration and final phase of the run.
+    """
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), math.sin(phase), math.cos(phase))
     open_or_close(flow, squares, Motion(*leaving[:3], (0, 0), last.sine, last.cosine), -1.0, statistics)
@@ -52,10 +53,9 @@ def accumulate_run(flow, squares, start, events, final, end, statistics):
 
 @in_place
 def accumulate_statistics(flow, squares, departure, events, count, arrival, statistics):
-    """Add the statistics of a part of a run to `statistics` (STATISTICS,), except those added by `open_or_close`.
+    """Add the statistics of a part of a run to `statistics` (STATISTICS,), except those of `open_or_close`.
 
-    departure: start of the part (`variation.Departure`). events, count: rows of the events in the part and number of
-    these events. arrival: boxes, time and phase at the end of the part.
+    departure: start of the part. count: number of events. arrival: boxes, time and phase at the end.
     """
     leaving, (final, time, phase) = departure, arrival
     early, last = (math.sin(leaving.phase), math.cos(leaving.phase)), (math.sin(phase), math.cos(phase))
@@ -77,7 +77,7 @@ def accumulate_statistics(flow, squares, departure, events, count, arrival, stat
 
 @inlined
 def open_or_close(flow, squares, motion, sign, statistics):
-    """Add the statistics that depend only on the start (sign -1) or the end (sign +1) of an observation."""
+    """Add the statistics due to the start (sign -1) or the end (sign +1) of an observation."""
     boxes, q = motion.boxes, flow.coefficients
     add_potentials(squares, mode_of(motion.walls), boxes, motion.sine, motion.cosine, sign, statistics[INTEGRALS:])
     statistics[STORED] += sign * energy_stored(q.ground, -q.k12, q.epsilon, boxes, motion.balls)
@@ -89,8 +89,7 @@ def open_or_close(flow, squares, motion, sign, statistics):
 def _add_potential_drops(squares, before, after, forcing, sums):
     """Add the decrease of the potentials at an event to sums (k,).
 
-    before, after: contact state and boxes before and after the event. forcing: sine and cosine of the phase. If the
-    contact state stays the same, only the terms with the changed velocity are computed.
+    before, after: (contact state, boxes). forcing: sine and cosine of the phase.
     """
     (mode, boxes), (later, others), (sine, cosine) = before, after, forcing
     if mode != later:
@@ -127,7 +126,7 @@ def _before(q, boxes, event):
 
 @inlined_source
 def _add_flight(flow, squares, motion, end, length, statistics):
-    """Add the statistics of a flight with the duration `length`, except for the potentials at its two ends."""
+    """Add the statistics of a flight of duration `length`, except for the potentials at its ends."""
     mode = mode_of(motion.walls)
     for i in range(2):
         statistics[LARGEST + i] = max(statistics[LARGEST + i], abs(motion.boxes[i]), abs(end[i]))
@@ -151,9 +150,6 @@ def _add_flight(flow, squares, motion, end, length, statistics):
 def _add_piece(p, low, high, i, wall, statistics):
     """Update the statistics of module i with the motion of box i between the times `low` and `high`.
 
-    If the box reverses its motion, its largest displacement is updated. If the ball sticks to the box, the length of
-    their common path is added to the path length of the ball.
-
     p (8,): Taylor polynomial of the box.
     """
     x, last, v, w = value(p, low), value(p, high), slope(p, low), slope(p, high)
@@ -170,17 +166,14 @@ def _add_piece(p, low, high, i, wall, statistics):
 
 @inlined
 def observe(runs, c, work, integrals, flight, hits, early, arrival):
-    """Add the statistics of a flight in each lane and of the impact at its end, if there is one.
+    """Add the statistics of a flight in each lane and of an impact at its end.
 
-    flight: mask of the lanes whose flight ends now, length of the last step, duration of the flight, and five times a
-    bound on the error of Hermite's polynomial in the last step.
-
-    hits: masks of the lanes with an impact, one mask for each module.
-
+    flight: mask of the lanes whose flight ends, last step, duration, and five times the error bound of Hermite's
+    polynomial.
+    hits: mask of the lanes with an impact, for each module.
     early: boxes and forcing at the start of the last step.
-
-    arrival: values at the end of the last step: box positions, box velocities before and after the impact, ball
-    velocities before the impact, and forcing.
+    arrival: values at the end: box positions, box velocities before and after the impact, ball velocities before the
+    impact, forcing.
     """
     (there, t, time, wrong), (boxes, late, after, balls, forcing) = flight, arrival
     watched, third = (load(runs, rows.WATCHED) > 0.0) & there, t * (1 / 3)
@@ -214,28 +207,21 @@ def _add(runs, mask, place, value):
 def may_turn_beyond(record, x, v, later, v_later, third):
     """Return True in lanes where a box reverses its motion and a middle Bernstein coefficient exceeds `record`.
 
-    record: largest displacement of the box so far, minus a margin for errors. x, v, later, v_later: position and
-    velocity of the box at both ends of the step. third: a third of the step.
+    record: largest displacement so far, less an error margin.
     """
     return (v * v_later < 0.0) & (most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > record)
 
 
 @inlined
 def keep_turns(runs, c, work, turns, wrong, early, late, step):
-    """Store a turning point of a box if its displacement there may be the largest so far.
+    """Store turning points of boxes whose displacement may be the largest so far.
 
-    If the displacement at a turning point stored earlier may be larger, the displacements at all stored turning points
-    are computed first.
-
-    early, late: boxes and forcing before and after the step. wrong: five times a bound on the error of Hermite's
-    polynomial.
-
-    Hermite's polynomial is split near the turning point, since the Bernstein coefficients of the two parts are close
-    bounds on the displacement there.
+    early, late: boxes and forcing before and after the step. wrong: five times the error bound of Hermite's polynomial.
     """
     wrong = 0.2 * wrong
     for i in range(2):
         x, v, y, w, row = early[i], early[2 + i], late[i], late[2 + i], rows.TURNS_AT + rows.TURN * i
+        # split Hermite's polynomial near the turning point; the coefficients of the parts are close bounds
         part, p, q = v / (v - w), fused(step * (1 / 3), v, x), fused(step * (-1 / 3), w, y)
         first, middle, last = fused(part, p - x, x), fused(part, q - p, p), fused(part, y - q, q)
         before, after = fused(part, middle - first, first), fused(part, last - middle, middle)
@@ -245,6 +231,7 @@ def keep_turns(runs, c, work, turns, wrong, early, late, step):
         if count(turned) == 0:
             continue
         lowest = abs(fused(part, after - before, before)) - wrong
+        # compute the stored turning points, if one of them may have a larger displacement
         if count(turned & (load(runs, row + rows.KEPT) > 0.0) & (load(runs, row + rows.HIGHEST) > lowest)) > 0:
             find_turns(runs, c, work)
         is_late, record = part > 0.5, load(runs, STATISTICS_AT + LARGEST + i)
@@ -257,12 +244,7 @@ def keep_turns(runs, c, work, turns, wrong, early, late, step):
 
 @in_place
 def find_turns(runs, c, work):
-    """Compute the displacements of the boxes at the stored turning points, and update the largest displacements.
-
-    The time of a turning point is computed by Newton's method with the first terms of the Taylor polynomials. The
-    displacement and velocity at this time are computed with all terms. The result is the displacement at the vertex of
-    a parabola with these values.
-    """
+    """Compute the displacements of the boxes at the stored turning points, and update the largest displacements."""
     for i in range(2):
         row, first = rows.TURNS_AT + rows.TURN * i, rows.SECOND * i
         kept = load(runs, row + rows.KEPT) > 0.0
@@ -274,6 +256,7 @@ def find_turns(runs, c, work):
                 later = t - _slope(work, first, t) / _bend(work, first, t)
                 t = where(abs(later) <= load(c, rows.STEP), later, t)
             value, slope = evaluate(work, first, t)
+            # displacement at the vertex of a parabola
             turned = abs(value - 0.5 * slope * slope / _bend(work, first, t))
             record = load(runs, STATISTICS_AT + LARGEST + i)
             replace_rows(runs, STATISTICS_AT + LARGEST + i, kept & (turned > record), (turned,))

@@ -1,22 +1,22 @@
 """Advance eight runs in parallel lanes through free flights and simple impacts; each lane has its own system.
 
-Between impacts each lane advances by its fixed step h (`advance_lanes`): z = [X1, X2, X1', X2', sin, cos] becomes
-exp(A h) z. Only the change of z is computed and added, so that the rounding error is small.
+Between impacts, a step h multiplies z = [X1, X2, X1', X2', sin, cos] by exp(A h) (`advance_lanes`). Only the change of
+z is computed and added, so that the rounding error is small.
 
-A step needs a proof that no impact happens in it. The position w of a ball in its box and the rate r of w, at both ends
-of the step, define Hermite's cubic polynomial. This polynomial lies between the smallest and the largest of its
-Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime marks the end of the step. With a bound B on the
-fourth derivative of w, the error of the polynomial is at most B h^4 s^2 (1 - s)^2 / 24 at the fraction s of the step.
-The walls are at w = +-1. The proof requires that the two middle coefficients are at most 1 - B h^4 / 72 in magnitude,
-since the margin B h^4 / 72 covers more than this error. A bound on rounding errors is also subtracted from 1. B follows
-from the energy of the boxes, which cannot grow by more than the work of the force.
+A step needs a proof that no impact happens in it. The position w of a ball in its box and its rate r, at both ends of
+the step, define Hermite's cubic polynomial. The polynomial lies between its Bernstein coefficients w, w + h r / 3,
+w' - h r' / 3, w', where a prime marks the end of the step. Let B bound the fourth derivative of w. At the fraction s of
+the step, the error of the polynomial is at most B h^4 s^2 (1 - s)^2 / 24. The walls are at w = +-1. The proof requires
+that the two middle coefficients are at most 1 - B h^4 / 72 in magnitude. Their weight is 3 s (1 - s), so that this
+margin covers the error. A bound on rounding errors is also subtracted from 1. B follows from the energy of the boxes,
+which grows by at most the work of the force.
 
-A lane without a proof for its next step waits. Once enough lanes wait, `step_to_event` advances all of them in one
-pass. In a pass, the Taylor polynomials of both boxes give the time of an impact. The Bernstein coefficients for the
-step that ends at this time prove that no impact happens earlier. If the proof fails, the next pass tries half the time.
-All other cases (chatter to be completed, balls at rest, simultaneous events, any doubt) are left to the event loop.
+A lane without a proof waits. Once enough lanes wait, `step_to_event` advances all of them in one pass. Taylor
+polynomials of both boxes give the time of an impact. The Bernstein coefficients up to this time prove that no impact
+happens earlier. If the proof fails, the next pass tries half the time. The event loop handles all other cases (chatter
+to be completed, balls at rest, simultaneous events, any doubt).
 
-The impact law is implemented here again; `vibroimpact.system.restitution` lists all implementations of the law.
+`vibroimpact.system.restitution` lists all implementations of the impact law, such as the one here.
 """
 
 import math
@@ -45,18 +45,17 @@ RUNNING, WAITING, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 RUNNING: the run goes on. WAITING: the next step is not proved to be free of impacts, so that the lane waits for a pass.
 STOPPED: the run has reached the end of a window. DOUBTFUL: the lane needs the event loop."""
 
-SHORTEST = 1 / 32  # if a proof over this fraction of a step or less fails, the event loop takes over
-LONGEST = 6.0  # change of the forcing phase [rad] after which its sine and cosine are computed again; below 2 pi
+SHORTEST = 1 / 32  # up to this fraction of a step, a failed proof hands the run to the event loop
+LONGEST = 6.0  # phase change [rad] after which sine and cosine are computed again; below 2 pi
 ROUNDED = 8.0 * 2.0**-52  # relative bound on the rounding error of a few operations
-SAME_TIME = 2.0**-48  # a run stops if its remaining time is at most SAME_TIME
+SAME_TIME = 2.0**-48  # a run stops if at most this time remains
 
 
 @in_place
 def advance_lanes(runs, c, work, enough):
-    """Advance runs (STATES, 8) with constants c (CONSTANTS, 8), and return the number of steps taken.
+    """Advance runs (STATES, 8) until `enough` lanes have no proof of a step without impact.
 
-    The function returns when `enough` or more lanes have no proof for their next step. A proof shows that no ball hits
-    a wall in the step.
+    Return the number of steps. c (CONSTANTS, 8): constants.
     """
     x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
     passed, reach, trial = load_rows(runs, rows.PASSED, 3)
@@ -125,10 +124,10 @@ class Bodies(NamedTuple):
 class Contact(NamedTuple):
     """End of a step in each lane, which may be an impact.
 
-    time: duration of the step. meets: True if a ball meets a wall at the end of the step. missed: True if a ball should
-    meet a wall in the step, but the time of the impact is not found. first: True if the ball that meets (or should
-    meet) a wall is in module 1, False if it is in module 2. walls: wall that each ball approaches. at_once: True if a
-    ball is already on its wall at the start of the step, so that `time` is 0.
+    time: duration of the step. meets: True if a ball meets a wall at the end.
+    missed: True if the time of an expected impact is not found.
+    first: True if the ball that meets a wall is in module 1. walls: wall that each ball approaches.
+    at_once: True if a ball is already on its wall, so that `time` is 0.
     """
 
     time: Lanes
@@ -152,12 +151,10 @@ class Clock(NamedTuple):
 
 @in_place
 def step_to_event(runs, c, work, integrals):
-    """Advance each waiting run by its trial step or, if an impact happens in this step, to the impact.
+    """Advance each waiting run by its trial step, or to an impact in this step.
 
-    If an impact before the end of the step cannot be excluded, the run stays where it is, and its next trial step is
-    half as long. Returns the number of runs that need the event loop or have reached the end of a window.
-
-    work (2 ORDER + 2, 8): workspace for polynomials. integrals: number of observed integrals.
+    If an earlier impact cannot be excluded, the run stays and its next trial step is half as long. Return the number of
+    runs that need the event loop or are at the end of a window.
     """
     pending, leaves = load(runs, rows.OUTCOME) == WAITING, load(runs, rows.TRIAL) < 0.0
     x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
@@ -207,7 +204,7 @@ def step_to_event(runs, c, work, integrals):
 
 @inlined
 def _locate(runs, c, work, now, leaves):
-    """Return the Contact at the end of a step, which ends at the next impact or after the longest allowed time."""
+    """Return the Contact at the end of a step, at the next impact or after the longest allowed time."""
     x1, x2, v1, v2, y1, y2, u1, u2 = now
     (touch1, touch2), (s, k) = load_rows(runs, rows.TOUCH1, 2), load_rows(runs, rows.SINE, 2)
     due, step = load(runs, rows.DUE), load(c, rows.STEP)
@@ -230,7 +227,7 @@ def _locate(runs, c, work, now, leaves):
 
 @inlined
 def _arrive(runs, work, t, elapsed):
-    """Return the Bodies after a step of length t, and the rounding remainders of the ball positions.
+    """Return the Bodies after a step t, and the rounding remainders of the ball positions.
 
     elapsed: time since the start of the flight.
     """
@@ -245,7 +242,7 @@ def _arrive(runs, work, t, elapsed):
 
 @inlined
 def _prove(now, then, end, limit, rounding):
-    """Return a mask of the lanes where it is proved that no ball meets a wall in a step, except at its end."""
+    """Return a mask of the lanes where certainly no ball meets a wall before the end of the step."""
     t, third = end.time, end.time * (1 / 3)
     meets1, meets2 = end.meets & end.first, end.meets & ~end.first
     w1, w2 = then.x1 - then.y1, then.x2 - then.y2
@@ -272,10 +269,9 @@ def _advance_clock(runs, c, elapsed):
 
 @inlined
 def _collide(c, then, end, clock, rounding):
-    """Return (wall, velocities of box and ball after the impact, mask `plain`) for the lanes where a ball meets a wall.
+    """Return (wall, box velocity, ball velocity, mask `plain`) for the impact in each lane.
 
-    After a plain impact the lane can go on. An impact is not plain if a chatter that begins with the impact would end
-    soon, or if the relative velocities before or after the impact may be rounding errors.
+    An impact is not plain if it begins a chatter that ends soon, or if relative velocities may be rounding errors.
     """
     x1, x2, v1, v2, y1, y2, u1, u2 = then
     kappa, epsilon = load(c, rows.KAPPA), load(c, rows.EPSILON)
@@ -302,7 +298,7 @@ def _collide(c, then, end, clock, rounding):
 
 @inlined
 def _begin_flight(runs, c, done, start, clock):
-    """Write the start of the next flight, and the bounds for its first step, in the lanes of the mask `done`."""
+    """Write the start of the next flight, and the limit for its first step, in the lanes of the mask `done`."""
     x1, x2, v1, v2, _, _, u1, u2 = start
     step, across = load(c, rows.STEP), x1 - x2
     energy = fused(x1, x1, load(c, rows.GROUND) * (x2 * x2))
@@ -321,7 +317,7 @@ def _begin_flight(runs, c, done, start, clock):
 def _limit(c, size, t, rounding):
     """Return the limit on the middle Bernstein coefficients of a step of length t.
 
-    size: bound on the square root of twice the energy of the boxes. rounding: bound on rounding errors.
+    size: bound on the root of twice the energy of the boxes.
     """
     square = t * t
     bend = fused(load(c, rows.BEND), size, load(c, rows.BEND_FORCE))
@@ -330,17 +326,14 @@ def _limit(c, size, t, rounding):
 
 @inlined
 def _change(c, k, x1, x2, v1, v2, s, cosine):
-    """Return entry k of (exp(A h) - I) z, the change of z = [X1, X2, X1', X2', sin, cos] in a step h; k < 4."""
+    """Return entry k < 4 of (exp(A h) - I) z, the change of z = [X1, X2, X1', X2', sin, cos] in a step h."""
     low = _of_boxes(c, rows.LOW_PARTS + 4 * k, x1, x2, v1, v2)
     return _rough_change(c, k, x1, x2, v1, v2, s, cosine, low)
 
 
 @inlined
 def _rough_change(c, k, x1, x2, v1, v2, s, cosine, low=0.0):
-    """Return the change as in `_change`, by default without the rounding remainders of the constants.
-
-    low: contribution of these remainders.
-    """
+    """Return the change as in `_change`; `low` is the contribution of the rounding remainders."""
     boxes = _of_boxes(c, 6 * k, x1, x2, v1, v2)
     return boxes + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
 
@@ -355,17 +348,16 @@ def _of_boxes(c, k, x1, x2, v1, v2):
 def _inside(limit, w, rate, later, rate_later, third):
     """Return True in lanes where both middle Bernstein coefficients are at most `limit` in magnitude.
 
-    w, rate, later, rate_later: position of a ball in its box and the rate of this position, at the start and at the end
-    of the step. third: a third of the step.
+    w, rate, later, rate_later: ball position and its rate, before and after the step. third: a third of the step.
     """
     return (abs(fused(third, rate, w)) <= limit) & (abs(fused(-third, rate_later, later)) <= limit)
 
 
 @inlined
 def _drifted(y, low, u, time):
-    """Return the position of a ball after `time`, as two floats: a sum and its rounding remainder.
+    """Return the position of a ball after `time`, as a float and its rounding remainder.
 
-    Without the remainder, the rounding errors of equal flights would add up.
+    Without the remainder, rounding errors of equal flights would add up.
     """
     way = fused(time, u, low)
     there = y + way
@@ -381,9 +373,9 @@ def _rounding(c, size, u1, u2):
 
 @inlined
 def _approximate_time(work, first, leaves, wall, y, u, step):
-    """Return the approximate time at which a ball meets a wall, from a quadratic equation and two Newton steps.
+    """Return the approximate time at which a ball meets a wall.
 
-    first: first row of the polynomial of the box. leaves: True if the ball has just left this wall.
+    leaves: True if the ball has just left this wall.
     """
     c0 = where(leaves, 0.0, 1.0 - wall * (load(work, first) - y))
     c1, c2 = -wall * (load(work, first + 1) - u), -wall * load(work, first + 2)
@@ -400,12 +392,11 @@ def _approximate_time(work, first, leaves, wall, y, u, step):
 
 @inlined
 def _refined_time(work, one, near, speed, t):
-    """Return the time at which a ball meets its wall, by two Newton steps from t, and True if they converge.
+    """Return (time at which a ball meets its wall, True if Newton's method from t converges).
 
-    one: True for module 1, False for module 2. near, speed: position of the ball relative to the wall, and rate of this
-    position, at time 0. The first step uses fewer terms of the polynomial, since the second step corrects it.
+    near, speed: ball position relative to the wall and its rate, at time 0.
     """
-    t = t - _newton_step(work, one, near, speed, t, rows.TERMS + 2)
+    t = t - _newton_step(work, one, near, speed, t, rows.TERMS + 2)  # the second step corrects neglected terms
     change = _newton_step(work, one, near, speed, t, ORDER)
     t = t - change
     return t, abs(change) <= CONVERGING * t
@@ -413,7 +404,7 @@ def _refined_time(work, one, near, speed, t):
 
 @inlined
 def _newton_step(work, one, near, speed, t, order):
-    """Return the Newton step of `_refined_time` at t, from the terms of the polynomial up to an order."""
+    """Return the Newton step of `_refined_time` at t, from polynomial terms up to an order."""
     value, slope = where(one, load(work, order), load(work, SECOND + order)), 0.0 * t
     for m in range(order - 1, 1, -1):
         slope = fused(slope, t, value)
