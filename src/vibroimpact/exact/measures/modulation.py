@@ -13,7 +13,7 @@ _LOW, _HIGH = 0.35, 0.65
 def cycle_amplitudes(values, per_cycle: int) -> np.ndarray:
     """Return half the peak-to-peak value in each complete forcing period, shape (cycles,).
 
-    `values` has shape (n,), with `per_cycle` values in each period.
+    values: shape (n,), with `per_cycle` values in each period.
     """
     cycles = len(values) // per_cycle
     by_cycle = np.asarray(values)[: cycles * per_cycle].reshape(cycles, per_cycle)
@@ -24,29 +24,22 @@ def variation(amplitudes) -> float:
     """Return the standard deviation of the amplitudes divided by their mean.
 
     The result is 0 for a steady response and d / sqrt(2) for a beat with the amplitudes 1 + d cos(...).
-
-    The result converges as the window becomes longer, in contrast to `extreme_depth`.
     """
     mean = np.mean(amplitudes)
     return float(np.std(amplitudes) / mean) if mean > 0 else 0.0
 
 
 def extreme_depth(amplitudes) -> float:
-    """Return the modulation depth (largest - smallest) / (largest + smallest) from the extreme amplitudes.
-
-    This measure grows with the length of the window and is kept for comparison with `variation`.
-    """
+    """Return the modulation depth (largest - smallest) / (largest + smallest); longer windows give larger values."""
     largest, smallest = np.max(amplitudes), np.min(amplitudes)
     return float((largest - smallest) / (largest + smallest)) if largest > 0 else 0.0
 
 
 def swells(amplitudes) -> np.ndarray:
-    """Return the cycles in which a swell of the amplitude begins, as indices (s,) into the amplitudes (n,).
+    """Return the indices (s,) of the cycles in which a swell of the amplitude begins.
 
-    A swell begins when the amplitude rises above 0.65 after it was below 0.35, where 0 is the smallest amplitude and 1
-    the largest. The two thresholds exclude ripples.
-
-    The differences between successive indices are the modulation periods in cycles. A steady response has no swells.
+    A swell begins when the amplitude rises above 0.65 after it was below 0.35. The scale is 0 at the smallest amplitude
+    and 1 at the largest.
     """
     amplitudes = np.asarray(amplitudes, dtype=float)
     lowest, span = np.min(amplitudes), np.ptp(amplitudes)
@@ -64,13 +57,10 @@ def swells(amplitudes) -> np.ndarray:
 def bursts(tau, wall, period: float) -> np.ndarray:
     """Return the start and end time of each resonant burst of one ball, shape (b, 2), from its impacts.
 
-    A flight is resonant if it leads to the opposite wall and lasts between a quarter and three quarters of the forcing
-    period. A burst is an unbroken sequence of at least two resonant flights.
+    A flight is resonant if it leads to the opposite wall in 1/4 to 3/4 of a forcing period. A burst consists of at
+    least two successive resonant flights.
 
-    Parameters
-    ----------
-    tau, wall
-        Time and wall of each impact in order of time, shape (m,).
+    tau, wall: time and wall of each impact, shape (m,).
     """
     tau, wall = np.asarray(tau), np.asarray(wall)
     duration = np.diff(tau)
@@ -82,25 +72,21 @@ def bursts(tau, wall, period: float) -> np.ndarray:
 
 
 def bursts_in(run: Run, module: int) -> np.ndarray:
-    """Return the start and end time of each resonant burst (`bursts`) of a module's ball in a run, shape (b, 2)."""
+    """Return the start and end time of each resonant burst of a module's ball in a run, shape (b, 2)."""
     mine = run.events[(run.events["module"] == module) & (run.events["kind"] == IMPACT)]
     return bursts(mine["tau"], mine["wall"], run.system.period)
 
 
 def sampled(system, state, cycles: int) -> Run:
-    """Return a run over `cycles` forcing cycles from a state at tau = 0.
-
-    The run has PER_CYCLE samples in each cycle and one at the end.
-    """
+    """Return a run from a state at tau = 0, with PER_CYCLE samples in each cycle and one at the end."""
     return simulate(system, state, cycles, sample_times=np.arange(cycles * PER_CYCLE + 1) * (system.period / PER_CYCLE))
 
 
 def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
-    """Return measures of a modulated motion over `cycles` forcing cycles from a state at tau = 0.
+    """Return measures of a modulated motion from a state at tau = 0; the keys are (quantity, module).
 
-    The keys are (quantity, module). "amplitude variation" is the `variation` of the box amplitude from cycle to cycle.
-    "resonant share" is the fraction of the time within bursts (`bursts`). "burst length" is the mean duration of a
-    burst in cycles, nan without bursts. "impacts per cycle" and "sticks per 1000 cycles" are mean numbers of events.
+    "amplitude variation" is the `variation` of the box amplitude. "resonant share" is the fraction of the time in
+    `bursts`. "burst length" is a mean in cycles, nan without bursts. The others are mean numbers of events.
     """
     run = sampled(system, state, cycles)
     found = {}
@@ -119,9 +105,9 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
 
 
 def mean_and_error(values) -> tuple[float, float, int]:
-    """Return (mean, standard error of the mean, number) of the finite values; each value is from one initial state.
+    """Return (mean, standard error of the mean, number) of the finite values.
 
-    The mean is nan if no value is finite, and the error is nan for fewer than two finite values.
+    The mean is nan without finite values, the error for fewer than two.
     """
     values = np.asarray(values, dtype=float)
     values = values[np.isfinite(values)]

@@ -1,30 +1,26 @@
 """Identify the motion to which a run has settled: period, symmetry, number of impacts.
 
-The functions use displacements (X1, Y1, X2, Y2), evenly sampled with a whole number of samples per forcing period.
-Velocities are not used, since they jump at impacts.
+Displacements (X1, Y1, X2, Y2) are sampled evenly, a whole number of times per forcing period. Velocities are not used,
+since they jump at impacts.
 """
 
 import numpy as np
 
 
 def samples_per_cycle(tau, period: float) -> int:
-    """Return the number of samples per forcing period for evenly spaced sample times tau, shape (n,).
+    """Return the number of samples per forcing period for evenly spaced times tau, shape (n,).
 
-    Raises
-    ------
-    ValueError
-        If the times are not evenly spaced, their spacing does not divide the period, or they span less than a period.
+    Raise ValueError if the spacing is uneven or does not divide the period, or if tau spans less than a period.
     """
     tau = np.asarray(tau, dtype=float)
     if tau.ndim != 1 or len(tau) < 2:
-        raise ValueError(f"tau: needs at least 2 times, got shape {tau.shape}")
+        raise ValueError(f"tau: needs two or more sample times, got shape {tau.shape}")
     step = (tau[-1] - tau[0]) / (len(tau) - 1)
     number = round(period / step) if step > 0 else 0
     slack = 1e-6 * step
     if np.any(np.abs(np.diff(tau) - step) > slack) or abs(number * step - period) > number * slack:
         raise ValueError(
-            f"tau: needs evenly spaced times with a whole number of spacings in a period of {period}, "
-            f"got a mean spacing of {step}"
+            f"tau: needs evenly spaced times whose spacing divides the period {period}, got a mean spacing of {step}"
         )
     if len(tau) <= number:
         raise ValueError(f"tau: {len(tau)} samples span less than one period; needs at least {number + 1}")
@@ -32,19 +28,10 @@ def samples_per_cycle(tau, period: float) -> int:
 
 
 def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
-    """Return the largest difference between displacements that are `cycles` forcing periods apart in the window.
+    """Return the largest difference between displacements that are `cycles` forcing periods apart.
 
-    The result is 0 for a motion that repeats after `cycles` periods.
-
-    Parameters
-    ----------
-    displacements
-        Shape (n, k), sampled evenly with per_cycle samples in each forcing period.
-
-    Raises
-    ------
-    ValueError
-        If the window is not longer than `cycles` periods.
+    displacements: shape (n, k), with `per_cycle` samples in each period. Raise ValueError unless they span more than
+    `cycles` periods.
     """
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
@@ -56,31 +43,20 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
 def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None:
     """Return the smallest number of forcing periods after which a motion repeats within a tolerance, or None.
 
-    Only numbers up to half of the window are tried, so that every repetition is observed at least twice.
-
-    Parameters
-    ----------
-    displacements, per_cycle
-        As in `distance_after`.
+    Only numbers up to half of the sampled periods are tried. displacements: as for `distance_after`.
     """
     displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
     later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
-    # every n for which the sample after n periods is within the tolerance of the first sample
+    # numbers n of periods after which a sample is close to the first sample
     back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)
     return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 
 def mirror_distance(displacements, per_cycle: int) -> float:
-    """Return the largest |x(tau + T/2) + x(tau)| over all displacements x in the window; 0 for a symmetric motion.
+    """Return the largest |x(tau + T/2) + x(tau)| over all displacements x; 0 for a symmetric motion.
 
-    The equations of motion do not change if the state changes its sign and time is shifted by half a period T/2. A
-    symmetric motion does not change either.
-
-    Raises
-    ------
-    ValueError
-        If per_cycle is odd, so that half a period is not a whole number of samples.
+    Raise ValueError if `per_cycle`, the number of samples in a period T, is odd.
     """
     if per_cycle % 2:
         raise ValueError(f"per_cycle: {per_cycle} is odd; needs an even number, so that half a period ends at a sample")
@@ -91,12 +67,7 @@ def mirror_distance(displacements, per_cycle: int) -> float:
 def impacts_per_cycle(tau, module, wall, start: float, period: float, cycles: int) -> np.ndarray:
     """Return the number of impacts for each forcing period, module and wall (+1, -1), shape (cycles, 2, 2).
 
-    Parameters
-    ----------
-    tau, module, wall
-        Time, module and wall of each impact, shape (m,).
-    start : float
-        Time at which the first period begins.
+    tau, module, wall: properties of each impact, shape (m,). start: start of the first period.
     """
     tau, module, wall = np.asarray(tau), np.asarray(module), np.asarray(wall)
     edges = start + period * np.arange(cycles + 1)

@@ -10,19 +10,9 @@ WALLS = (1, -1)
 
 
 def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return B and psi [rad] of the first harmonic B sin(Omega tau - psi) in each column of values.
+    """Return B and psi [rad] of the first harmonic B sin(Omega tau - psi) in each column of values (n, k).
 
-    Parameters
-    ----------
-    tau
-        Evenly spaced times over a whole number of forcing periods, without the end point, shape (n,).
-    values
-        Shape (n, k), for example U_1 and U_2.
-
-    Returns
-    -------
-    tuple[ndarray, ndarray]
-        B, and psi in [-pi, pi], each of shape (k,).
+    tau: evenly spaced times over whole forcing periods, without the end point, (n,). psi is in [-pi, pi].
     """
     turning = np.exp(-1j * Omega * np.asarray(tau))[:, None]
     phasor = 2j * np.mean(np.asarray(values) * turning, axis=0)
@@ -36,13 +26,11 @@ class SlowVariables:
     Attributes
     ----------
     B, psi : ndarray
-        Amplitude and phase lag [rad] of the first harmonic of U_i, each of shape (2,).
+        Amplitude and phase lag [rad] of the first harmonic of U_i, shape (2,).
     C : ndarray
-        Saw-tooth amplitude, from the distance between the ball's mean positions at its impacts with both walls, shape
-        (2,).
+        Saw-tooth amplitude, from the ball's mean positions at both walls, shape (2,).
     impact_phases : ndarray
-        Mean phases of the impacts as fractions of the cycle, in [0, 1), shape (2, 2). The first index is the module,
-        the second the wall (+1, then -1).
+        Mean phases of impacts as fractions of the cycle, in [0, 1), shape (2, 2): module, wall (+1, -1).
     """
 
     B: np.ndarray
@@ -58,18 +46,10 @@ class SlowVariables:
 def measure(system, tau, displacements, impacts) -> SlowVariables:
     """Return the slow variables of a periodic motion.
 
-    Parameters
-    ----------
-    tau, displacements
-        Evenly spaced times over a whole number of periods, without the end point, shape (n,), and X1, Y1, X2, Y2 at
-        these times, shape (n, 4).
-    impacts
-        Mapping with arrays (m,) under the keys tau, module, wall, Y1, Y2.
-
-    Raises
-    ------
-    ValueError
-        If a ball has no impact at one of its walls.
+    tau: evenly spaced times over whole forcing periods, without the end point, (n,).
+    displacements: X1, Y1, X2, Y2 at these times, (n, 4).
+    impacts: mapping with arrays (m,) under the keys tau, module, wall, Y1, Y2.
+    Raise ValueError if a ball has no impact at one of its walls.
     """
     X, Y = displacements[:, 0::2], displacements[:, 1::2]
     B, psi = amplitude_and_lag(tau, X + system.epsilon * Y, system.Omega)
