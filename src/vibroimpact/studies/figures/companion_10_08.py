@@ -38,29 +38,25 @@ MOST_FLIGHTS = 4
 
 
 def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
-    """Return W_2 over two forcing periods as predicted and as simulated.
+    """Return W_2 = X_2 - Y_2 over two forcing periods, by the theory and as simulated.
 
-    The prediction is (10.10) at the fixed point nearest to the simulated motion.
+    The theory is (10.10) at the fixed point nearest to the simulated motion.
 
     Parameters
     ----------
     points : DataFrame
-        The fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
+        Fixed points; columns label, C1, C2, B1, B2, psi1, psi2.
     samples : DataFrame
-        Samples of the simulation, evenly spaced from the start of a forcing period; columns tau, X1, Y1, X2, Y2.
+        Simulated states, evenly spaced from the start of a forcing period; columns tau, X1, Y1, X2, Y2.
     events : DataFrame
-        Events of the simulation; columns tau, module, wall, kind, X2, Y2.
-
-    Returns columns panel ("theory", "simulation"), series ("W_2", "impact", or "mirror image": W_2 half a period later
-    with opposite sign), label (of the fixed point), phase (in forcing periods, 0 at the start of a period), W2. Without
-    a fixed point the panel "theory" has no rows.
+        Simulated events; columns tau, module, wall, kind, X2, Y2.
     """
     start, period = samples["tau"].iloc[0], system.period
     hits = events[(events["module"] == 2) & (events["kind"] == "impact")]
     sampled = pd.DataFrame({"phase": (samples["tau"] - start) / period, "W2": samples["X2"] - samples["Y2"]})
     impacts = pd.DataFrame({"phase": (hits["tau"] - start) / period, "W2": hits["wall"].astype(float)})
     motion = pd.concat([sampled, impacts]).drop_duplicates("phase").sort_values("phase")
-    # The equations are invariant if all displacements change sign and time is shifted by half a period.
+    # Half a period later with all signs changed, a motion still solves the equations.
     image = motion.assign(phase=motion["phase"] - 0.5, W2=-motion["W2"])
     return join(
         [
@@ -92,10 +88,7 @@ def _theory(system, points, samples):
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`, with the theory in the upper panel and the simulation in the lower panel.
-
-    The mirror image is grey. Each flight is labelled with its length.
-    """
+    """Draw the table of `compute`: the theory above, the simulation below."""
     figure = new_figure(SINGLE_COLUMN, 88.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True, sharey=True)
     for axes, (panel, title) in zip(grid, PANELS.items(), strict=True):

@@ -1,7 +1,6 @@
 """Companion: peak displacement over a band of frequencies with balls, without balls and with tuned absorbers.
 
-Peaks X and clearances are divided by the static deflection f = epsilon f10_hat. As X and f are in units of the
-clearance, the divided peak is X / f, and the divided clearance is 1 / f.
+Peaks and clearances are divided by the static deflection f = epsilon f10_hat.
 """
 
 from itertools import takewhile
@@ -102,31 +101,21 @@ SUMMARY_COLUMNS = ["quantity", "who", "value", "spread", "kappa", *FORCES, "clea
 
 
 def compute(system, response, clearance, design, band: dict, seed: int, cycles: int, settle: int) -> dict:
-    """Return the peaks with balls per unit force, and a summary that compares them with linear systems.
+    """Return the peaks with balls, and a summary that compares them with linear systems.
 
-    The lowest peak of a sweep is biased: the lowest of many values with random errors is too low. So the
-    REMEASURED_PEAKS lowest peaks are measured again (`absorbers.peaks`), from rest and other starts, at the
-    frequencies of the band and half-way between them. The lowest of the new values is reported, with its standard
-    error. The reported peak is a lower bound, since the boxes may move further in a motion that no start reaches.
+    The lowest peak of a sweep is too low, since it is the lowest of many values with random errors. So the lowest peaks
+    are measured again from other starts. The new value is a lower bound, since all starts may miss the largest motion.
 
     Parameters
     ----------
-    system
-        System of the sweeps, for the parameters that do not vary.
     response
-        Table of a sweep that varies sigma_e_hat and the pair of forces; it contains regimes, amplitudes and energy.
+        Table of a sweep over sigma_e_hat and the pair of forces, with regimes, amplitudes and energy.
     clearance, design
-        Tables of two sweeps with the peaks along `band`. The sweep `clearance` varies the pair of forces; the sweep
-        `design` varies kappa and the pair of forces.
+        Tables of the peaks along `band`, over the pair of forces; `design` also varies kappa.
     band : dict
         Arguments of `sweeps.grid.axis`, along sigma_e_hat.
-    seed : int
-        Seed of the starts in the sweeps.
     cycles, settle : int
-        Length of each run in the sweeps, and length of the transient that is left out, in forcing periods.
-
-    Returns "csv", the peaks of both sweeps: columns sweep, kappa, clearance, ratio (X / f); and "summary": columns
-    quantity, who, value, ... (see SPEC).
+        Length of each run and of its omitted transient, in forcing periods.
     """
     linear = linear_systems(system, (1.0, 1.0), band)
     peaks = {name: one.peak(frequencies(system, band)) / system.epsilon for name, one in linear.items()}
@@ -158,10 +147,9 @@ def _peaks(system, table):
 
 
 def _lowest_again(system, table, band, states, cycles, settle):
-    """Measure the REMEASURED_PEAKS lowest peaks of a sweep again, and return the row with the lowest new peak.
+    """Measure the lowest peaks of a sweep again; return the row with the lowest new peak.
 
-    The row has two more entries than in `table`: value (the new peak) and spread (its standard error), both divided by
-    the force.
+    The row has value (the new peak) and spread (its standard error), divided by the force f.
     """
     detunings = np.sort(np.ravel(axis(**band).values))
     detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
@@ -174,11 +162,10 @@ def _lowest_again(system, table, band, states, cycles, settle):
 
 
 def plateau(places):
-    """Return the largest kappa, the smallest peak and the largest peak of the points on the plateau.
+    """Return the largest kappa, the smallest peak and the largest peak on the plateau, or three nan if it is empty.
 
-    places: for each kappa, ascending, the point with the lowest peak. The plateau consists of all points before the
-    first one whose peak exceeds PLATEAU_FACTOR times the lowest peak of `places`. If the plateau is empty, all
-    three results are nan.
+    places: the point with the lowest peak for each kappa, ascending. The plateau ends before the first peak above
+    PLATEAU_FACTOR times the lowest peak.
     """
     level = PLATEAU_FACTOR * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))
@@ -187,9 +174,9 @@ def plateau(places):
 
 
 def _over_frequencies(system, response, band):
-    """For each pair of forces, yield two rows of the summary, each with a statistic over all frequencies.
+    """Yield two rows per pair of forces, each with a statistic over all frequencies.
 
-    The statistics are the largest ratio of the response with balls to that without balls, and the median impact share.
+    The first is the largest ratio of the response to that without balls, the second is the median impact share.
     """
     for pair, rows in response.groupby(FORCES, sort=False):
         without, place = linear_systems(system, pair, band)["without balls"], dict(zip(FORCES, pair, strict=True))

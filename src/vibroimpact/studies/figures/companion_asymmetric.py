@@ -115,30 +115,23 @@ JUDGED = ["real", "admissible", "impact_map", "slow_flow", "modulus", "lost_at",
 
 
 def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_max: float) -> dict:
-    """Return the manifold, all asymmetric fixed points of the cases, and exact asymmetric orbits as epsilon decreases.
-
-    Exact asymmetric orbits occur in pairs of mirror images; one orbit of each pair is followed.
+    """Return the manifold, the asymmetric fixed points, and exact asymmetric orbits as epsilon decreases.
 
     Parameters
     ----------
-    systems : dict
-        Case -> system.
     orbits : DataFrame
         Rows of `verdict_table.orbit_rows` for all cases.
     kappa
-        Restitution coefficient of the manifold; cases with another kappa are left out.
+        Restitution coefficient of the manifold. Cases with another kappa are left out.
     epsilon, values
-        Range and number of values of epsilon, evenly spaced on a log scale. Each orbit is followed from the epsilon of
-        its case through all smaller values.
+        Range and number of values of epsilon, evenly spaced on a log scale.
     C_max : float
         Largest C of the symmetric branch.
 
-    Returns three tables:
-
-    - "csv", the manifold, and the C_i and B_i of the asymmetric modules of fixed points: columns series, C, B.
-    - "pairs", a row per orbit and epsilon: columns case, label, exact, epsilon, asymmetry (the larger abs(v)). The last
-      row of an orbit is its limit, if known: a fixed point at epsilon = 0, or a symmetric orbit.
-    - "points", a row per fixed point.
+    Returns
+    -------
+    dict
+        The tables in SPEC. In "pairs", the last row of an orbit is its limit, if known.
     """
     pairs, rows, places = [], [], []
     for case, system in systems.items():
@@ -170,10 +163,7 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_
 
 
 def _manifold(kappa, C_max):
-    """Yield the pieces of the symmetric and of the asymmetric branch of the manifold.
-
-    The asymmetric branch ends where its B equals the B of the symmetric branch at C_max.
-    """
+    """Yield the pieces of the symmetric branch up to C_max, and of the asymmetric branch up to the same B."""
     edges = (0.0, lower_limit(kappa), SYMMETRY_BREAKING_C, C_max)
     r, end = rho(kappa), branch.period_doubling(kappa)
     symmetric = [np.linspace(*ends, 101) for ends in pairwise(edges)]
@@ -185,10 +175,7 @@ def _manifold(kappa, C_max):
 
 
 def _pairs(system, orbits):
-    """For each mirror pair of orbits with positive C, yield the row of one of the two orbits and its root (6,).
-
-    The root solves the equations for asymmetric orbits (`AsymmetricConditions`).
-    """
+    """For each pair of mirror images, yield the row of one orbit and its root (6,) of `AsymmetricConditions`."""
     rows = orbits[~orbits["symmetric"].astype(bool) & ~(orbits["C1"] <= 0) & ~(orbits["C2"] <= 0)]
     one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]
     for _, row in one_each.iterrows():

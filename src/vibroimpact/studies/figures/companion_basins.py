@@ -55,26 +55,16 @@ _MARK = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "marke
 
 
 def compute(system, case: str, points: int, observation: dict) -> dict:
-    """Return the regimes of starts that differ in the positions of the balls only.
+    """Return the regimes of starts that differ only in the positions of the balls.
 
-    The positions of the boxes and all velocities are those of the stable asymmetric orbit at tau = 0. Without such an
-    orbit, they are 0.
+    Boxes and all velocities start as on the stable asymmetric orbit, or at 0 without such an orbit.
 
     Parameters
     ----------
-    case : str
-        Name of the system.
     points : int
-        Number of starts along each axis, at the midpoints of equal parts of -1 < W_i < 1.
+        Number of starts along each axis W_i = X_i - Y_i, -1 < W_i < 1.
     observation : dict
-        Arguments of `regimes.settling.Observation`.
-
-    Returns three tables:
-
-    - "csv", a row per start: columns panel (the case), label (regime), W1, W2.
-    - "orbits", states at tau = 0: columns series and `NAMES`. The series "shared" is the state that gives all starts
-      their box positions and their velocities; "mirror image" is the state of the mirror image of the orbit.
-    - "shares": columns regime, share, uncertainty (binomial standard error of the share).
+        Arguments of `Observation`.
     """
     orbit = stable_response(system)
     states = plane(np.zeros(8) if orbit is None else orbit.state, points)
@@ -94,7 +84,7 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: colours of the regimes, a circle at the orbit and a diamond at its mirror image."""
+    """Draw the regimes of the starts, with a circle at the orbit and a diamond at its mirror image."""
     starts, orbits = tables["csv"], tables["orbits"].set_index("series")
     figure = new_figure(SINGLE_COLUMN, 100.0)
     axes = figure.add_subplot()

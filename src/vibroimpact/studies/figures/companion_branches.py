@@ -141,18 +141,13 @@ def compute(
     paths : list of dict
         For each path, `along` (names of the parameters that vary together) and `range` (low, high).
     longest_step, seeds
-        Settings of the continuation, see `regimes.branches`; the seeds are evenly spread over the range.
+        Longest step of the continuation, and number of seeds in the range.
     attractors : dict
-        `values` (number of parameter values, evenly spread), `starts` (number of starts at each value), `seed`.
+        `values` (number of parameter values), `starts` (number of starts at each value) and `seed`.
     observation : dict
-        Arguments of `regimes.settling.Observation`.
+        Arguments of `Observation`.
     systems : dict
-        Case -> system; cases on a path are marked.
-
-    Returns five tables. "csv", the nodes of the branches: columns panel, series, label, branch, piece, p, C1, C2,
-    stable, admissible. "attractors": panel, label, p, and C1, C2 from half of the mean distance that each ball covers
-    per cycle. "cases": panel, case, p. "special_points": path, family, kind, p, C1, C2, admissible, with one row of the
-    kind "none" for a path without special points. "onsets": rows of `regimes.onset.onsets`.
+        Case -> system. Cases on a path are marked.
     """
     nodes, attracting, cases, onsets = [], [], [], []
     begun = spread_starts(attractors["starts"], attractors["seed"])
@@ -184,7 +179,7 @@ def compute(
 
 
 def _special_points(nodes, names):
-    """Return the special points in the order of the paths, with one row of the kind "none" for a path without any."""
+    """Return the special points of each path; a path without any has one row of the kind "none"."""
     found = nodes[nodes["label"].ne("")].sort_values("admissible")
     found = found.drop_duplicates(["panel", "series", "label", "branch", "p"], keep="last").sort_index()
     without = pd.DataFrame({"panel": [one for one in names if one not in set(found["panel"])], "label": "none"})
@@ -195,10 +190,7 @@ def _special_points(nodes, names):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw C_2 along each path from the tables of `compute`: theory in the upper panels, exact motions below.
-
-    Lines of stable motions are bold and solid; lines of unstable motions are dashed. Dots show simulated motions.
-    """
+    """Draw C_2 along each path: the theory above, exact motions and simulations below."""
     nodes, attractors, cases = tables["csv"], tables["attractors"], tables["cases"]
     panels = list(dict.fromkeys(attractors["panel"]))
     figure = new_figure(DOUBLE_COLUMN, 112.0)
@@ -233,12 +225,12 @@ def _cases(theory, exact, cases):
 
 
 def _branches(axes, nodes):
-    """Draw all pieces of branches; return (name, lines) of each long branch.
+    """Draw all branches; return (name, lines) of each long branch.
 
-    lines: the stable lines of the branch, or all of its lines if none is stable.
+    The lines are the stable ones, or all if none is stable.
     """
     named, spans = {}, nodes.groupby(["series", "branch"])["p"].agg(np.ptp)
-    # Successive pieces of the same stability are one line: dashes that start again at each piece would look solid.
+    # Successive pieces are one line, since dashes that start again at each piece look solid.
     begins = nodes[["series", "stable", "branch"]].ne(nodes[["series", "stable", "branch"]].shift()).any(axis=1)
     begins |= nodes.index.to_series().diff().ne(1)  # rows that are not admissible were left out in between
     pieces = nodes.groupby(["series", "branch", "stable", begins.cumsum()], sort=False)

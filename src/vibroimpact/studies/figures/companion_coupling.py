@@ -64,15 +64,12 @@ SHOWN = {
 
 
 def compute(systems: dict) -> dict:
-    """Return the errors over the coupling, and a summary with the patterns of asymmetric flights.
+    """Return the errors of the theory at several couplings, and a summary with the patterns of asymmetric flights.
 
     Parameters
     ----------
     systems : dict
-        Case -> system. Errors are computed for those cases that are named in the constants STRONG and WEAK. Patterns
-        are computed for the case "equal", with some of its parameters replaced by those in the constant ALIKE.
-
-    Returns "csv", a row per fixed point with the columns case, coupling and those of `errors`, and "summary".
+        Case -> system. The case "equal" is required; the cases in STRONG and WEAK are used.
     """
     rows = [
         {"case": case, "coupling": value} | row
@@ -97,15 +94,12 @@ def compute(systems: dict) -> dict:
 
 
 def errors(system) -> list[dict]:
-    """Return a row per fixed point: relative errors of C, the predicted stability, and that of the exact orbit.
+    """Return a row per fixed point: errors of C, the predicted stability, and that of the exact orbit.
 
-    error: larger difference in C_1 or C_2 between the fixed point and its exact orbit, divided by the larger C_i of
-        the orbit.
-    own_error: larger of the relative errors of C_1 and C_2; the difference in C_i is divided by the C_i of the orbit.
-    predicted: True if the fixed point is stable by the theory on both time scales.
-    stable: True if the exact orbit is admissible and all of its multipliers are inside the unit circle.
+    error: larger error of C_1 or C_2, divided by the larger C_i of the orbit.
+    own_error: larger of the relative errors of C_1 and C_2.
 
-    Both errors are nan if the fixed point has no admissible exact orbit.
+    Both errors are nan without an admissible exact orbit.
     """
     points, rows = fixed_points(system), []
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))

@@ -64,23 +64,16 @@ SLOPES = {"slow": (1, 20.0), TWO_TERMS: (2, 0.1)}
 
 
 def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict | None = None) -> dict:
-    """Return the errors of the theory for each fixed point of the cases at each epsilon, and the orders of the errors.
+    """Return the errors of the theory for each fixed point at each epsilon, and the orders of these errors.
 
     Parameters
     ----------
-    systems : dict
-        Case -> system.
     epsilon, values
-        First and last epsilon and number of values, evenly on a log scale, both ends included.
+        First and last epsilon, and number of values, evenly spaced on a log scale.
     fit_below : float
         Upper limit of epsilon in the fit of the orders.
     mixed : dict, optional
-        `case` and `label` of a point to leave out because its fast and slow multipliers cannot be distinguished.
-
-    Returns "csv": columns panel (kind of error), series ("case, label"), epsilon, error; and "orders": case, label,
-    panel, order, uncertainty. The kinds of error are "distance" (between fixed point and exact orbit), "slow" (of slow
-    rates), "fast" (of fast multipliers) and "two terms" (the distance if the first-order term is added to the fixed
-    point).
+        `case` and `label` of a point to leave out, since its fast and slow multipliers cannot be distinguished.
 
     Raises
     ------
@@ -120,9 +113,9 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
 
 
 def _two_terms(system, point, found):
-    """Return distances between orbits and a fixed point, with the first-order term added to the fixed point.
+    """Return each distance in `found` after the first-order term is added to the fixed point.
 
-    found: one `Comparison` for each distance. All distances are nan if `first_order` raises NoOrbit.
+    The distances are nan if the first-order term does not exist.
     """
     added = np.nan
     with suppress(NoOrbit):
@@ -151,10 +144,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _slope(axes, epsilon, error, slope, times):
-    """Draw a triangle with the given slope next to the last point (epsilon, error) of a curve.
-
-    times: The sloping side of the triangle is on the line through the point (epsilon, times * error).
-    """
+    """Draw a triangle with its sloping side on the line of `slope` through (epsilon, times * error)."""
     x = epsilon * np.array([0.05, 0.5])
     y = error * times * (x / epsilon) ** slope
     axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))

@@ -31,11 +31,14 @@ SPEC = {
 
 
 def compute(system: System, initial_state, strobe: pd.DataFrame) -> pd.DataFrame:
-    """Return the measured error of a float64 run at the start of each forcing cycle, and the error that is expected.
+    """Return the measured and the expected error of a float64 run at the start of each forcing cycle.
 
-    The expected error is the estimate in the certificate of the run. strobe: the true states at the starts of the
-    cycles (columns tau and `NAMES`). Returns columns panel ("error"), series, cycle, error. The series are "measured",
-    "expected" and "horizon", which has one row: the cycle at which the expected error exceeds 1e-3.
+    The expected error is that of the certificate of the run.
+
+    Parameters
+    ----------
+    strobe : DataFrame
+        True states at the starts of the cycles; columns `NAMES`.
     """
     difference, expected, horizon = departure(system, initial_state, strobe[list(NAMES)].to_numpy(float))
     cycles = np.arange(len(difference))

@@ -81,26 +81,16 @@ TICKS = 4
 
 
 def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
-    """Return the regimes, the fixed points and the marked cases of the map, from the table of a sweep.
+    """Return the regimes, the borders by the theory and the marked cases of the map.
 
     Parameters
     ----------
     table : DataFrame
-        Table of a sweep that varies f10_hat and f20_hat, both evenly spaced.
-    system
-        System of the sweep.
+        Table of a sweep over f10_hat and f20_hat, both evenly spaced.
     systems : dict
-        Case -> system; cases that differ from `system` in the forcing amplitudes only are marked.
+        Case -> system. Cases that differ from `system` only in the forcing amplitudes are marked.
     starts : int
-        Number of starts at each point; the first one is from rest.
-
-    Returns three tables:
-
-    - "csv", a row per cell: label (regime from rest), f10_hat, f20_hat, regime (in which most of the other starts end),
-      coexisting (number of regimes in which the other starts end, without "unsettled"), a column with the share of each
-      regime, fixed_points and stable_points (number of fixed points, and of those that the theory calls stable).
-    - "cases": case, f10_hat, f20_hat.
-    - "borders", where the number of fixed points changes: series, piece, f10_hat, f20_hat.
+        Number of starts at each point, the first at rest.
     """
     cells = table.rename(columns={FROM_REST: "label"})
     cells["regime"], cells[COEXISTING] = _dominant(cells, starts)
@@ -115,9 +105,9 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
 
 def _dominant(cells, starts):
-    """For each cell, return the regime in which most starts end, and the number of regimes in which starts end.
+    """Return, for each cell, the regime of most starts and the number of regimes, without "unsettled".
 
-    The number does not include "unsettled". The start from rest is ignored unless it is the only start.
+    The start from rest is ignored unless it is the only start.
     """
     counts = cells[[*REGIMES]].to_numpy(float) * starts
     if starts > 1:
@@ -129,10 +119,9 @@ def _dominant(cells, starts):
 
 
 def _border(system, cells, series):
-    """Yield the ends of the line pieces that form the border across which a number of fixed points changes.
+    """Yield both ends of each piece of a border, as (number of the piece, f10_hat, f20_hat).
 
-    `series` selects the number: that of all fixed points, or that of the stable ones. Each end consists of the
-    number of the piece, f10_hat and f20_hat. The ends are found by bisection.
+    series: the number that changes at the border, "fixed points" or "stable points".
     """
     which = BORDERS.index(series)
     square = cells.pivot(index="f20_hat", columns="f10_hat", values=series.replace(" ", "_")).to_numpy(float)
@@ -156,10 +145,9 @@ def _border(system, cells, series):
 
 
 def _squares(cells, square):
-    """For each square of four adjacent cells with known counts, yield the list of (centre, count) of the four cells.
+    """Yield each square of four adjacent cells with known counts, as a list of (centre, count) around the square.
 
-    Neighbours in the list share a side. square: the count of fixed points in each cell of the map, over f20_hat (rows)
-    and f10_hat (columns); nan if unknown.
+    square: counts over f20_hat (rows) and f10_hat (columns).
     """
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
@@ -169,10 +157,10 @@ def _squares(cells, square):
 
 
 def _pieces(corners, crossing):
-    """Return the pieces of the border within a square of four cell centres (`corners`, as yielded by `_squares`).
+    """Return the pieces of the border within a square from `_squares`.
 
-    If the border crosses two sides, one piece connects both crossings. If it crosses four sides, a piece leads from
-    each crossing to the mean of the crossings. crossing: function that finds the crossing between two corners.
+    Two crossings of the sides are joined by one piece. Four crossings are each joined to their mean.
+    crossing: function that returns the crossing between two corners.
     """
     sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
     ends = [crossing(first, second) for first, second in sides]
@@ -212,9 +200,9 @@ def draw(tables: dict) -> Figure:
 
 
 def _name(axes, regimes, name, lined):
-    """Write the name of a regime where its largest patch is widest; return False if that patch is too small.
+    """Write the name of a regime in its largest patch; return False if this patch is too small.
 
-    The name avoids cells with a stroke or a piece of the border of stability; `lined` is True for these cells.
+    The name avoids cells that are True in `lined`.
     """
     patches, _ = ndimage.label(regimes.eq(name))
     sizes = np.bincount(patches.ravel())[1:]
@@ -230,9 +218,6 @@ def _name(axes, regimes, name, lined):
 
 
 def _ends(centres):
-    """Return the limits of an axis: the outer edges of the first and the last cell of a row with the given `centres`.
-
-    The limits are rounded, since a tick at an edge could otherwise lie outside the limits by a rounding error.
-    """
+    """Return the outer edges of the first and the last cell, from the centres of all cells."""
     half = 0.5 * (centres[1] - centres[0])
-    return np.round([centres[0] - half, centres[-1] + half], 12)
+    return np.round([centres[0] - half, centres[-1] + half], 12)  # so that a tick at an edge is within the limits

@@ -1,7 +1,6 @@
 """Companion: response of the boxes with balls against the frequency and against the amplitude of the forcing.
 
-A response is the largest |X_i| of the box that moves more, divided by f. Here f is the larger of the two forces
-epsilon f10_hat and epsilon f20_hat.
+A response is the largest |X_i| of both boxes, divided by the larger force f.
 """
 
 from functools import lru_cache
@@ -83,22 +82,16 @@ LINE_POINTS = 451
 
 
 def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) -> dict:
-    """Return displacements per unit force: with balls in two sweeps, and of linear systems.
+    """Return the responses with balls in two sweeps, and the responses of linear systems.
 
     Parameters
     ----------
-    system
-        System of the sweeps, for the parameters that do not vary.
     frequency : DataFrame
-        Table of a sweep that varies sigma_e_hat and the pair of forces, with columns of regimes and amplitudes.
+        Table of a sweep over sigma_e_hat and the pair of forces, with regimes and amplitudes.
     force : DataFrame
-        Table of a sweep that varies the amplitude of two equal forces, with columns of regimes and amplitudes.
+        Table of a sweep over the amplitude of two equal forces, with regimes and amplitudes.
     band : dict
-        Arguments of `sweeps.grid.axis`, along sigma_e_hat, for the band in which the best absorbers are tuned.
-
-    Returns "csv", responses with balls: columns panel ("frequency" or "force"), label (the regime of most starts),
-    f10_hat, f20_hat, sigma_e_hat, ratio (X / f); "linear", linear systems: panel, series, f10_hat, f20_hat,
-    sigma_e_hat, ratio.
+        Arguments of `sweeps.grid.axis`: the values of sigma_e_hat for which the best absorbers are tuned.
     """
     sweeps = {"frequency": frequency, "force": force.assign(sigma_e_hat=system.sigma_e_hat)}
     balls = pd.concat([per_force(system, table).assign(panel=name)[OF_BALLS] for name, table in sweeps.items()])
@@ -118,10 +111,7 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
 
 
 def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
-    """Return the table of a sweep with two more columns: ratio and label (the regime of most starts).
-
-    ratio is the largest |X_i| of the box that moves more, divided by the larger force f.
-    """
+    """Return the table of a sweep with two more columns: ratio (the response) and label (the regime of most starts)."""
     force = system.epsilon * table[FORCES].max(axis=1)
     largest = table[["largest_X1", "largest_X2"]].max(axis=1)
     return table.assign(ratio=largest / force, label=table[list(REGIMES)].idxmax(axis=1))
@@ -143,20 +133,13 @@ def frequencies(system, band: dict) -> tuple[float, float]:
 
 
 def ratios(system, linear, detunings):
-    """Return |X_i| / f of the box that moves more in a linear system, at each detuning.
-
-    The larger of f10_hat and f20_hat of the linear system is 1, so that f = epsilon.
-    """
+    """Return the response at each detuning of a linear system whose larger force amplitude is 1."""
     return linear.amplitudes(1.0 + system.epsilon * np.asarray(detunings)).max(axis=-1) / system.epsilon
 
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`.
-
-    Each pair of forces has a panel with the responses over the detuning. The last panel shows the responses over the
-    force.
-    """
+    """Draw a panel of the responses over the detuning for each pair of forces, and a last panel over the force."""
     balls, linear = (dict(iter(tables[key].groupby("panel"))) for key in ("csv", "linear"))
     pairs = list(balls["frequency"].groupby(FORCES, sort=False))
     columns, rows = side_by_side(len(pairs) + 1, most=2)
@@ -185,10 +168,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _forced(pair):
-    """Return a heading with the forced boxes and the amplitudes of the forces, such as "box 1 forced, amplitude 2".
-
-    Symbols with subscripts would be too small in a heading.
-    """
+    """Return a heading such as "box 1 forced, amplitude 2"."""
     forces = {f"box {box}": f"{force:g}" for box, force in enumerate(pair, 1) if force}
     who = "both boxes" if len(forces) == len(pair) else " ".join(forces)
     return f"{who} forced, amplitude {' and '.join(dict.fromkeys(forces.values()))}"
@@ -205,7 +185,7 @@ def _draw_panel(axes, balls, linear, x):
 
 
 def logarithmic(axes, side: str, *ends: float) -> None:
-    """Make an axis logarithmic with labels at 1, 2 and 5 times powers of ten; `ends`, if given, are its limits."""
+    """Make an axis logarithmic, with labels at 1, 2 and 5 times powers of ten and optional limits `ends`."""
     axes.set(**{f"{side}scale": "log"})
     axis = getattr(axes, f"{side}axis")
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))

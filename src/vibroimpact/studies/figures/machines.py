@@ -83,8 +83,7 @@ FINE, PER_CYCLE = 301, 30
 def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int, shown: dict) -> dict:
     """Return the largest displacements of the boxes against frequency, and a motion in time.
 
-    The machines with balls are simulated from rest, for several clearances. The machines without balls and with the
-    best linear absorbers are computed in closed form.
+    The machines with balls are simulated from rest; the linear machines are computed in closed form.
 
     Parameters
     ----------
@@ -95,19 +94,9 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
     frequencies : dict
         `range` [Hz] and `values`, the number of frequencies.
     cycles, settle : int
-        Length of each run with balls, and of the transient at its start, which is left out, in forcing periods.
+        Length of each run and of its omitted transient, in forcing periods.
     shown : dict
         `L` [m], `frequency` [Hz] and `cycles` of the motion.
-
-    Returns three tables. In the first and the last one, swing [mm] is the largest displacement of both boxes.
-
-    - "csv": columns series ("without balls", "best absorbers" or the clearance, such as "L = 5 mm"), frequency [Hz],
-      swing.
-    - "motion": columns L [m], frequency [Hz], time [s], box [mm], ball [mm], at_wall (True at an impact).
-    - "summary": one row per clearance L [m]. The row has the frequency [Hz] at which swing is largest, the mean power
-      [W] of the forces at this frequency, the share of this power that impacts dissipate, and swing. The column force
-      [N] is the value of F10 at which L is the best clearance, that with the smallest swing. The best clearance is
-      proportional to F10, since only the ratio L / F10 matters.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]
@@ -134,10 +123,7 @@ def _machines(plant, L, hertz):
 
 
 def _linear(machine, band):
-    """Yield the curves without balls and with the best absorbers: displacement [mm] against frequency [Hz] in a band.
-
-    The clearance of `machine` has no effect on these curves.
-    """
+    """Yield the curves without balls and with the best absorbers: displacement [mm] against frequency [Hz]."""
     unit, fine = machine.omega10 / (2 * np.pi), np.linspace(*band, FINE)
     linear = compared(machine.dimensionless(), tuple(band / unit))
     for name in LINES:

@@ -41,19 +41,18 @@ COLUMNS = {
 
 
 def compute(system) -> dict:
-    """Perturb an unstable exact orbit whose fixed point is stable by (10.26) of the chapter, and simulate the motion.
+    """Perturb an unstable exact orbit whose fixed point is stable by (10.26), and simulate the motion.
 
-    The orbit is the one that `_called_stable` returns. If there is no such orbit, the tables have no rows.
+    Without such an orbit, the tables have no rows. Times t are in forcing periods.
 
-    Returns tables by name, with times t in forcing periods:
-
-    - "motion": columns t, X1, Y1, X2, Y2, with a row for each sample and each event, so that a plot with straight lines
-      has its corners exactly at the impacts.
-    - "impacts": columns t, module, wall.
-    - "distance": columns t, distance (Euclidean distance between the states of the motion and of the orbit, once a
-      period).
-    - "flights": columns t (end of a flight of ball 2), length.
-    - "orbit": columns label (of the fixed point), multiplier (modulus of the largest multiplier of the orbit).
+    Returns
+    -------
+    dict
+        - "motion": X1, Y1, X2, Y2 at each sample and each event.
+        - "impacts": module and wall of each impact.
+        - "distance": Euclidean distance from the orbit, once a period.
+        - "flights": end and length of each flight of ball 2.
+        - "orbit": label of the fixed point, and modulus of the largest multiplier.
     """
     label, orbit = _called_stable(system)
     if orbit is None:
@@ -78,7 +77,7 @@ def compute(system) -> dict:
 
 
 def page_data(tables: dict[str, pd.DataFrame]) -> dict:
-    """Return the data of the animation in the report: motion, flights of ball 2, and distance from the orbit."""
+    """Return the data of the animation in the report."""
     rounded = {name: tables[name].astype(float).round(4) for name in ("motion", "impacts", "flights")}
     return {
         "cycles": int(tables["distance"]["t"].max()) if len(tables["distance"]) else 0,
@@ -91,7 +90,7 @@ def page_data(tables: dict[str, pd.DataFrame]) -> dict:
 
 
 def animate(tables: dict[str, pd.DataFrame], path) -> None:
-    """Write a GIF file to `path` in which the curves of the figure grow by two forcing periods from frame to frame."""
+    """Write the figure as an animated GIF file; each frame shows two more forcing periods."""
     frames = []
     for cycle in range(1, CYCLES + 1, 2):
         past = {name: tables[name][tables[name]["t"] <= cycle] for name in ("distance", "flights")}
@@ -103,10 +102,9 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
 
 
 def _called_stable(system):
-    """Return (label, orbit) for the most unstable admissible exact orbit whose fixed point is stable by (10.26).
+    """Return (label, orbit) for the most unstable orbit whose fixed point is stable by (10.26), or (None, None).
 
-    The label is that of the fixed point of the slow flow that corresponds to the orbit. The result is (None, None) if
-    no such orbit is unstable.
+    The orbit is admissible.
     """
     points = fixed_points(system)
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))

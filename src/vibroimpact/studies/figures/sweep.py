@@ -42,16 +42,18 @@ HEIGHT = 48.0
 
 
 def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
-    """Return the columns of a sweep's table that are drawn, in long form (one row per value).
+    """Return the drawn columns of a sweep's table in long form, one row per value.
 
     Parameters
     ----------
     axes : list of dict
         For each axis, `along` (names of the parameters that vary together) and optionally `scale`.
 
-    Returns the columns "panel", "series", one column for the first parameter of each axis, "value", "along" and
-    "scale". The columns "along" and "scale" contain the settings of all axes, joined by "; ". Regimes in which no run
-    of the sweep ends are left out.
+    Returns
+    -------
+    DataFrame
+        Columns panel, series, the first parameter of each axis, value, along and scale. The last two join the settings
+        of all axes by "; ".
     """
     moved = [axis["along"][0] for axis in axes]
     curves = [

@@ -39,9 +39,9 @@ _BOX = {"edgecolor": BLACK, "linewidth": 0.4}
 
 
 def paint(axes, square: pd.DataFrame) -> list[str]:
-    """Paint cells in the colours of their regimes, hatch cells without a regime, and return the regimes that occur.
+    """Paint cells in the colours of their regimes; return the regimes that occur.
 
-    square: names of regimes, with the index along y and the columns along x.
+    square: regimes, with the index along y and the columns along x.
     """
     occurring = [name for name in COLOURS if square.eq(name).to_numpy().any()]
     codes = np.select([square.eq(name).to_numpy() for name in occurring], range(len(occurring)), np.nan)
