@@ -31,14 +31,9 @@ CHAOTIC_REGIMES = {AT_TIMES: STRONGLY_MODULATED, ALWAYS: CHAOTIC, NEVER: HOPPING
 
 
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
-    """Return the regime of the motion in `run`, which covers whole forcing cycles and does not repeat.
+    """Return the regime of a motion that does not repeat.
 
-    The Lyapunov exponent is estimated from one or two longer runs, which start from the final state of `run`.
-
-    Parameters
-    ----------
-    blocks, block : int
-        Number of blocks for the estimate of the exponent, and forcing cycles per block.
+    blocks, block: number of blocks for the Lyapunov exponent, and forcing cycles per block.
     """
 
     def of_length(cycles):
@@ -56,9 +51,9 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
 
 
 def sign(exponent: Measured) -> str:
-    """Return POSITIVE, ZERO, or OPEN if the sign of `exponent` is uncertain.
+    """Return POSITIVE, ZERO, or OPEN if the sign of the exponent is uncertain.
 
-    An exponent that is certainly negative is OPEN too, since the motion still approaches a periodic one.
+    A certainly negative exponent is OPEN, since the motion still approaches a periodic one.
     """
     if exponent.mean > ERROR_FACTOR * exponent.error:
         return POSITIVE
@@ -66,10 +61,9 @@ def sign(exponent: Measured) -> str:
 
 
 def resonance(shares) -> str:
-    """Return NEVER, AT_TIMES or ALWAYS, from the share of time that each module is in resonance, shape (2,).
+    """Return AT_TIMES if a module enters and leaves resonance, else ALWAYS if one stays in resonance, else NEVER.
 
-    The result is AT_TIMES if a module enters and leaves resonance. Otherwise it is ALWAYS if a module stays in
-    resonance, and NEVER if no module is in resonance.
+    shares: share of time that each module is in resonance.
     """
     low, high = RESONANT
     shares = np.asarray(shares)
@@ -79,10 +73,7 @@ def resonance(shares) -> str:
 
 
 def recurs(system, state, cycles: int) -> bool:
-    """Return True if the motion from `state` comes back near `state` in the second half of `cycles` cycles.
-
-    "Near" is defined by RECURRENT. A motion that decays does not come back, so the result is False.
-    """
+    """Return True if the motion comes back near `state` in the second half of `cycles` cycles."""
     states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
     extent = np.ptp(states, axis=0)
     away = np.abs(states[cycles // 2 :] - states[0]) / np.where(extent > 0, extent, 1.0)

@@ -1,9 +1,9 @@
 """Follow exact asymmetric orbits to small epsilon, and find the fixed points of the slow flow that they approach.
 
-Orbits and fixed points are compared in three coordinates of each module: the amplitude C of the saw-tooth, v^2, and the
-phase [rad] half-way from the impact at wall +1 to the impact at wall -1. Here v is the difference of the two flight
-times of a cycle, divided by the period. At v = 0, two asymmetric orbits emanate from a symmetric orbit. The three
-coordinates are smooth in epsilon there; v and the impact phases are not.
+Orbits and fixed points are compared in three coordinates of each module: the amplitude C, v^2, and the phase [rad]
+half-way between the impacts at wall +1 and at wall -1. Here v is the difference of the two flight times, divided by the
+period. Asymmetric orbits emanate from a symmetric orbit at v = 0. The three coordinates are smooth in epsilon there,
+but v and the impact phases are not.
 """
 
 from dataclasses import dataclass
@@ -36,10 +36,9 @@ class Station:
 
 
 def follow(system, root, values) -> list[Station]:
-    """Follow an asymmetric orbit to smaller epsilon; return the orbit of `root`, then one for each epsilon of `values`.
+    """Return the orbit of `root`, (6,), and its continuations to the decreasing `values` of epsilon.
 
-    `root` (6,) solves `AsymmetricConditions` of the system. `values` decrease and are below the epsilon of the system.
-    The list ends early where the branch meets a symmetric orbit or Newton's method loses the branch.
+    The list ends early at a symmetric orbit, or where Newton's method fails.
     """
     root = np.asarray(root, dtype=float)
     stations = [Station(system, root)]
@@ -52,10 +51,7 @@ def follow(system, root, values) -> list[Station]:
 
 
 def offset(station, point) -> np.ndarray:
-    """Return the difference between `station.place` and the corresponding values of a fixed point, shape (6,).
-
-    For a single machine, the values of the inactive module are left out, so that the shape is (3,).
-    """
+    """Return `station.place` minus the values of a fixed point, shape (6,), or (3,) for a single machine."""
     difference = station.place - np.concatenate([point.C, point.squared, point.middle + point.psi])
     difference[4:] = np.angle(np.exp(1j * difference[4:]))
     return difference[np.isfinite(difference)]
@@ -64,9 +60,7 @@ def offset(station, point) -> np.ndarray:
 def leads_to(stations, points):
     """Return the fixed point that an orbit approaches at epsilon = 0, or None.
 
-    The last two orbits in `stations` are extrapolated linearly to epsilon = 0. The result is None if no fixed point is
-    near the extrapolated orbit, for example because the branch turns back at a fold. The result is also None if
-    `stations` has fewer than two orbits.
+    The last two orbits are extrapolated linearly.
     """
     if len(stations) < 2:
         return None
@@ -77,11 +71,10 @@ def leads_to(stations, points):
 
 
 def onset(stations) -> float:
-    """Return the epsilon at which the asymmetric orbit emanates from a symmetric one; a negative result is set to 0.
+    """Return the epsilon at which the asymmetric orbit emanates from a symmetric one, at least 0.
 
-    The polynomial epsilon(v^2) through the last orbits in `stations` (at most `_MOST_NODES`) is evaluated at v^2 = 0,
-    where the orbit is symmetric. A straight line through the last two orbits would give only three correct digits if
-    epsilon differs by 20 % between these orbits.
+    A polynomial epsilon(v^2) is extrapolated to v^2 = 0. In steps of 20 % of epsilon, a straight line would give only
+    three correct digits.
     """
     last = stations[-_MOST_NODES:]
     epsilon = np.array([station.system.epsilon for station in last])

@@ -32,11 +32,11 @@ class Attractor:
     regime : str
         One of `vibroimpact.studies.regimes.classification.REGIMES`.
     cycles : int or None
-        Forcing periods after which the motion repeats, or None if it does not.
+        Forcing periods after which the motion repeats, or None.
     states : ndarray
-        Stroboscopic section, shape (k, 8): `cycles` points or, if the motion does not repeat, the points of a window.
+        Stroboscopic section, shape (k, 8), until the motion repeats or over a window.
     orbit : PeriodicOrbit or None
-        The motion with its multipliers, impacts and amplitudes if the regime is periodic, else None.
+        The motion with its multipliers if the regime is periodic, else None.
     """
 
     regime: str
@@ -52,14 +52,13 @@ class Basins:
     Attributes
     ----------
     labels : ndarray
-        Labels in the shape of the initial states: integers from 1, in the order in which attractors are found, or -1
-        for a state that has not settled (as in Attractors.jl).
+        Label of each initial state: an integer from 1, or -1 if unsettled, as in Attractors.jl.
     attractors : dict of int to Attractor
-        Attractor by label: .regime, .cycles, .states (k, 8), its stroboscopic section.
+        Attractor by label.
     shares : dict of int to float
-        Fraction of the initial states with each label; the sum is 1.
+        Fraction of the initial states by label.
     axes : dict of str to ndarray
-        Values of the varied coordinates by name; empty if the states were listed.
+        Values of the varied coordinates by name; empty for a list of states.
     """
 
     labels: np.ndarray
@@ -68,14 +67,12 @@ class Basins:
     axes: dict[str, np.ndarray]
 
     def rows(self, number: int = 0) -> list[dict]:
-        """Return one row per initial state: varied coordinates, label and regime.
-
-        For a list of initial states, the position of the state in the list takes the place of the coordinates.
+        """Return one row per initial state: varied coordinates (or position in the list), label and regime.
 
         Parameters
         ----------
         number : int, default 0
-            Ignored; `to_frame` passes the position of the object in a list.
+            Ignored.
 
         Returns
         -------
@@ -102,14 +99,11 @@ def attractors(system: System, states, observation: Observation | None = None, p
     system : System
         Dimensionless parameters.
     states : array_like
-        Initial states at tau = 0, shape (n, 8). An inactive module (as in `PhysicalSystem.single`) is put at rest.
+        Initial states at tau = 0, shape (n, 8).
     observation : Observation, optional
-        Length of the runs, see `Observation`. Each run lasts until the motion repeats, but at most
-        `observation.rounds` times `observation.cycles` forcing periods. Transients may be long: of 225 motions with
-        equal forces on both boxes, 210 still change by more than 1e-6 per forcing period after 400 periods, but none
-        after 2000 periods. A ball that starts at rest may never reach a wall.
+        Lengths of the runs. Transients may be long; 225 motions with equal forces settled within 2000 forcing periods.
     progress : bool, default True
-        Show on standard error, if it is a terminal, how many initial states are done.
+        Count the initial states on standard error, if it is a terminal.
 
     Returns
     -------
@@ -145,25 +139,22 @@ def basins(
 ) -> Basins:
     """Return the basins of attraction on a line or plane of initial states.
 
-    Labels, attractors and shares are as in Attractors.jl.
-
     Parameters
     ----------
     system : System
         Dimensionless parameters.
     axes : mapping
-        Values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2, where
-        W_i = X_i - Y_i places ball i between its walls, -1 < W_i < 1.
+        Values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2. Ball i
+        is between its walls if -1 < W_i = X_i - Y_i < 1.
     state : array_like, optional
-        State at tau = 0 with the values of the coordinates that are not in `axes`, shape (8,); at rest by default.
+        State at tau = 0 with all other coordinates, shape (8,); at rest by default.
     observation, progress
         As for `attractors`.
 
     Returns
     -------
     Basins
-        Labels in the shape of the axes, attractors and shares. `to_frame([found])` returns a table with a row per
-        initial state.
+        Labels in the shape of the axes, attractors and shares. `to_frame([found])` returns a table.
 
     Raises
     ------

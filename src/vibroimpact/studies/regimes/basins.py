@@ -13,21 +13,14 @@ MIRRORED = "asymmetric, mirrored"
 
 
 def stable_response(system):
-    """Return the stable asymmetric orbit with the longest flight from wall +1, or None.
-
-    The flight is that of the ball in the first active module.
-    """
+    """Return the stable asymmetric orbit with the longest flight of the first active ball from wall +1, or None."""
     stable = [o for o in orbits(system) if o.admissible and not o.symmetric and abs(o.multipliers[0]) < 1]
     first = system.modules[0] - 1 if stable else None
     return min(stable, key=lambda orbit: orbit.ball_speeds[first, 0] / orbit.ball_speeds[first].sum(), default=None)
 
 
 def plane(state, points: int) -> np.ndarray:
-    """Return initial states (points^2, 8) on a grid of ball positions between the walls.
-
-    Boxes and all velocities are those of `state` (8,). W_1 = X_1 - Y_1 and W_2 = X_2 - Y_2 are the midpoints of
-    `points` equal cells of (-1, 1); W_2 varies fastest.
-    """
+    """Return `state` with points^2 positions of the balls in -1 < W_i < 1, shape (points^2, 8); W_2 varies fastest."""
     states = np.tile(np.asarray(state, dtype=float), (points**2, 1))
     states[:, [1, 3]] = states[:, [0, 2]] - list(product(centres((-1.0, 1.0), points), repeat=2))
     return states
@@ -36,7 +29,7 @@ def plane(state, points: int) -> np.ndarray:
 def ends(system, states, observation: Observation) -> list[str]:
     """Return the regime in which the motion from each initial state ends.
 
-    The regime is called MIRRORED for an asymmetric response with positive `Regime.flight_asymmetry`.
+    An asymmetric response with positive `Regime.flight_asymmetry` is called MIRRORED.
     """
     regimes = settle(system, states, observation)
     return [MIRRORED if one.name == ASYMMETRIC and one.flight_asymmetry > 0 else one.name for one in regimes]

@@ -22,8 +22,8 @@ from vibroimpact.studies.regimes.families import (
 )
 from vibroimpact.system.representation import Representation, brief
 
-_EQUAL = 1e-6  # a value of p this close to an end of the interval counts as the end
-_APART = 1e-3  # branch points that are closer than this count as one point
+_EQUAL = 1e-6  # values of p this close to an end of the interval count as the end
+_APART = 1e-3  # branch points closer than this count as one
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
 
@@ -44,9 +44,8 @@ class Path:
 class Node:
     """A point of a branch.
 
-    p, x: value of the parameter, and root of the equations. amplitudes: C_1, C_2, shape (2,). kind: type of special
-    point, or "" if the point is not special.
-    stable, admissible: properties of the motion at this point; None at a special point.
+    p, x: value of the parameter, and root of the equations. amplitudes: C_1, C_2. kind: type of special point, or "".
+    stable, admissible: None at a special point.
     """
 
     p: float
@@ -59,12 +58,9 @@ class Node:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch(Representation):
-    """A part of a solution curve, with its nodes in order along the curve.
+    """A part of a solution curve. If the curve is closed, the last node is also the first.
 
-    If the curve is closed, the first node is also the last.
-
-    places: points of the curve with their tangents, one for each node that is not a special point. The list may contain
-    one more point at each end of the curve.
+    places: points with tangents at the nodes that are not special points. The list may have one more at each end.
     """
 
     family: object
@@ -84,10 +80,9 @@ class Branch(Representation):
         return [node for node in self.nodes if node.kind]
 
     def pieces(self) -> list[tuple[Node, list[Node]]]:
-        """Return the pieces of the branch between special points, each as (inner node, list of all nodes of the piece).
+        """Return the pieces between special points, each as (inner node, all nodes).
 
-        The list includes the nodes at both ends of the piece. The inner node is a node that is not a special point; the
-        whole piece has the stability of this node.
+        The inner node is not a special point; it has the stability of the whole piece.
         """
         cuts = [k for k, node in enumerate(self.nodes) if node.kind]
         found, inner = [], None
@@ -112,23 +107,16 @@ class Branch(Representation):
 def branches(
     family, path: Path, interval, seeds: Iterable[float], longest: float, symmetric: Iterable[Branch] = ()
 ) -> list[Branch]:
-    """Return the branches of a family that pass a seed (a value of p), and the branches that emanate from these.
+    """Return the branches of a family through seeds (values of p), and the branches that emanate from these.
 
-    A branch ends at an end of the interval, where a ball speed vanishes, or where the continuation finds no further
-    point. A branch of asymmetric motions also ends at a symmetric motion, where the branch meets its mirror image. Of
-    two mirror images, only one is followed. A branch that neither passes a seed nor emanates from another branch is
-    missed. A seed at which the search for roots fails is skipped with a warning.
+    Of two mirror images, only one is followed. A seed at which the search for roots fails is skipped with a warning.
 
     Parameters
     ----------
-    family
-        `SymmetricOrbits`, `AsymmetricOrbits` or `FixedPoints`.
-    path : Path
-        Function that returns the system at p.
     longest : float
         Longest step along the curve.
     symmetric : iterable of Branch, default ()
-        Branches of symmetric orbits, from which branches of asymmetric orbits start.
+        Symmetric orbits from which branches of asymmetric orbits start.
     """
 
     def equations(x, p):
@@ -159,7 +147,7 @@ def branches(
                 at = f"{' = '.join(path.names)} = {z[-1]:.6g}"
                 warnings.warn(f"{family.name}: skipped the branch through {at}: {error}", stacklevel=3)
                 continue
-            if len(places) > 1:  # a single place is a seed at a branch point; its branches are followed below
+            if len(places) > 1:  # else the seed is a branch point, whose branches are added to `starts` below
                 found.append(Branch(family, nodes, places[-1].closing, places))
             for crossing in (np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT):
                 if all(np.abs(crossing - known).max() > _APART for known in crossings):
@@ -169,10 +157,9 @@ def branches(
 
 
 def images(family, system, x, near) -> list[np.ndarray]:
-    """Return the root `x` and, for asymmetric orbits, that of the mirror image, with angles close to those of `near`.
+    """Return the root `x` and, for asymmetric orbits, that of the mirror image.
 
-    Multiples of the period `family.turn` are added to the angles (impact times or phases), so that each angle differs
-    by at most half of this period from that of the root `near`.
+    Each angle is shifted by whole periods to be close to that of the root `near`.
     """
     found, turn = [x.copy()], family.turn(system)
     if family is AsymmetricOrbits:
@@ -195,7 +182,7 @@ def _seeds(family, path, seeds):
 
 
 def _half(family, path, interval, curve, longest, start):
-    """Follow a branch from the Place `start` in the direction of `start.tangent`; return the nodes and the Places."""
+    """Follow a branch from the Place `start` along its tangent; return the nodes and the Places."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
@@ -215,7 +202,7 @@ def _half(family, path, interval, curve, longest, start):
             return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
         tests = family.tests(system, member)
-        # Just after a branch point (`kind` is set), a sign change of a test is due to this branch point and is ignored.
+        # Tests also change sign at a branch point (`kind` is set just after it).
         if before is not None and not kind:
             nodes += _special(family, path, curve, before, tests_before, place, tests)
         nodes.append(_node(family, path, z, member=member))
@@ -239,9 +226,9 @@ def _node(family, path, z, kind="", member=None):
 
 
 def _special(family, path, curve, before, tests, after, values):
-    """Return the special points between the neighbouring Places `before` and `after`, in order along the curve.
+    """Return the special points between two neighbouring Places, in order.
 
-    tests, values: values of the test functions at `before` and at `after`, by kind of special point.
+    tests, values: test functions at `before` and at `after`, by kind of special point.
     """
 
     def test(z, kind):

@@ -38,8 +38,8 @@ parameter."""
 class Regime:
     """A motion observed over a window of whole cycles.
 
-    run: run over the window, with samples every half period. name: one of REGIMES. repeats: number of cycles after
-    which the motion repeats, or None.
+    run: run with samples every half period. name: one of REGIMES. repeats: cycles after which the motion repeats, or
+    None.
     """
 
     run: Run
@@ -53,10 +53,7 @@ class Regime:
 
     @property
     def mean_amplitudes(self) -> np.ndarray:
-        """Amplitudes C_i, shape (2,), from half of the mean distance that each ball covers per cycle.
-
-        On a 1:1 response, C_i is the amplitude of the saw-tooth.
-        """
+        """Amplitude C_i of the saw-tooth in which ball i covers the same mean distance per cycle, shape (2,)."""
         run, paths = self.run, []
         for module, ball in ((1, 1), (2, 3)):
             turns = run.events[run.events["module"] == module]["state"][:, ball]
@@ -65,10 +62,7 @@ class Regime:
 
     @property
     def flight_asymmetry(self) -> float:
-        """Share of time in flights from wall -1 minus share of time in flights from wall +1, summed over both balls.
-
-        Its sign distinguishes the mirror images of an asymmetric response.
-        """
+        """Share of time in flights from wall -1 minus that from wall +1, summed over both balls."""
         total = 0.0
         for module in (1, 2):
             mine = self.impacts[self.impacts["module"] == module]
@@ -80,12 +74,10 @@ class Regime:
 def classify_after(system, state, window: int, nearness: float) -> Regime:
     """Return the regime of the motion from `state` (8,) over `window` forcing cycles.
 
-    `state` is a state at the start of a forcing cycle. If a ball is idle, the window of the run is classified.
-    Otherwise, if the displacements in the window repeat within `nearness`, Newton's method computes the periodic
-    motion. If the periodic motion is near and attracting, and the run approaches it (`_approaches`), a window of the
-    periodic motion is classified instead of the window of the run. Thus a run that slowly spirals into a 1:1 response
-    is recognised as a 1:1 response, and not taken for a modulated motion. All other motions get the name UNSETTLED;
-    the module `settling` finds their regimes.
+    If the run approaches a periodic motion, the periodic motion is classified. So a slow spiral into a 1:1 response is
+    not taken for a modulated motion. Without a periodic motion, the regime is UNSETTLED, unless a ball is idle.
+
+    nearness: largest difference of displacements between a motion and its repetition.
     """
     run = _window(system, state, window)
     if not _at_rest(run).any():
@@ -109,15 +101,12 @@ def _attracting(system, state, cycles, reach):
 
 
 def _approaches(run, motion, repeats, multiplier):
-    """Return True if a run has reached an attracting periodic motion, or approaches the periodic motion.
+    """Return True if a run has reached an attracting periodic motion, or approaches it.
 
-    A chaotic run can stay close to a periodic motion for some cycles, and thus seem to repeat, without being in the
-    basin of this motion. So the run is continued. The largest multiplier of the periodic motion predicts the number of
-    cycles after which the distance from this motion has shrunk by the factor _SHRUNK; the run is continued for this
-    number of cycles. The distance must shrink at half of the predicted exponential rate or faster.
+    A chaotic run can stay close to a periodic motion for some cycles without being in its basin. So the run is
+    continued. The distance must shrink at half of the rate that the largest multiplier predicts, or faster.
 
-    motion: a window of the periodic motion, which repeats after `repeats` cycles. The first state of the window
-    is close to the final state of the run. multiplier: modulus of the largest multiplier of the periodic motion.
+    motion: a window of the periodic motion that starts near the final state of the run.
     """
     size = len(run.samples)
     before = _distance(run, motion.samples[(np.arange(size) - size + 1) % (_PER_CYCLE * repeats)])
@@ -136,16 +125,13 @@ def _distance(run, samples):
 
 
 def classify(run: Run) -> tuple[str, int | None]:
-    """Return the name of the regime of a settled motion, and the number of cycles after which the motion repeats.
+    """Return the regime of a settled motion, and the cycles after which it repeats, or None.
 
-    The number is None if the motion does not repeat.
+    run: a run with samples every half period.
 
-    run: a run with samples every half period, from its start to its end.
-
-    A ball is idle if it is at rest in all samples; a ball that drifts, however slowly, will hit a wall. If all balls
-    are idle and the motion of the boxes repeats, the regime is NO_IMPACTS. A 1:1 response repeats every cycle, with one
-    impact at each wall of each module. A 1:1 response is symmetric if all displacements change sign after half a
-    period. Inactive modules are ignored.
+    A ball is idle if it is at rest in all samples, since a slowly drifting ball will hit a wall. A 1:1 response repeats
+    every cycle, with one impact at each wall of each module. A 1:1 response is symmetric if all displacements change
+    sign after half a period.
     """
     displacements = run.samples[:, :4]
     repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)
@@ -158,7 +144,7 @@ def classify(run: Run) -> tuple[str, int | None]:
         return UNSETTLED, None
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
-    # If an impact is at an end of the window, the impacts at a wall may be one more or one fewer than the cycles.
+    # An impact at an end of the window can change a count by one.
     once = len(impacts) == len(run.events) and np.all(np.abs(np.array(counts) - run.cycles) <= 1)
     if repeats > 1 or not once:
         return OTHER, repeats
@@ -180,21 +166,19 @@ def _at_rest(run):
 def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
     """Return initial states evenly spread over positions and velocities, the first at rest.
 
-    The others are scrambled Halton points with |X_i|, |X_i'|, |Y_i'| <= reach and |W_i| < 1.
-
     Parameters
     ----------
     count : int
         Number of initial states, at least 1.
     seed : int, default 1
-        Seed of the scrambling.
+        Seed of the scrambled Halton points.
     reach : float, default 1.0
-        Largest displacement and velocity of the boxes, and velocity of the balls, dimensionless.
+        Largest |X_i|, |X_i'| and |Y_i'|.
 
     Returns
     -------
     ndarray
-        Initial states, shape (count, 8).
+        Initial states, shape (count, 8), with |W_i| < 1.
 
     Raises
     ------

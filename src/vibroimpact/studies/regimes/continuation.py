@@ -1,16 +1,16 @@
 """Follow the roots of F(x, p) = 0 over one parameter p by pseudo-arclength continuation (Keller 1977).
 
-A step goes from a point z = (x, p) along the tangent; then Newton's method corrects x at constant p. Where the tangent
-has only a small component along p, the correction is in the plane normal to the tangent instead, so that folds in p are
-passed like any other point. At a special point, such as a period doubling, a given test function changes sign along the
-curve. Brent's method in the arclength finds the zero of the test function. The test function is only evaluated at roots
-of F that are accurate to rounding, so the zero is as accurate as the test function itself.
+A step leads from a point z = (x, p) along the tangent. Newton's method then corrects x at constant p. Where the tangent
+has a small component along p, the correction is normal to the tangent instead, so that folds in p can be passed.
+
+At a special point, such as a period doubling, a test function changes sign. Brent's method in the arclength finds its
+zero. The test function is only evaluated at roots that are accurate to rounding, so the zero is as accurate as the
+test function.
 
 Branches cross at a branch point, where the determinant of [[dF/dz], [tangent]] changes sign. Newton's method is
-ill-conditioned there, so the branch point is bracketed by bisection in the arclength and stepped over. At the branch
-point, dF/dz has two null vectors and one left null vector. The branches are found on a small circle around the branch
-point, in the plane of the two null vectors. A branch crosses the circle where the component of F along the left null
-vector vanishes (Lyapunov and Schmidt).
+ill-conditioned there, so the point is bracketed by bisection and stepped over. dF/dz has two null vectors and one left
+null vector there. The branches are found on a small circle around the point, in the plane of the null vectors. A branch
+crosses the circle where the component of F along the left null vector vanishes (Lyapunov and Schmidt).
 """
 
 from collections.abc import Callable, Iterator
@@ -27,21 +27,18 @@ _DIFFERENCE = 1e-6  # step in p, relative to 1 + |p|; dF/dp is then accurate to 
 _STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
 _MOST_STEPS = 2000
 _STEPS, _FEET = 12, 4
-# Relative sizes of the Newton step that ends the iteration. The second size applies if steps no longer shrink, because
-# of rounding or a singular Jacobian.
+# Relative sizes of the last Newton step. The second one applies if rounding keeps the steps from shrinking.
 _SETTLED, _STALLED = 1e-13, 1e-7
 _REFINED = 1e-10
-# Newton's method keeps p fixed within a step if the component of the tangent along p is larger than this value, since F
-# is costlier at a new p than at a new x.
+# With a larger component of the tangent along p, Newton's method keeps p, which is cheaper.
 _STEEP = 0.2
 _TURN = 0.15  # radians by which the tangent may turn in one step
-# Shortest step. If this step fails, the continuation goes on only where the curve has a corner (a jump of dF/dz).
+# Shortest step. If it fails, the curve can only go on at a corner.
 _SHORTEST = 1e-7
-# Bisection ends when its interval is shorter than this arclength. At this distance from a branch point, Newton's method
-# still gives 10 digits.
+# Bisection ends at this arclength. This near to a branch point, Newton's method still gives 10 digits.
 _RESOLVED = 1e-6
-_SINGULAR = 1e-5  # largest singular value that counts as 0, relative to 1 + the median singular value
-_CORNER = 1e-5  # length of a step past a corner of the curve, where dF/dz jumps
+_SINGULAR = 1e-5  # largest singular value that counts as 0, relative to 1 + the median one
+_CORNER = 1e-5  # length of a step past a corner, where dF/dz jumps
 _CIRCLE, _ANGLES = 1e-4, np.linspace(0.0, 2 * np.pi, 97)
 
 
@@ -50,10 +47,9 @@ class Lost(ArithmeticError):
 
 
 class Place(NamedTuple):
-    """A point z = (x, p) of a curve F(z) = 0 and the unit tangent of the curve there, both (d + 1,).
+    """A point z = (x, p) of a curve F(z) = 0 and the unit tangent there, both (d + 1,).
 
-    determinant: of [[dF/dz], [tangent]]; 0 at a branch point. closing: True for the last place of a closed curve, where
-    the curve returns to its first place.
+    determinant: of [[dF/dz], [tangent]]; 0 at a branch point. closing: True at the end of a closed curve.
     """
 
     z: np.ndarray
@@ -70,31 +66,30 @@ class Place(NamedTuple):
 class Curve:
     """The solution set of F(x, p) = 0.
 
-    equations(x, p) returns the residual (d,) and its Jacobian (d, d) with respect to x. images(z, near) returns the
-    points that are equivalent to the point z, shifted by whole periods so that they are close to the point `near`.
+    equations(x, p): residual (d,) and Jacobian (d, d) with respect to x. images(z, near): points equivalent to z,
+    shifted by whole periods to be close to `near`.
     """
 
     equations: Callable
     images: Callable = lambda z, near: [z]
 
     def place(self, z: np.ndarray, ahead: np.ndarray) -> Place:
-        """Return the Place at a point z of the curve; the vector `ahead`, (d + 1,), selects the sign of the tangent."""
+        """Return the Place at a point z of the curve, with its tangent in the direction of `ahead`, (d + 1,)."""
         by_z = self._by_z(z)
         tangent = np.linalg.svd(by_z)[2][-1]
         tangent = np.copysign(1.0, tangent @ ahead) * tangent
         return Place(z, tangent, float(np.linalg.det(np.vstack([by_z, tangent]))))
 
     def singular(self, z: np.ndarray) -> bool:
-        """Return True if dF/dz is singular at z within rounding, so that the tangent is not unique.
+        """Return True if dF/dz is singular at z, so that the tangent is not unique.
 
-        The smallest singular value is compared with the median one, not with the largest, which is unbounded near
-        grazing.
+        The scale is the median singular value, since the largest is unbounded near grazing.
         """
         sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
         return bool(sizes[-1] <= _SINGULAR * (1 + np.median(sizes)))
 
     def step(self, place: Place, length: float) -> np.ndarray:
-        """Return the point z of the curve near the end of a step of `length` along the tangent of `place`.
+        """Return the point z of the curve after a step of `length` along the tangent of `place`.
 
         Raises
         ------
@@ -116,15 +111,9 @@ class Curve:
         raise Lost(f"Newton's method found no point of the branch near {brief(guess)}")
 
     def trace(self, start: Place, longest: float, inside: Callable) -> Iterator[Place]:
-        """Yield the places along the curve from `start`, including branch points.
+        """Yield the places along the curve from `start`, including branch points, in steps of at most `longest`.
 
-        The last place is the first one for which inside(z) is False. The places end earlier where the curve closes,
-        where no further place is found, or after _MOST_STEPS steps.
-
-        Parameters
-        ----------
-        longest : float
-            Longest step, in arclength.
+        The last place is the first one with inside(z) False, or the end of the curve.
         """
         place, length = start, longest / 4
         yield place
@@ -148,7 +137,7 @@ class Curve:
                 return
 
     def zero(self, function: Callable, place: Place, end: np.ndarray) -> np.ndarray:
-        """Return the zero of function(z) on the curve between a place and the later point z = `end`."""
+        """Return the zero of function(z) on the curve between `place` and the later point z = `end`."""
         steep = abs(place.tangent[-1]) > _STEEP
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
         try:
@@ -158,11 +147,10 @@ class Curve:
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
-        """Return (points, places) of the whole curve through a root z, in order along the curve.
+        """Return (points, places) of the whole curve through a root z, in order.
 
-        half(start) returns the same two lists for the part of the curve that starts at the Place `start`, in the
-        direction of its tangent; the points can have any type. A closed curve is traced once. The root z is
-        refined first, since only half of its digits may be correct if z is a multiple root.
+        half(start) returns both lists for the half that starts at the Place `start`. The root z is refined first,
+        since a multiple root has few correct digits.
         """
         for _ in range(_STEPS):
             change = np.linalg.lstsq(self._by_z(z), self.equations(z[:-1], z[-1])[0])[0]
@@ -181,19 +169,14 @@ class Curve:
         return any(self.image_on_segment(*pair, z) is not None for pair in pairwise(places))
 
     def image_on_segment(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
-        """Return the image of a root z that lies on the curve between the neighbouring places `place` and `after`.
-
-        An image of z is z itself or a point that is equivalent to z (see `images` in the class docstring). The result
-        is None if no image lies on this part of the curve.
-        """
+        """Return the point between two neighbouring places of the curve that is equivalent to a root z, or None."""
         chord = after.z - place.z
         length = np.linalg.norm(chord)
         for image in self.images(z, place.z):
             along = chord @ (image - place.z) / length
             aside = np.linalg.norm(image - place.z - along / length * chord)
             if -_RESOLVED < along < length + _RESOLVED and aside < _TURN * length + _RESOLVED:
-                # A long step near a branch point can end on another branch, so that `_place_at` fails. Bisection then
-                # finds the place at the image.
+                # Near a branch point, `_place_at` can step to another branch. Bisection then finds the place.
                 found = self._place_at(place, image) or self._bisected(
                     place, after, lambda at, z=image: at.tangent @ (z - at.z) > 0
                 )
@@ -207,11 +190,9 @@ class Curve:
         unbalanced, plane = left[:, -1:], right[-2:]
 
         def at(angle):
-            """Return a point y near the branch point z, and a number `part`, with F(y) + part * unbalanced = 0.
+            """Return a point y in the direction `angle` from z, and a number `part` that is 0 if y is on a branch.
 
-            The projection of y - z onto the plane of both null vectors of dF/dz has the length _CIRCLE and the
-            direction `angle`. The vector `unbalanced` is the left null vector of dF/dz. If `part` is 0, y is on a
-            branch.
+            They satisfy F(y) + part * unbalanced = 0, with the left null vector `unbalanced` of dF/dz.
             """
             guess = z + _CIRCLE * np.array([np.cos(angle), np.sin(angle)]) @ plane
             y, part = guess, 0.0
@@ -245,11 +226,10 @@ class Curve:
         return np.column_stack([self.equations(z[:-1], z[-1])[1], self._by_p(z)])
 
     def _ahead(self, place, length):
-        """Return the places that one step from `place` reaches, in order; the last one is the end of the step.
+        """Return the places that one step from `place` reaches, in order, or [] if the step fails.
 
-        If the step passes a branch point, the list also has this branch point, between a place just before it and one
-        just after it. The result is [] if no place is found, if the curve turns too much, or if the determinant
-        changes sign without a branch point. In the last case, the step has jumped to another curve.
+        A branch point in the step is in the list. If the determinant changes sign without a branch point, the step has
+        jumped to another curve and fails.
         """
         after = self._next(place, length)
         if after is None or after.determinant * place.determinant > 0:
@@ -267,7 +247,7 @@ class Curve:
         ]
 
     def _next(self, place, length):
-        """Return the place after one step from `place`, or None if no place is found or the curve turns too much."""
+        """Return the place after one step, or None if the step fails or the curve turns too much."""
         try:
             after = self.place(self.step(place, length), place.tangent)
         except Lost:
@@ -275,11 +255,7 @@ class Curve:
         return after if place.tangent @ after.tangent > np.cos(_TURN) else None
 
     def _place_at(self, place, z):
-        """Return the place on the curve that coincides with z, as a list of one entry, or [] if z is not on the curve.
-
-        The search starts from `place`. Each step along the tangent leads to the foot of the perpendicular from z onto
-        the tangent.
-        """
+        """Return a list with the place at z, or [] if z is not on the curve; the search starts from `place`."""
         for _ in range(_FEET):
             place = self._next(place, place.tangent @ (z - place.z))
             if place is None:
@@ -289,9 +265,9 @@ class Curve:
         return []
 
     def _past_corner(self, place):
-        """Return the place beyond a corner of the curve just ahead, as a list of one entry, or [] without a corner.
+        """Return a list with the place beyond a corner just ahead, or [] without a corner.
 
-        At a corner dF/dz jumps, as for orbits where the impacts of both modules change their order.
+        At a corner dF/dz jumps, for example where impacts of both modules change their order.
         """
         try:
             across = self.place(place.z + _CORNER * place.tangent, place.tangent)
@@ -301,16 +277,15 @@ class Curve:
         return [one for one in after if one and abs(place.tangent @ one.tangent) < np.cos(_TURN)][:1]
 
     def _bisected(self, place, after, before: Callable):
-        """Return two places between `place` and `after`, less than _RESOLVED apart, found by bisection of the curve.
+        """Bisect the curve; return two places between which before(place) changes from True to False.
 
-        The bisection finds where the function `before` changes: before(at) is True for every place `at` up to the first
-        returned place, and False from the second returned place on. The bisection ends early at a singular place from
-        which no step succeeds. The result is None if the curve does not join `place` and `after`.
+        They are at most _RESOLVED apart, or the first one is singular. The result is None if the curve does not join
+        `place` and `after`.
         """
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
                 return None
-            # If a step ends near a branch point, where Newton's method fails, a step of another length is tried.
+            # A step that ends near a branch point may fail, so other lengths are tried.
             steps = (self._next(place, part * length) for part in (0.5, 0.4, 0.6))
             middle = next(filter(None, steps), None)
             if middle is None:
@@ -320,13 +295,7 @@ class Curve:
 
 
 def _solve(blocks, right):
-    """Return the solution of the linear system with the matrix in `blocks` (rows of blocks) and the right side `right`.
-
-    Raises
-    ------
-    Lost
-        If the matrix is singular.
-    """
+    """Solve the linear system with the matrix in `blocks` (rows of blocks); raise Lost if it is singular."""
     try:
         return np.linalg.solve(np.vstack([np.hstack(row) for row in blocks]), right)
     except np.linalg.LinAlgError:

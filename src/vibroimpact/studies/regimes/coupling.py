@@ -1,8 +1,8 @@
 """Patterns of asymmetric flights of both balls, from weak to strong coupling.
 
-The flight asymmetry v of a ball is the difference of its two flight times, divided by the period. If the flights of
-both balls are asymmetric, the longer flights end at the same wall (IN_PHASE) or at opposite walls (ANTIPHASE). Each of
-these patterns has a mirror image (docs/derivation.md, section 14).
+The flight asymmetry v of a ball is the difference of its two flight times, divided by the period. The longer flights of
+both balls end at the same wall (IN_PHASE) or at opposite walls (ANTIPHASE). Each pattern has a mirror image
+(docs/derivation.md, section 14).
 """
 
 from collections.abc import Iterator
@@ -38,19 +38,16 @@ def coupled(system, alpha12_hat: float):
 
 
 def flight_asymmetry(orbit) -> np.ndarray:
-    """Return the flight asymmetry (v_1, v_2) of an orbit, shape (2,).
+    """Return the flight asymmetries (v_1, v_2).
 
-    v is the time from wall -1 to +1 minus that from +1 to -1, divided by the period.
+    They are the time from wall -1 to +1 minus that from +1 to -1, divided by the period.
     """
     plus, minus = orbit.ball_speeds.T
     return (plus - minus) / (plus + minus)
 
 
 def pattern(orbit) -> str | None:
-    """Return the pattern of an orbit, IN_PHASE or ANTIPHASE.
-
-    The result is None if the flight asymmetry |v_i| of at least one ball is below LEAST_ASYMMETRY.
-    """
+    """Return IN_PHASE or ANTIPHASE, or None if the flight asymmetry of a ball is below LEAST_ASYMMETRY."""
     v = flight_asymmetry(orbit)
     return None if not _both_asymmetric(v) else IN_PHASE if v.prod() > 0 else ANTIPHASE
 
@@ -60,10 +57,9 @@ def _both_asymmetric(v):
 
 
 def patterns(system) -> dict[str, np.ndarray]:
-    """Return one stable orbit of each pattern, as the unknowns (6,) of `AsymmetricConditions`, by pattern.
+    """Return one stable orbit of each pattern by name, as a root (6,) of `AsymmetricConditions`.
 
-    A pattern without a stable orbit is left out. Of two mirror images, the one with the flight asymmetry v_1 > 0 is
-    returned.
+    Of two mirror images, the one with the flight asymmetry v_1 > 0 is returned.
     """
     roots = [
         root for root in AsymmetricOrbits.roots(system) if _both_asymmetric(1 - 2 * flight_fractions(system, root))
@@ -74,19 +70,12 @@ def patterns(system) -> dict[str, np.ndarray]:
 
 
 def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
-    """Yield each pattern that has a stable orbit at a coupling in SOUGHT, with the orbits of its stable range.
+    """Yield each pattern with a stable orbit at a coupling in SOUGHT, and the range in which this orbit is stable.
 
-    The coefficient of the coupling damper is proportional to the coupling alpha12_hat.
+    limits: smallest and largest coupling alpha12_hat.
 
-    Parameters
-    ----------
-    limits
-        Smallest and largest alpha12_hat.
-
-    Yields tuples of four entries: the pattern; the value in SOUGHT from which the orbit is followed; the orbits of the
-    stable range, [(alpha12_hat, Orbit), ...], in ascending order of alpha12_hat; and the two reasons why the range ends
-    at its lower and at its upper end. A reason is FOLD, NEIMARK_SACKER, PERIOD_DOUBLING, GRAZING or VANISHES, or "" if
-    the range ends at a limit.
+    Each yielded tuple is (pattern, coupling in SOUGHT, orbits, reasons). The orbits are a list of (alpha12_hat, Orbit)
+    in ascending order. The two reasons explain the ends of the range; a reason is "" at a limit.
     """
     seen = []
     for start in SOUGHT:
@@ -102,10 +91,7 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
 
 
 def _followed(system, root, value, name, limit):
-    """Yield (coupling, Orbit) in steps from the coupling `value` to `limit`, as long as the orbit is stable.
-
-    root: root of the orbit at `value`. name: its pattern, which the yielded orbits share.
-    """
+    """Yield (coupling, Orbit) from `value` to `limit`, while the orbit is stable and has the pattern `name`."""
     way, step = np.sign(limit - value), STEP
     while step > SHARP and value != limit:
         reached = value * np.exp(way * step)

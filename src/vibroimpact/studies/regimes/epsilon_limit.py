@@ -15,12 +15,10 @@ from vibroimpact.theory.masri import multipliers
 class Comparison:
     """A fixed point and the exact orbit next to it, at one epsilon.
 
-    offset: coordinates of the orbit minus those of the fixed point. For a symmetric orbit, the coordinates are C and
-        the impact phase [rad] of each module, (4,).
-    predicted_multipliers: multipliers predicted by the slow flow (first four) and by the impact map (last four), (8,)
-        complex.
-    multipliers: multipliers of the exact orbit, (8,) complex. Entry k is paired with `predicted_multipliers[k]`.
-    rates: log(mu) / (epsilon 2 pi / Omega) for the first four multipliers mu of the exact orbit.
+    offset: orbit minus fixed point; for a symmetric orbit, C and the impact phase [rad] of each module, (4,).
+    multipliers: multipliers of the orbit, (8,) complex. Entry k is paired with `predicted_multipliers[k]`.
+    predicted_multipliers: the slow flow predicts the first four, the impact map the last four.
+    rates: log(mu) / (epsilon 2 pi / Omega) for the first four multipliers mu of the orbit.
     predicted: eigenvalues of the slow flow, which predict `rates`.
 
     For a single machine all arrays have half as many entries.
@@ -45,7 +43,7 @@ class Comparison:
 
     @property
     def fast_error(self) -> float:
-        """Largest |`multipliers` - `predicted_multipliers`| of the multipliers that the impact map predicts."""
+        """Largest error of the fast multipliers, which the impact map predicts."""
         return float(np.abs(self.multipliers - self.predicted_multipliers)[len(self.predicted) :].max())
 
 
@@ -68,15 +66,13 @@ def distance_to_orbit(system, point) -> Comparison:
 
 
 def paired(system, offset, exact, slow, fast) -> Comparison:
-    """Pair the exact multipliers with predicted ones, and return the Comparison.
+    """Pair the multipliers of an exact orbit with predicted ones.
 
-    exact: multipliers of the orbit. slow: eigenvalues of the slow flow, which predict half of them. fast: multipliers
-    of the impact map over a cycle, which predict the other half. offset: see `Comparison`.
+    slow: eigenvalues of the slow flow. fast: multipliers of the impact map over a cycle.
     """
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
-    # Errors of predictions are of order epsilon^2 for slow multipliers and epsilon for fast ones; the weights make them
-    # comparable.
+    # Errors are of order epsilon^2 for slow and epsilon for fast multipliers, so they need weights.
     weights = np.repeat([1 / slow_time, 1.0], len(slow))
     pairs = linear_sum_assignment(weights[:, None] * np.abs(np.log(predicted[:, None] / exact)))[1]
     return Comparison(
@@ -90,9 +86,7 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
 
 
 def order(epsilon, errors) -> tuple[float, float]:
-    """Return the exponent p of errors ~ epsilon^p, and the standard error of p (nan for 2 points).
-
-    A straight line is fitted to log(errors) as a function of log(epsilon) by least squares.
+    """Return the exponent p of errors ~ epsilon^p by least squares, and its standard error (nan for 2 points).
 
     Raises
     ------

@@ -1,15 +1,14 @@
 """Families of motions for continuation: equations, members, and test functions that vanish at special points.
 
-The test functions of an orbit, except that for grazing, are symmetric polynomials in its multipliers mu, so that they
-are real and change sign at their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j,
-vanishes where two multipliers have the product 1; if they are complex, they are on the unit circle (Neimark-Sacker).
-For a symmetric orbit, mu are the multipliers of the map that follows the motion for half a period and then mirrors the
-state (state -> -state). The symmetry breaks where such a mu is -1. A symmetric orbit cannot double its period before
-its symmetry breaks (Swift and Wiesenfeld 1984). Folds and branch points (mu = 1) are found by the continuation instead.
+The test functions of an orbit, except that for grazing, are symmetric polynomials in its multipliers mu. So they are
+real and change sign at their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j, vanishes
+where two multipliers have the product 1. If these are complex, they are on the unit circle (Neimark-Sacker). For a
+symmetric orbit, mu are the multipliers of the map over half a period, followed by state -> -state. The symmetry breaks
+where such a mu is -1. A symmetric orbit cannot double its period before its symmetry breaks (Swift and Wiesenfeld
+1984). The continuation itself finds folds and branch points (mu = 1).
 
-The unknowns of an inactive module (not in `System.modules`) have the constant values `rest`: 0 for phases or impact
-times, and 1 for the amplitude C_i or the velocity change I_i of the ball at an impact. Therefore C_i = 0 or I_i = 0
-always means that ball i has the speed 0. The function `amplitudes` returns NaN for an inactive module.
+The unknowns of an inactive module are constant: 0 for phases or impact times, and 1 for the amplitude C_i or the
+velocity change I_i of the ball. So C_i = 0 or I_i = 0 always means that ball i has the speed 0.
 """
 
 from itertools import combinations
@@ -56,12 +55,12 @@ class SymmetricOrbits:
 
     @classmethod
     def equations(cls, system, x):
-        """Return the residual (d,) and Jacobian (d, d) of the conditions of exact orbits, at the unknowns x, (d,).
+        """Return the residual (d,) and Jacobian (d, d) of the conditions of exact orbits at x, (d,).
 
         Raises
         ------
         Lost
-            If both modules are active, but in the response x only one of them has impacts.
+            If x has impacts in only one of two active modules.
         """
         _require_both_modules(cls, system, x)
         residual, jacobian = cls._conditions(system)(x[None])
@@ -69,7 +68,10 @@ class SymmetricOrbits:
 
     @classmethod
     def speed(cls, x) -> float:
-        """Return min(C_1, C_2), or min(I_1, I_2) for asymmetric orbits; the minimum is 0 if a ball has the speed 0."""
+        """Return min(C_i), or min(I_i) for asymmetric orbits; the result is 0 if a ball has the speed 0.
+
+        I_i is the velocity change of ball i at an impact.
+        """
         return x[cls.angles.stop :].min()
 
     @staticmethod
@@ -95,15 +97,14 @@ class SymmetricOrbits:
 
     @staticmethod
     def admissible(orbit) -> bool:
-        """Return True if `orbit` is a motion of the system: all ball speeds are positive, and no ball passes a wall."""
+        """Return True if all ball speeds are positive and no ball passes a wall."""
         return orbit.admissible
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Return True if `orbit`, at which the test function of `kind` vanishes, is a special point of this kind.
+        """Return True if `orbit`, a zero of the test function of `kind`, is a special point of this kind.
 
-        The test function of NEIMARK_SACKER also vanishes if, for example, two real multipliers have the product 1. This
-        is not a special point: two complex conjugate multipliers must be on the unit circle.
+        The test function of NEIMARK_SACKER also vanishes if two real multipliers have the product 1.
         """
         mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
@@ -112,7 +113,7 @@ class SymmetricOrbits:
 class AsymmetricOrbits(SymmetricOrbits):
     """Asymmetric exact orbits: x = (p_1, q_1, p_2, q_2, I_1, I_2).
 
-    Ball i meets wall +1 at p_i and wall -1 at q_i; its velocity changes by I_i at p_i and by -I_i at q_i.
+    Ball i meets wall +1 at p_i and wall -1 at q_i. Its velocity changes by I_i at p_i and by -I_i at q_i.
     """
 
     name, angles = "asymmetric orbit", slice(0, 4)
@@ -132,7 +133,7 @@ class AsymmetricOrbits(SymmetricOrbits):
 
     @staticmethod
     def is_symmetric(system, x) -> bool:
-        """Return True if all flights of the motion x take the same time, so that x is its own mirror image."""
+        """Return True if all flights of the motion x take the same time."""
         return bool((abs(flight_fractions(system, x) - 0.5) < _EQUAL).all())
 
     @staticmethod
@@ -171,7 +172,7 @@ class FixedPoints:
         Raises
         ------
         Lost
-            If both modules are active, but in the response x only one of them has impacts.
+            If x has impacts in only one of two active modules.
         """
         _require_both_modules(cls, system, x)
         residual, jacobian, part = x - cls.rest, np.eye(4), ~_inactive(cls, system)
@@ -198,8 +199,7 @@ class FixedPoints:
     def tests(system, point) -> dict[str, float]:
         """Return, for each kind of special point, the value of the test function that vanishes there.
 
-        At a fold of the manifold one eigenvalue of the slow flow is infinite, so that the test function for Hopf would
-        have a pole. A factor, a power of det M (`linearisation`), removes this pole.
+        For HOPF, a power of det M (`linearisation`) removes the pole at a fold of the manifold.
         """
         r = rho(system.kappa)
         M = linearisation(system, point.psi, point.C)[1]
@@ -224,10 +224,9 @@ class FixedPoints:
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Return True if `point`, at which the test function of `kind` vanishes, is a special point of this kind.
+        """Return True if `point`, a zero of the test function of `kind`, is a special point of this kind.
 
-        The test function of HOPF also vanishes if, for example, two real eigenvalues have the sum 0. This is not a
-        special point: two complex conjugate eigenvalues must be on the imaginary axis.
+        The test function of HOPF also vanishes if two real eigenvalues have the sum 0.
         """
         values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
@@ -241,10 +240,7 @@ FAMILIES = {
 
 
 def flight_fractions(system, x) -> np.ndarray:
-    """Return the flight time from wall +1 to wall -1 as a fraction of the period, for each module, shape (2,).
-
-    x is a root (6,) of `AsymmetricConditions`. The fraction of an inactive module is 1/2.
-    """
+    """Return the time from wall +1 to wall -1 divided by the period, (2,); 1/2 for an inactive module."""
     u = wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
     return np.where(np.isin([1, 2], system.modules), u, 0.5)
 
@@ -260,18 +256,10 @@ def _of_modules(system, values):
 
 
 def _require_both_modules(family, system, x):
-    """Raise Lost if both modules are active, but in the response x only one of them has impacts.
-
-    In such an x, the unknowns of the module without impacts have the values of an inactive module, `family.rest`.
-
-    Raises
-    ------
-    Lost
-        If only one of the two active modules has impacts in x.
-    """
+    """Raise Lost if x has impacts in only one of two active modules; the unknowns of the other are `family.rest`."""
     held = np.abs(x - family.rest) < _HELD
     if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
-        raise Lost("both modules of the system are active, but only one of them has impacts in this response")
+        raise Lost("only one of the two modules has impacts in this response")
 
 
 def asymmetric_root(system, x) -> np.ndarray:
@@ -282,7 +270,7 @@ def asymmetric_root(system, x) -> np.ndarray:
 
 
 def _tests(mu, at_minus_one):
-    """Return the values of the test functions of the multipliers `mu`, by kind of special point.
+    """Return the test functions of the multipliers `mu` by kind of special point.
 
     at_minus_one: kind of the special point at which a multiplier is -1.
     """

@@ -1,14 +1,13 @@
 """Compute Lyapunov exponents from the exact Jacobian through impacts, chatter and sticking.
 
-The Jacobian of every cycle, saltation matrices included (Müller 1995), propagates a frame of perturbations, which is
-orthonormalised by QR (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990). The logarithms of the diagonal of R
-are the growth in the cycle. The initial time is not perturbed. If the time were a further coordinate of the state,
-there would be one more exponent, 0, and the dimension of the attractor would be larger by one.
+The Jacobian of every cycle, saltation matrices included (Müller 1995), propagates a frame of perturbations. QR
+orthonormalises the frame (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990). The logarithms of the diagonal of
+R are the growth in the cycle. The initial time is not perturbed. As a further coordinate, it would add an exponent 0
+and increase the dimension by one.
 
 When a ball sticks, perturbations in two directions of the state space vanish. When both balls stick at the same time
 (a double stick), perturbations in four directions vanish. If double sticks occur with a positive frequency, four
-exponents are -inf, and the dimension of the attractor is at most 4. `Spectrum.without_double_sticks` excludes the
-cycles with double sticks.
+exponents are -inf, and the dimension of the attractor is at most 4.
 """
 
 from dataclasses import dataclass
@@ -27,8 +26,7 @@ from vibroimpact.system.state import active_mask, inactive_at_rest
 BOTH = 2
 CYCLES_PER_RUN = 1000
 """Number of forcing cycles that are simulated in one run."""
-# Initial perturbations. All vectors except the first are random, since vectors with a regular pattern may have no
-# component in the direction of an exponent.
+# Initial perturbations. Most are random, since regular vectors may have no component in a direction of growth.
 _VECTORS = np.column_stack([np.ones(8), np.random.default_rng(1).normal(size=(8, 7))])
 _MOST = 10_000_000
 _RESAMPLES = 200  # number of draws of the bootstrap
@@ -37,10 +35,9 @@ _RESAMPLES = 200  # number of draws of the bootstrap
 class Exponent(NamedTuple):
     """Mean growth rate of a perturbation per forcing period, in nats, and its error.
 
-    The error is sqrt(a^2 + b^2). Here a is the standard error of the mean over blocks of cycles, and b is ln(t1 / t0) /
-    (t1 - t0), where t0 and t1 are the start and the end of the averaging in forcing periods. The exponent of a
-    perturbation that grows in proportion to time is 0, but its mean growth rate from t0 to t1 is b. Such a perturbation
-    is, for example, a small velocity of a ball that is otherwise at rest.
+    The error is sqrt(a^2 + b^2). Here a is the standard error of the mean over blocks, and b = ln(t1 / t0) / (t1 - t0)
+    for an average from t0 to t1. A perturbation that grows in proportion to time has the mean b instead of 0. An
+    example is a small velocity of a ball that is otherwise at rest.
     """
 
     mean: float
@@ -58,32 +55,28 @@ def largest_lyapunov(
 ) -> Measured:
     """Return the largest Lyapunov exponent of the motion reached from an initial state, in nats per period.
 
-    An exponent above about three times its error indicates chaos. For a periodic motion, the exponent is the logarithm
-    of the modulus of the largest Floquet multiplier, divided by the period of the motion in forcing periods. The
-    exponent is computed from the exact Jacobian through impacts, chatter and sticking, for the active modules.
+    An exponent above about three times its error indicates chaos. For a periodic motion, the exponent is ln |mu| / n,
+    with the largest Floquet multiplier mu and the period of n forcing periods.
 
     Parameters
     ----------
     system : System
         Dimensionless parameters.
     state : array_like
-        Initial state at tau = 0, shape (8,). If a ball starts at rest, its walls may never hit it.
+        Initial state at tau = 0, shape (8,). A ball that starts at rest may stay idle.
     cycles : int, default 2000
         Forcing periods to average over, a multiple of `blocks`.
     settle : int, default 1000
-        Forcing periods of the transient. Increase it for slow transients. If there are several attractors, the
-        initial state selects one (`basins`).
+        Forcing periods of the transient.
     blocks : int, default 20
-        Number of blocks into which `cycles` are divided, at least 2.
+        Number of blocks for the standard error, at least 2.
     discarded : int, default 10
-        Number of blocks between `settle` and `cycles` that are discarded. During these blocks the perturbation turns to
-        the direction of largest growth.
+        Number of discarded blocks, in which the perturbation turns to the direction of largest growth.
 
     Returns
     -------
     Measured
-        .mean, the exponent; .scatter, its standard error over the blocks; .error, which also allows for perturbations
-        that grow in proportion to time (see `Exponent`).
+        .mean, the exponent; .scatter, its standard error; .error, which also allows for growth in proportion to time.
 
     Raises
     ------
@@ -126,12 +119,10 @@ class Spectrum:
     Attributes
     ----------
     growth : ndarray
-        Logarithm of the growth in eight directions in each of n cycles, (n, 8), or (n, 4) if one module is active. If a
-        ball sticks in a cycle, perturbations of the ball before the stick do not affect the later motion. Two values of
-        this cycle are then -inf, or four if both balls stick at the same time.
+        Logarithm of the growth in each direction in each of n cycles, (n, 8), or (n, 4) if one module is active. If a
+        ball sticks, two values are -inf, or four if both balls stick at the same time.
     contraction : ndarray
-        Logarithm of the contraction of volume in each cycle, in closed form, (n,); equal to the sum of `growth` over
-        the directions.
+        Logarithm of the contraction of volume in each cycle, (n,).
     stuck : ndarray
         Largest number of balls that stick at the same time in each cycle, (n,).
     """
@@ -148,9 +139,8 @@ class Spectrum:
     def without_double_sticks(self) -> "Spectrum":
         """Return the spectrum over the cycles in which the balls do not stick at the same time.
 
-        After each excluded cycle, four vectors of the frame of perturbations start in arbitrary directions and need
-        about ten cycles to align with the directions of their exponents. These ten cycles are included, since excluding
-        them would change the result little.
+        After an excluded cycle, the perturbations need about ten cycles to align again. These cycles are included,
+        since they change the result little.
         """
         others = self.stuck < BOTH
         return Spectrum(_largest_first(self.growth[others]), self.contraction[others], self.stuck[others])
@@ -168,13 +158,12 @@ class Spectrum:
     def errors(self, block: int) -> tuple[np.ndarray, float]:
         """Return the standard errors of the exponents (nan for an exponent of -inf) and of the dimension.
 
-        The spectrum has n cycles. The circular block bootstrap (Politis and Romano 1992) draws n / block stretches of
-        `block` successive cycles. The stretches preserve the correlation of successive cycles.
+        The circular block bootstrap (Politis and Romano 1992) preserves the correlation of successive cycles.
 
         Parameters
         ----------
         block : int
-            Cycles per stretch, from 1 to n / 2.
+            Cycles per block, from 1 to half of all cycles.
 
         Raises
         ------
@@ -196,13 +185,9 @@ class Spectrum:
 def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000, discarded: int = 100) -> Spectrum:
     """Return all Lyapunov exponents of the motion reached from an initial state, in nats per period.
 
-    The exponents are those of the map from one forcing period to the next. Therefore the exponent 0 of a perturbation
-    along the flow is not included. If a ball sticks, two exponents are -inf, or four if both balls stick at the same
-    time.
-
-    A perturbation that grows in proportion to the time t has the exponent 0, but its computed exponent is about
-    ln(t) / t. An example is a small velocity of a ball that is otherwise at rest. The computed errors of the exponents
-    do not include the deviation ln(t) / t.
+    The exponents are those of the map from one forcing period to the next. If a ball sticks, two exponents are -inf, or
+    four if both balls stick at the same time. The computed exponent of a perturbation that grows in proportion to
+    the time t is about ln(t) / t instead of 0. The errors do not include this deviation.
 
     Parameters
     ----------
@@ -211,14 +196,12 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     state, cycles, settle
         As for `largest_lyapunov`.
     discarded : int, default 100
-        Forcing periods between `settle` and `cycles` that are discarded. During these periods each perturbation turns
-        to the direction of its exponent.
+        Discarded forcing periods, in which each perturbation turns to the direction of its exponent.
 
     Returns
     -------
     Spectrum
-        .exponents, largest first, shape (8,), or (4,) if one module is active (`PhysicalSystem.single`);
-        .errors(block); .dimension (Kaplan-Yorke); .without_double_sticks().
+        .exponents, largest first, (8,), or (4,) if one module is active; .errors(block); .dimension (Kaplan-Yorke).
 
     Raises
     ------
@@ -230,7 +213,7 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     Examples
     --------
     >>> spectrum = lyapunov_spectrum(system, [0.0] * 8, cycles=200, settle=600)
-    >>> bool(spectrum.exponents[0] < 0)  # a periodic motion attracts
+    >>> bool(spectrum.exponents[0] < 0)  # the motion is periodic and stable
     True
     """
     cycles, state = whole("cycles", cycles, 1, _MOST), _settled(system, state, settle)
@@ -253,11 +236,9 @@ def contraction(system, impacts, stuck) -> np.ndarray:
 
     impacts, stuck: number of impacts, and largest number of balls that stick at the same time, in each cycle.
 
-    In a flight of time t, the volume shrinks by the factor exp(-tr(D) t), with the damping matrix D of the active
-    modules. In an impact, the volume shrinks by the factor kappa^2. To see this, describe the module by the
-    relative displacement W = X - Y, by W', and by the position and velocity of the centre of mass. The saltation matrix
-    is then triangular; its diagonal is -kappa for W and W', and 1 for the centre of mass. In a cycle in which a ball
-    sticks, the volume shrinks to 0, so that the result is -inf.
+    A flight of time t contracts the volume by exp(-tr(D) t), with the damping matrix D of the active modules. An impact
+    contracts the volume by kappa^2. The saltation matrix is triangular in the coordinates W = X - Y, W', and position
+    and velocity of the centre of mass. Its diagonal is (-kappa, -kappa, 1, 1). A stick contracts the volume to 0.
     """
     damping = np.diag(damping_matrix(system))[active_mask(system)[[0, 2]]].sum()
     volume = 2 * np.asarray(impacts) * np.log(system.kappa) - damping * system.period
@@ -267,8 +248,7 @@ def contraction(system, impacts, stuck) -> np.ndarray:
 def kaplan_yorke(exponents) -> float:
     """Return the Kaplan-Yorke dimension (1979) of exponents (n,), largest first.
 
-    The dimension is the number k for which the k largest exponents have the sum 0, by linear interpolation between
-    whole k. In this dimension volumes neither grow nor shrink. If all exponents are negative, the dimension is 0.
+    The dimension is the number k, by linear interpolation, for which the k largest exponents have the sum 0.
     """
     exponents = np.asarray(exponents)
     sums = np.cumsum(exponents)
@@ -279,10 +259,7 @@ def kaplan_yorke(exponents) -> float:
 
 
 def _frame_growth(system, state, runs, directions):
-    """Simulate consecutive runs; yield the growth of a frame of perturbations in each run.
-
-    runs: numbers of cycles of the runs. directions: number of perturbations in the frame.
-    """
+    """Simulate consecutive runs of `runs` cycles; yield the growth of a frame of perturbations in each run."""
     places = np.flatnonzero(active_mask(system))
     frame, state = np.zeros((8, directions)), inactive_at_rest(system, state)
     frame[places] = np.linalg.qr(_VECTORS[: len(places), : len(places)])[0][:, :directions]
