@@ -1,12 +1,9 @@
 """Design a ball absorber for one machine in SI units: clearance, restitution and response.
 
-The machine is a mass on a spring and a damper, driven over a band of frequencies by a constant force, a moving base or
-an unbalance. Candidates are compared by their peak: the largest displacement over the band, from rest and from other
-initial states. A peak from a few initial states is a lower bound, and selecting the lowest of many such peaks adds a
-bias. So the best few candidates are measured again: from more initial states, after a longer transient, and with three
-clearances, namely that of the candidate, slightly more and slightly less. The design is the candidate for which the
-largest of these three peaks is lowest. The text, the table and the plot of the design use the same grid of frequencies
-and the same window of time.
+Candidates are compared by their peak, the largest displacement over a band of frequencies from several initial states.
+A peak from few initial states is a lower bound. Selecting the lowest of many peaks adds a bias. So the best candidates
+are measured again: from more initial states, after a longer transient, and with three clearances close together. The
+design is the candidate for which the largest of these three peaks is lowest.
 """
 
 import math
@@ -63,36 +60,32 @@ CURVES = {
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """A ball for one machine, and its effect over the band of frequencies. Displacements are amplitudes [m].
+    """A ball for one machine, and its effect over the band of frequencies. Displacements are amplitudes.
 
     Attributes
     ----------
     machine : PhysicalSystem
-        The chosen machine, with the mass of the ball `m` [kg], the clearance `L` [m], half of the play, and the
-        restitution coefficient `kappa`.
+        The machine with the mass `m` [kg], the clearance `L` [m] to each wall and the restitution `kappa` of the ball.
     peak : float
-        Largest displacement over the band [m] once the motion has settled: during `window[1]` forcing periods, after a
-        transient of `window[0]` forcing periods. The peak is the largest `with_m` of `response`.
+        Largest displacement over the band [m], once settled.
     near : tuple of float
         Smallest and largest of three peaks [m]: with 2 % less clearance, with the same and with 2 % more.
     without : float
         Peak without ball [m].
     absorber : float
-        Peak [m] with the best linear absorber, which has the mass of the ball.
+        Peak [m] with the best linear absorber of the same mass.
     absorber_stroke : float
-        Room [m] that the best linear absorber needs on each side.
+        Room [m] that this absorber needs on each side.
     window : tuple of int
-        Lengths of the transient and of the window in which `peak` is measured, in forcing periods.
+        Lengths of the transient and of the window for `peak`, in forcing periods.
     candidates : list of dict
-        One row per pair of clearance and restitution: clearance_m, restitution, peak_m from a few initial states. The
-        best few pairs have near_m, the largest of their three peaks as in `near`; near_m of all other pairs is nan. The
-        chosen pair has the smallest near_m.
+        One row per candidate: clearance_m, restitution, peak_m from few initial states, and near_m. For the best
+        candidates, near_m is the largest of the three peaks; otherwise it is nan.
     response : list of dict
-        One row per frequency, frequency_Hz. The displacements are without_m (without ball), absorber_m (with the best
-        linear absorber), settling_m (before the window, from rest) and with_m (in the window, the largest of all
-        initial states). The remaining entries describe the motion with the displacement with_m: impacts_per_s; the mean
-        impact_speed_m_s of the ball against the wall; the mean impulse_Ns of an impact; and later_m, the displacement
-        in the 1000 periods after the window. If the motion is a transient, later_m is smaller than with_m.
+        One row per frequency_Hz. The displacements are without_m (without ball), absorber_m (with the absorber),
+        settling_m (in the transient from rest) and with_m (largest in the window). The motion of with_m also has
+        impacts_per_s, the mean impact_speed_m_s, the mean impulse_Ns, and later_m (its displacement in the next 1000
+        periods).
 
     Examples
     --------
@@ -134,7 +127,7 @@ class Design:
         ])  # fmt: skip
 
     def plot(self):
-        """Return a Matplotlib Figure of the displacements in `response` against the frequency.
+        """Plot the displacements in `response` against the frequency.
 
         Returns
         -------
@@ -191,20 +184,17 @@ def design(
     restitutions: Sequence[float] = RESTITUTIONS,
     progress: bool = True,
 ) -> Design:
-    """Design a ball absorber: find clearance and restitution coefficient with the lowest peak over a band.
-
-    The sign of the force has no effect on the design.
+    """Find the clearance and the restitution coefficient of a ball with the lowest peak over a band of frequencies.
 
     Parameters
     ----------
     machine : PhysicalSystem
-        One machine, see `PhysicalSystem.single`; its own L, kappa and forcing frequency are ignored.
+        One machine (`PhysicalSystem.single`). Its own L, kappa and forcing frequency are ignored.
     band : tuple of float
         First and last frequency of the force [Hz].
     clearances : sequence of float, optional
-        Candidates [m]. By default, 8 values from 1/4 to 4 times (F / k) (M / m), and then more values near the best
-        ones. If necessary, the 8 values are reduced so that the smallest is at most A / 8 and the largest at most A,
-        where A is the peak without ball: a box that moves less than its clearance never hits a ball at rest.
+        Candidates [m]. By default, 8 values from 1/4 to 4 times (F / k) (M / m), at most the peak without ball, and
+        then more values near the best ones.
     restitutions : sequence of float, default RESTITUTIONS
         Candidates, each between 0 and 1.
     progress : bool, default True
@@ -268,13 +258,7 @@ def design(
 
 
 def _choices(name, values, end) -> list[float]:
-    """Return `values` in ascending order, after a check that each is above 0 and below `end`.
-
-    Raises
-    ------
-    ValueError
-        If a value is outside this range, or if there are no values; the message begins with `name`.
-    """
+    """Return `values` in ascending order; raise ValueError unless all are above 0 and below `end`."""
     given = np.unique(reals(name, values)).tolist()
     if not given or not 0 < given[0] <= given[-1] < end:
         upper = f" and below {end:g}" if end < math.inf else ""
@@ -300,10 +284,8 @@ def _mm(metres) -> str:
 class _Measured:
     """Response of a machine with its ball at n frequencies, from m initial states.
 
-    The window is the part of a run after the transient.
-
-    largest: (n, m), largest displacement [m] in the window. settling: (n,), largest displacement [m] in the transient
-    from rest. states, finals: (n, m, 8), states at the start and at the end of the window.
+    largest, settling: largest displacement [m] after the transient, (n, m), and in the transient from rest, (n,).
+    states, finals: states at the start and at the end of the window after the transient, (n, m, 8).
     """
 
     machine: PhysicalSystem
@@ -319,10 +301,10 @@ class _Measured:
 
 
 class _Study:
-    """Simulations of one machine over a band, with their frequencies, numbers of cycles and initial states.
+    """Simulations of one machine over a band of frequencies.
 
-    machine: the machine with the force |F|, driven at its natural frequency, with a clearance of 1 m. system: the
-    dimensionless form of `machine`. Its unit of length is this clearance, so that its displacements are in metres.
+    machine: the machine with the force |F| and a clearance of 1 m. system: its dimensionless form, which has
+    displacements in metres.
     """
 
     def __init__(self, machine, band):
@@ -331,11 +313,11 @@ class _Study:
             raise ValueError(f"band: got ({low}, {high}), expected (low, high) with 0 < low < high")
         if not machine.c1 or not machine.F10:
             raise ValueError(
-                f"machine: got c = {machine.c1} and the force {machine.F10}; expected a damping c above 0, and "
-                "a force from a nonzero F, base or unbalance"
+                f"machine: got c = {machine.c1} and the force {machine.F10}, expected c above 0 and a nonzero "
+                "F, base or unbalance"
             )
         natural = {"omega1": machine.omega10, "omega2": machine.omega10}
-        # The sign of F is dropped: from the same initial states, F and -F would give slightly different results.
+        # From the same initial states, F and -F would give slightly different results.
         self.machine = replace(machine, F10=abs(machine.F10), L=1.0, **natural)
         self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
@@ -355,7 +337,7 @@ class _Study:
         return self.machine.force(Omega * self.machine.omega10) / self.machine.F10 * np.ones_like(Omega)
 
     def tried(self, pairs: Sequence[tuple[float, float]], progress: bool) -> list[dict]:
-        """Return a row per pair of clearance and restitution, with the peak from a few initial states."""
+        """Return a row of `Design.candidates` for each pair of clearance and restitution."""
         rows, states = [], self._starts(FEW_STARTS, 1)
         for L, kappa in track(pairs, "design: candidates tried", progress):
             systems = self._systems(replace(self.machine, L=L, kappa=kappa))[::2]

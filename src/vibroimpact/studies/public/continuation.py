@@ -28,17 +28,15 @@ def branches(
 ) -> list[Branch]:
     """Return the branches of 1:1 motions over a parameter, with stability and special points.
 
-    Pseudo-arclength continuation (Keller 1977) passes folds and branch points. It also follows the branches that
-    emanate from branch points, and asymmetric orbits that emanate from symmetric ones. Each branch is divided at its
-    special points: folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf, grazing. If a branch
-    ends inside `between`, the kind of the special point at its end gives the reason: "speed zero" (the speed of a ball
-    vanishes), "symmetry breaking" (a branch of asymmetric orbits meets its mirror image), "branch point" (the
-    continuation cannot pass it) or "lost" (the continuation finds no further point).
+    Pseudo-arclength continuation (Keller 1977) also follows branches that emanate from other branches. Special points
+    are folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf and grazing. If a branch ends
+    inside `between`, the kind of its last special point gives the reason: "speed zero" (of a ball), "symmetry
+    breaking", "branch point", or "lost" if no further point is found.
 
     Parameters
     ----------
     system : System
-        System that gives the values of the parameters that are not in `along`.
+        System with the values of all other parameters.
     along : str or sequence of str
         A parameter of System, or several that all have the same value.
     between : tuple of float
@@ -46,19 +44,16 @@ def branches(
     of : str, default 'both'
         "theory" (fixed points of the slow flow), "exact" (1:1 orbits) or "both".
     seeds : int, default 5
-        Number of values in `between` at which to search for motions. Branches that pass none of these values and
-        emanate from no other branch are missed.
+        Number of values at which to search for motions. A branch that passes none of these values may be missed.
     progress : bool, default True
-        Show the progress on standard error, if it is a terminal; "exact" takes about ten seconds.
+        Show the progress on standard error, if it is a terminal. "exact" takes about ten seconds.
 
     Returns
     -------
     list of Branch
-        A branch has .family; .nodes, in order along the branch; .special, the nodes that are special points; and
-        .closed, True if the last node is also the first. The first and the last node may lie one step beyond `between`.
-        A node has .p, the value of the parameter; .amplitudes, C_1 and C_2; .kind, the type of special point or "";
-        .stable; and .admissible, False for an orbit that is not a motion of the system. `to_frame` returns one row per
-        node of each piece between special points; a special point has a row in both pieces that it joins.
+        A branch has .family, .nodes, .special (nodes that are special points) and .closed. The end nodes may lie one
+        step beyond `between`. A node has .p (the parameter), .amplitudes (C_1 and C_2), .kind (of special point, or
+        ""), .stable and .admissible (False for an orbit that is not a motion). `to_frame` returns a table.
 
     Raises
     ------

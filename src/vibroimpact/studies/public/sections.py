@@ -14,26 +14,22 @@ _STEP = 100  # number of transient cycles in a step of the progress display
 def sections(systems, states, cycles: int, settle: int = 0, progress: bool = True) -> np.ndarray:
     """Return stroboscopic Poincare sections of many runs: the state at the end of every cycle after the transient.
 
-    For a list of systems with one varied parameter, the result is a bifurcation diagram.
-
     Parameters
     ----------
     systems, states : System or array_like, array_like
-        Combined as by `ensemble`: one System or an array of Systems, and initial states (..., 8) at tau = 0. An
-        inactive module (as in `PhysicalSystem.single`) is put at rest.
+        One System or an array of Systems, and initial states (..., 8) at tau = 0; combined as by `ensemble`.
     cycles : int
         Forcing periods of each run.
     settle : int, default 0
-        Number of forcing periods at the start of each run that are omitted as a transient.
+        Forcing periods of the transient, which is omitted.
     progress : bool, default True
-        Count the steps on standard error, if it is a terminal. A step is 100 cycles of the transient, or 1 cycle after
-        the transient.
+        Count the steps on standard error, if it is a terminal.
 
     Returns
     -------
     ndarray
-        States (..., cycles - settle, 8), dimensionless, where ... is the shape to which `systems` and `states`
-        broadcast; nan after a run has failed (`ensemble` gives the reason).
+        States (..., cycles - settle, 8), dimensionless, in the common shape of `systems` and `states`; nan after a run
+        has failed.
 
     Raises
     ------

@@ -32,44 +32,42 @@ def sweep(
 ) -> list[dict]:
     """Return observations at all points of a grid of one or two parameters.
 
-    If an observation fails at a point, the row of this point has the reason under "failed"; no other row is affected.
+    If an observation fails at a point, the row of this point has the reason under "failed".
 
     Parameters
     ----------
     system : System
-        System that gives the values of the parameters that are not in `axes`.
+        System with the values of all other parameters.
     axes : mapping
         Values of one or two parameters, by name.
     observe : sequence of str
-        Names of observations. All except "fixed_points" simulate the motions from all initial states.
+        Names of observations. All except "fixed_points" are simulated.
 
         - "amplitudes": largest |X_i|, root mean square of X_i, and mean ball speeds.
         - "energy": energy that impacts dissipate, divided by the work of the forces.
         - "peaks": highest peak along `band`. A peak is the displacement that one cycle in a hundred exceeds.
-        - "regimes": share of the initial states that end in each regime, and the regime reached in the run from rest.
-        - "fixed_points": number of fixed points of the theory, and number of stable fixed points.
+        - "regimes": share of each regime, and the regime from rest.
+        - "fixed_points": number of fixed points of the theory, and of stable ones.
     starts : int, default 5
-        Number of initial states, evenly spread, the first at rest. A ball may stay idle in the run from rest, although
-        it hits the walls in all other runs.
+        Number of initial states, the first at rest. A ball may stay idle in the run from rest.
     seed : int, default 0
-        Seed of the scrambling of the initial states.
+        Seed of the initial states.
     cycles : int, default 1000
-        Forcing periods of each run; "regimes" uses the lengths in `observation`.
+        Forcing periods of each run; "regimes" uses `observation` instead.
     settle : int, default 800
-        Number of forcing periods at the start of each run that are omitted as a transient. Transients may be long: of
-        225 motions with equal forces on both boxes, 210 still change by more than 1e-6 per forcing period after 400
-        periods, but none after 2000 periods.
+        Forcing periods of the omitted transient. Transients may be long: 210 of 225 motions with equal forces still
+        change by more than 1e-6 per period after 400 periods, but none after 2000.
     band : mapping, optional
-        For "peaks": name and values of the parameter along which the highest peak is sought.
+        For "peaks": name and values of one more parameter.
     observation : Observation, optional
-        For "regimes": length of the runs.
+        For "regimes": lengths of the runs.
     progress : bool, default True
         Count the points on standard error, if it is a terminal.
 
     Returns
     -------
     list of dict
-        One row per point with the varied parameters and the observations; `to_frame` returns a table.
+        One row per point; `to_frame` returns a table.
 
     Raises
     ------
