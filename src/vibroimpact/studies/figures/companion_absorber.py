@@ -147,10 +147,7 @@ def _peaks(system, table):
 
 
 def _lowest_again(system, table, band, states, cycles, settle):
-    """Measure the lowest peaks of a sweep again; return the row with the lowest new peak.
-
-    The row has value (the new peak) and spread (its standard error), divided by the force f.
-    """
+    """Measure the lowest peaks of a sweep again; return the row with the lowest new `value` and its error `spread`."""
     detunings = np.sort(np.ravel(axis(**band).values))
     detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
     places = table.nsmallest(REMEASURED_PEAKS, "ratio").to_dict("records")
@@ -174,10 +171,7 @@ def plateau(places):
 
 
 def _over_frequencies(system, response, band):
-    """Yield two rows per pair of forces, each with a statistic over all frequencies.
-
-    The first is the largest ratio of the response to that without balls, the second is the median impact share.
-    """
+    """For each pair of forces, yield the largest ratio to the response without balls, and the median impact share."""
     for pair, rows in response.groupby(FORCES, sort=False):
         without, place = linear_systems(system, pair, band)["without balls"], dict(zip(FORCES, pair, strict=True))
         greatest = (rows["ratio"] / ratios(system, without, rows["sigma_e_hat"])).max()

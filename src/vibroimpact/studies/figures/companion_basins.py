@@ -58,13 +58,7 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
     """Return the regimes of starts that differ only in the positions of the balls.
 
     Boxes and all velocities start as on the stable asymmetric orbit, or at 0 without such an orbit.
-
-    Parameters
-    ----------
-    points : int
-        Number of starts along each axis W_i = X_i - Y_i, -1 < W_i < 1.
-    observation : dict
-        Arguments of `Observation`.
+    points: number of starts along each axis W_i = X_i - Y_i. observation: arguments of `Observation`.
     """
     orbit = stable_response(system)
     states = plane(np.zeros(8) if orbit is None else orbit.state, points)

@@ -119,10 +119,7 @@ def _dominant(cells, starts):
 
 
 def _border(system, cells, series):
-    """Yield both ends of each piece of a border, as (number of the piece, f10_hat, f20_hat).
-
-    series: the number that changes at the border, "fixed points" or "stable points".
-    """
+    """Yield both ends of each piece of the border of `series`, as (number of the piece, f10_hat, f20_hat)."""
     which = BORDERS.index(series)
     square = cells.pivot(index="f20_hat", columns="f10_hat", values=series.replace(" ", "_")).to_numpy(float)
 
@@ -145,10 +142,7 @@ def _border(system, cells, series):
 
 
 def _squares(cells, square):
-    """Yield each square of four adjacent cells with known counts, as a list of (centre, count) around the square.
-
-    square: counts over f20_hat (rows) and f10_hat (columns).
-    """
+    """Yield the list of (centre, count) around each square of four adjacent cells with known counts."""
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
         around = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
@@ -200,10 +194,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _name(axes, regimes, name, lined):
-    """Write the name of a regime in its largest patch; return False if this patch is too small.
-
-    The name avoids cells that are True in `lined`.
-    """
+    """Write the name of a regime in its largest patch outside `lined`; return False if the patch is too small."""
     patches, _ = ndimage.label(regimes.eq(name))
     sizes = np.bincount(patches.ravel())[1:]
     if not len(sizes) or sizes.max() < SMALLEST_NAMED_PATCH:

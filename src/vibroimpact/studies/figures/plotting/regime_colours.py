@@ -39,10 +39,7 @@ _BOX = {"edgecolor": BLACK, "linewidth": 0.4}
 
 
 def paint(axes, square: pd.DataFrame) -> list[str]:
-    """Paint cells in the colours of their regimes; return the regimes that occur.
-
-    square: regimes, with the index along y and the columns along x.
-    """
+    """Paint the cells of `square` (index along y) in the colours of their regimes; return the regimes that occur."""
     occurring = [name for name in COLOURS if square.eq(name).to_numpy().any()]
     codes = np.select([square.eq(name).to_numpy() for name in occurring], range(len(occurring)), np.nan)
     norm = BoundaryNorm(np.arange(len(occurring) + 1) - 0.5, len(occurring)) if len(occurring) > 1 else None
