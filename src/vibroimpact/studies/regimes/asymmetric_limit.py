@@ -71,13 +71,10 @@ def leads_to(stations, points):
 
 
 def onset(stations) -> float:
-    """Return the epsilon at which the asymmetric orbit emanates from a symmetric one, at least 0.
-
-    A polynomial epsilon(v^2) is extrapolated to v^2 = 0. In steps of 20 % of epsilon, a straight line would give only
-    three correct digits.
-    """
+    """Return the epsilon at which the asymmetric orbit emanates from a symmetric one, at least 0."""
     last = stations[-_MOST_NODES:]
     epsilon = np.array([station.system.epsilon for station in last])
     skew = np.array([station.place[2:4].max() for station in last])
+    # The polynomial epsilon(v^2) at v^2 = 0. If epsilon differs by 20 %, a straight line would give only three digits.
     weights = [np.prod(np.delete(skew, k) / (np.delete(skew, k) - skew[k])) for k in range(len(last))]
     return max(0.0, float(epsilon @ weights))

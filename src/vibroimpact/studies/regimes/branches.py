@@ -80,10 +80,7 @@ class Branch(Representation):
         return [node for node in self.nodes if node.kind]
 
     def pieces(self) -> list[tuple[Node, list[Node]]]:
-        """Return the pieces between special points, each as (inner node, all nodes).
-
-        The inner node is not a special point; it has the stability of the whole piece.
-        """
+        """Return the pieces between special points as (inner node, all nodes); the inner node is no special point."""
         cuts = [k for k, node in enumerate(self.nodes) if node.kind]
         found, inner = [], None
         for a, b in pairwise([0, *cuts, len(self.nodes) - 1]):
@@ -157,9 +154,9 @@ def branches(
 
 
 def images(family, system, x, near) -> list[np.ndarray]:
-    """Return the root `x` and, for asymmetric orbits, that of the mirror image.
+    """Return the root `x` and, for asymmetric orbits, that of the mirror image, with angles close to those of `near`.
 
-    Each angle is shifted by whole periods to be close to that of the root `near`.
+    The angles are shifted by whole periods.
     """
     found, turn = [x.copy()], family.turn(system)
     if family is AsymmetricOrbits:

@@ -89,13 +89,7 @@ class Curve:
         return bool(sizes[-1] <= _SINGULAR * (1 + np.median(sizes)))
 
     def step(self, place: Place, length: float) -> np.ndarray:
-        """Return the point z of the curve after a step of `length` along the tangent of `place`.
-
-        Raises
-        ------
-        Lost
-            If Newton's method does not converge.
-        """
+        """Return the point z after a step of `length` along the tangent of `place`; raise Lost without convergence."""
         guess = place.z + length * place.tangent
         steep = abs(place.tangent[-1]) > _STEEP
         row = np.eye(len(guess))[-1] if steep else place.tangent

@@ -86,13 +86,7 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
 
 
 def order(epsilon, errors) -> tuple[float, float]:
-    """Return the exponent p of errors ~ epsilon^p by least squares, and its standard error (nan for 2 points).
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than 2 points.
-    """
+    """Return the exponent p of errors ~ epsilon^p by least squares, and its standard error (nan for 2 points)."""
     if len(epsilon) < 2:
         raise ValueError(f"epsilon: got {len(epsilon)} values, expected at least 2 to fit an order")
     if len(epsilon) == 2:

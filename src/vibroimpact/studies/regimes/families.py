@@ -102,11 +102,8 @@ class SymmetricOrbits:
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Return True if `orbit`, a zero of the test function of `kind`, is a special point of this kind.
-
-        The test function of NEIMARK_SACKER also vanishes if two real multipliers have the product 1.
-        """
-        mu = orbit.multipliers
+        """Return True if `orbit`, a zero of the test function of `kind`, is a special point of this kind."""
+        mu = orbit.multipliers  # the test function also vanishes if two real multipliers have the product 1
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
 
 
@@ -197,11 +194,9 @@ class FixedPoints:
 
     @staticmethod
     def tests(system, point) -> dict[str, float]:
-        """Return, for each kind of special point, the value of the test function that vanishes there.
-
-        For HOPF, a power of det M (`linearisation`) removes the pole at a fold of the manifold.
-        """
+        """Return, for each kind of special point, the value of the test function that vanishes there."""
         r = rho(system.kappa)
+        # The power of det M removes the pole of HOPF at a fold of the manifold.
         M = linearisation(system, point.psi, point.C)[1]
         finite = np.isfinite(point.slow_eigenvalues).all()
         sums = [a + b for a, b in combinations(point.slow_eigenvalues, 2)] if finite else [0.0]
@@ -224,11 +219,8 @@ class FixedPoints:
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Return True if `point`, a zero of the test function of `kind`, is a special point of this kind.
-
-        The test function of HOPF also vanishes if two real eigenvalues have the sum 0.
-        """
-        values = point.slow_eigenvalues
+        """Return True if `point`, a zero of the test function of `kind`, is a special point of this kind."""
+        values = point.slow_eigenvalues  # the test function also vanishes if two real eigenvalues have the sum 0
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
 
 
@@ -270,9 +262,6 @@ def asymmetric_root(system, x) -> np.ndarray:
 
 
 def _tests(mu, at_minus_one):
-    """Return the test functions of the multipliers `mu` by kind of special point.
-
-    at_minus_one: kind of the special point at which a multiplier is -1.
-    """
+    """Return the test functions of the multipliers `mu` by kind; `at_minus_one` is the kind for a multiplier -1."""
     found = {at_minus_one: 1 + mu, NEIMARK_SACKER: np.array([1 - a * b for a, b in combinations(mu, 2)])}
     return {name: float(np.prod(factors).real) for name, factors in found.items()}
