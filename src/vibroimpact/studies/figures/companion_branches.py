@@ -80,10 +80,10 @@ SPEC = {
                 "family": {"meaning": "exact symmetric or asymmetric orbits, or fixed points of the theory",
                     "unit": "text", "values": ["symmetric orbit", "asymmetric orbit", "fixed point"]},
                 "kind": {"meaning": "kind of the special point; for fixed points with the module, if only one is "
-                    "concerned",
+                    "concerned; none for a path without special points",
                     "unit": "text", "values": ["fold", "symmetry breaking", "period doubling", "Neimark-Sacker", "Hopf",
                     "grazing", "speed zero", "fold of the SIM, module 1", "fold of the SIM, module 2",
-                    "symmetry breaking, module 1", "symmetry breaking, module 2"]},
+                    "symmetry breaking, module 1", "symmetry breaking, module 2", "none"]},
                 "p, C1, C2": {"compared": "roots"},
                 "admissible": {"meaning": "True if the orbits on at least one side are motions of the system; always "
                     "True for fixed points", "unit": "true or false"},
