@@ -1,7 +1,4 @@
-"""Read and validate the config of the pipeline, config/config.yaml, before any job runs.
-
-Each field of the models declares its limits and conditions. Rules receive the values as dictionaries and lists.
-"""
+"""Read and validate the config of the pipeline before any job runs."""
 
 from vibroimpact_pipeline.config.reading import ConfigError, checked, merged, read
 

@@ -41,7 +41,10 @@ WITHIN_WALLS = needs(
 
 
 def items(kind, least: int, most: int, about: str | None = None, check: AfterValidator | None = DIFFERENT):
-    """Return the type of a list of `least` to `most` values; `check` validates the list (default: no value twice)."""
+    """Return the type of a list of `least` to `most` values.
+
+    By default, `check` requires different values.
+    """
     return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), check]
 
 
@@ -51,9 +54,9 @@ def span(kind, about: str = "Lower and upper end"):
 
 
 def named(kind, least: int, most: int, name: str = NAME):
-    """Return the type of a mapping whose keys are names that the user chooses, matching the pattern `name`.
+    """Return the type of a mapping whose keys match the pattern `name`.
 
-    A value is of the type `kind`, or null to remove the entry that an earlier config file sets.
+    A null removes the entry of an earlier config file.
     """
     free = Annotated[str, Field(pattern=name)]
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]

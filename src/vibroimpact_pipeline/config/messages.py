@@ -12,7 +12,7 @@ from vibroimpact_pipeline.config.section import Place, Section
 def problems_of(error: ValidationError) -> dict[Place, dict]:
     """Return Pydantic's errors by key path.
 
-    If a mapping has an unknown key, errors about missing keys of this mapping are omitted.
+    If a mapping has an unknown key, errors about missing keys of the mapping are omitted.
     """
     errors = error.errors(include_url=False)
     misspelt = {details["loc"][:-1] for details in errors if details["type"] == "extra_forbidden"}
@@ -52,7 +52,7 @@ def _keys(part) -> set[str]:
 
 
 def hint(name, known: Iterable[str]) -> str:
-    """Return "did you mean ...?" with the known name most similar to `name`, or an empty string if none is similar."""
+    """Return "did you mean ...?" with the most similar known name, or an empty text."""
     meant = difflib.get_close_matches(str(name), list(known), n=1)
     return f", did you mean {meant[0]!r}?" if meant else ""
 
@@ -64,9 +64,9 @@ def key_path(place: Place) -> str:
 
 
 def short_repr(value, plain: bool = False) -> str:
-    """Return a value as text on one line for an error message; a long text is shortened in the middle.
+    """Return a value on one line for an error message, with long texts shortened.
 
-    If `plain` is True, a printable value is written without quotes.
+    If `plain` is True, a printable value has no quotes.
     """
     text = "null" if value is None else str(value) if plain and str(value).isprintable() else repr(value)
     return text if len(text) <= 120 else f"{text[:60]}...{text[-60:]}"

@@ -67,7 +67,7 @@ def _refuse_resonance(system):
     """Raise ValueError for an undamped system whose periodic responses are not isolated or not bounded."""
     if system.gamma1 > 0 and system.gamma2 > 0:
         return
-    # Import these only here: if no job has to run, loading SciPy would take longer than the rest of the build.
+    # Import these only here, since loading SciPy takes longer than a build without jobs.
     from vibroimpact.exact.orbits.impulse_response import impulse_response
     from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
@@ -171,9 +171,9 @@ class Config(Section):
                     yield place, f"at {at}: {': '.join([*key, what])}"
 
     def varied_parameters(self) -> Iterable[tuple[Place, str | None, dict[str, float]]]:
-        """Return parameter values that must be valid, in addition to those of the cases.
+        """Return further parameter values that must be valid.
 
-        Each item is a tuple (key path of the config entry, case or None for all cases, values by parameter).
+        An item is (key path, case or None for all cases, values by parameter).
         """
         return ()
 

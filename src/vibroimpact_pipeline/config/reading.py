@@ -52,12 +52,12 @@ for kind in ("int", "float"):
 
 
 def read(path) -> dict:
-    """Return the entries of a config file; the value null marks an entry to remove.
+    """Return the entries of a config file; a null marks an entry to remove.
 
     Raises
     ------
     ConfigError
-        If the file cannot be read, is not a YAML mapping, or contains unsupported values.
+        If the file is not a readable YAML mapping of supported values.
     """
     try:
         with open(path, "rb") as file:
@@ -78,16 +78,14 @@ def read(path) -> dict:
 
 
 def merged(sources) -> dict:
-    """Merge config sources, given as pairs (name, content); a later source overrides earlier ones.
+    """Merge config sources (name, content); later sources override earlier ones.
 
-    The value null removes an entry of earlier sources. The text "null" has the same effect, because Snakemake passes a
-    null inside a mapping of `--config` as text.
+    A null, or the text "null" that Snakemake makes of a null in `--config`, removes an entry.
 
     Raises
     ------
     ConfigError
-        If a null has no entry to remove, or if a source contains unsupported values. The message has one line for each
-        problem.
+        If a null has no entry to remove, or if a source contains unsupported values.
     """
     whole = {}
     for name, content in sources:
@@ -99,19 +97,14 @@ def merged(sources) -> dict:
 
 
 def checked(config: dict, sources=()) -> dict:
-    """Validate a config; return its values, with texts converted to numbers and defaults filled in.
+    """Validate a config; return its values with defaults filled in.
 
-    Parameters
-    ----------
-    config
-        All entries, as returned by `merged`.
-    sources
-        Pairs (name, content) in the order of `merged`, used to name the source in messages.
+    Error messages name the source of an entry if `sources` are given as for `merged`.
 
     Raises
     ------
     ConfigError
-        If the config is invalid; one line "source: key: problem" for each problem.
+        If the config is invalid.
     """
     try:
         whole = {}
@@ -131,10 +124,9 @@ def model():
 
 
 def _update(whole, content, above):
-    """Update `whole` in place with the entries of `content`; a null removes an entry.
+    """Update `whole`, at the key path `above`, with `content`; a null removes an entry.
 
-    Return a problem (key path, message) for each null whose key has no entry in `whole`. `above` is the key path of
-    `whole`.
+    Return (key path, message) for each null without an entry.
     """
     problems = []
     for key, value in content.items():
@@ -166,8 +158,7 @@ def _refusal(error, sources):
 def _source(place, sources):
     """Return the name of the last source that contains a key path.
 
-    If no source contains the whole path, return the name of the first source that contains the longest beginning of the
-    path.
+    Otherwise, return the first source with the longest beginning of the path.
     """
 
     def depth(source):
@@ -189,7 +180,7 @@ def _with_text_keys(config):
     Raises
     ------
     ValidationError
-        If the config has values of an unsupported type, or too many values.
+        If the config has unsupported values, or too many.
     """
     found, values = [], count()
 

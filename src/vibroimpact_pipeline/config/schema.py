@@ -28,8 +28,7 @@ def schema(model) -> str:
 def _plain(node):
     """Return a node of a JSON Schema without titles and null defaults.
 
-    The returned schema accepts a text in place of a number, and a section without its key `case`. If the user chooses
-    the keys of a mapping, each key must match the pattern in the schema.
+    The schema accepts texts as numbers, and sections without `case`.
     """
     if not isinstance(node, dict):
         return [_plain(item) for item in node] if isinstance(node, list) else node
