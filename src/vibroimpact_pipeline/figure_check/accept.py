@@ -22,30 +22,14 @@ HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest fi
 
 
 def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.date, pictures_only=False) -> None:
-    """Copy the tables of figures into the reference set, draw their pictures, and record the reason.
+    """Copy figures from `build` to the reference set, and record the reason.
 
-    Figures that are no longer built are removed from the reference set.
-
-    Parameters
-    ----------
-    verdicts
-        Verdicts on the figures to accept.
-    build
-        Folder that contains results/.
-    reference
-        Folder of the reference set.
-    reason
-        Reason for the entry in CHANGES.md; joined to one line.
-    date
-        Date of the entry.
-    pictures_only
-        True to keep the reference tables and only redraw the pictures from them.
+    Figures that are no longer built are removed. If `pictures_only` is True, the reference tables are kept.
 
     Raises
     ------
     ValueError
-        If the reason is empty, or if `pictures_only` is set for a figure without reference. In both cases nothing is
-        written.
+        If the reason is empty, or if `pictures_only` is True for a figure without reference.
     """
     reason, reference, build = " ".join(reason.split()), Path(reference), Path(build)
     if not reason:

@@ -1,10 +1,7 @@
 """Compare the tables and pictures of each figure with the reference set.
 
-Tables of the build are compared with the reference tables. The picture that the present code draws from the reference
-tables is compared with the reference picture.
-
-A figure passes, fails or is not comparable. It is not comparable if its tables match but its picture differs, and the
-reference picture was drawn with other versions of the drawing libraries.
+The present code draws the reference tables, and this picture is compared with the reference picture. If other library
+versions drew the reference, a different picture is not comparable.
 """
 
 import json
@@ -28,7 +25,7 @@ SUMS = "pictures.json"
 
 
 def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
-    """Return, for each compared table of a figure, its file name in the reference set and its path in a build."""
+    """Return (file in the reference set, path in a build) for each compared table of a figure."""
     return {
         name: (f"{figure}.csv" if name == "csv" else f"{figure}.{name}.csv", table["file"])
         for name, table in spec["tables"].items()
@@ -37,13 +34,13 @@ def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
 
 
 def reference_sums(reference) -> dict[str, dict]:
-    """Return, for each figure in a reference set, checksums of PDF and SVG and the library versions that drew them."""
+    """Return checksums of PDF and SVG and the library versions that drew them, for each figure."""
     path = Path(reference) / SUMS
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
 
 
 def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]:
-    """Return the verdict on each figure of a build or of the reference set, sorted by name."""
+    """Return the verdict on each figure of the build or the reference set."""
     known = [*Path(reference).glob("*.png"), *Path(reference).glob("published/*.csv")]
     figures = sorted(({path.stem: None for path in known} | figures).items())
     with ProcessPoolExecutor(processes) as pool:
@@ -51,32 +48,22 @@ def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]
 
 
 def check(figure: str, spec: dict | None, reference, build) -> dict:
-    """Return the verdict on one figure as JSON data; a damaged file makes this figure fail and raises no error.
+    """Return the verdict on one figure as JSON data; a damaged file makes the figure fail.
 
-    Parameters
-    ----------
-    figure
-        Name of the figure.
-    spec
-        Description of the figure (see `specs.spec_of`), or None if the figure is no longer built.
-    reference
-        Folder of the reference set.
-    build
-        Folder that contains results/, which must be up to date.
+    If the figure is no longer built, `spec` is None.
 
     Returns
     -------
     dict
-        The verdict, with these keys:
+        The verdict, with these keys and the name of the figure:
 
-        - figure: name of the figure.
         - stem: path of the pictures in the build, without suffix.
-        - module: name of the drawing module, or None if the figure is no longer built.
-        - files: for each compared table, the file name in the reference set and the path in the build.
+        - module: name of the drawing module.
+        - files: (file in the reference set, path in the build) for each compared table.
         - status: "passed", "failed" or "not comparable".
         - reasons: reasons for failure, one line each.
-        - tables: distances from `table_differences` and `printed_distances`, each with the file name of the table.
-        - distance: largest distance in `tables`, in units of its limit.
+        - tables: distances of columns from their reference.
+        - distance: largest distance, in units of its limit.
     """
     verdict = {"figure": figure, "stem": f"results/figures/{figure}", "module": None, "files": {}}
     verdict |= {"status": FAILED, "reasons": [], "distance": 0.0, "tables": []}
@@ -116,12 +103,11 @@ def _add(verdict, file, differences):
 
 
 def _other_pictures(verdict, reference, built, old, new) -> list[str]:
-    """Return which of the PNG, PDF and SVG pictures differ from the reference; add reasons for failure to the verdict.
+    """Return which of PNG, PDF and SVG differ from the reference; add failures to the verdict.
 
-    A blank picture is a reason for failure. A difference is a reason only if the installed library versions are those
-    that drew the reference.
+    A difference is a failure only if the installed library versions drew the reference.
     """
-    # If the tables are equal, drawing the reference tables would only repeat the picture in the build.
+    # If the tables are equal, the picture in the build already shows the reference tables.
     equal = all(name in new and old[name].equals(new[name]) for name in verdict["files"])
     with TemporaryDirectory() as folder:
         today = pictures.sums(built if equal else pictures.draw(verdict["module"], old, verdict["figure"], folder))
@@ -168,6 +154,9 @@ def lines(verdicts: list[dict]) -> list[str]:
 
 
 def has_failed(verdicts: list[dict], strict: bool = False) -> bool:
-    """Return True if a figure failed, if there are no verdicts or, with `strict`, if a figure is not comparable."""
+    """Return True if a figure failed or if there are no verdicts.
+
+    If `strict` is True, "not comparable" counts as failed.
+    """
     failures = (FAILED, NOT_COMPARABLE) if strict else (FAILED,)
     return not verdicts or any(verdict["status"] in failures for verdict in verdicts)

@@ -38,7 +38,7 @@ def _pictures(verdict, reference, build):
 
 
 def difference(old, new) -> bytes:
-    """Return a PNG of the area that two pictures have in common, white where the pictures agree and dark elsewhere."""
+    """Return a PNG of the common area of two pictures, dark where they differ."""
     changed = ImageChops.difference(old.convert("RGB"), new.convert("RGB"))
     content = io.BytesIO()
     ImageChops.invert(changed).filter(ImageFilter.MinFilter(SPREAD)).save(content, "PNG")

@@ -22,14 +22,14 @@ that their last digits, which depend on the processor, decide which one results.
 
 
 def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:
-    """Draw a figure from its tables with the Python module named `module`; return the path of each kind of file."""
+    """Draw a figure from its tables; return the path of each kind of file."""
     files = {kind: Path(folder) / f"{figure}.{kind}" for kind in KINDS}
     style.save(style.draw_tables(import_module(module), tables), files)
     return files
 
 
 def load_png(content: bytes) -> Image.Image:
-    """Return the content of a PNG file as an RGBA image.
+    """Return the RGBA image in a PNG file.
 
     Raises
     ------
@@ -41,7 +41,7 @@ def load_png(content: bytes) -> Image.Image:
 
 
 def small(content: bytes) -> bytes:
-    """Return a PNG file without metadata, without an unused alpha channel, and in grey levels if it has no colours."""
+    """Return a PNG file without metadata, unused alpha channel and unused colours."""
     shown, smaller = load_png(content), io.BytesIO()
     modes = (shown.convert(mode) for mode in ("L", "RGB"))
     fits = (one for one in modes if one.convert("RGBA").tobytes() == shown.tobytes())
@@ -50,7 +50,10 @@ def small(content: bytes) -> bytes:
 
 
 def sums(files: dict[str, Path]) -> dict[str, str]:
-    """Return the SHA-256 of each file by kind; metadata, compression and the last digits of numbers have no effect."""
+    """Return the SHA-256 of each file by kind.
+
+    Metadata, compression and the last digits of numbers have no effect.
+    """
     return {kind: hashlib.sha256(COMPARED_CONTENT[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
 
 

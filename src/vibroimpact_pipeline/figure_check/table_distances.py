@@ -29,31 +29,26 @@ MOVED_BY = 1e-3
 def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
     """Return the reasons why a table fails, and the distance of each column from its reference.
 
-    Rows with the same text in the first two text columns form a series. Text columns with the entry `compared` are
-    not used to form series. The rows of a series are compared in order with the reference rows of the same series.
+    Rows with the same text in the first two text columns form a series, which is compared row by row. Text columns with
+    the entry `compared` form no series. Other text columns must equal the reference.
 
     Parameters
     ----------
-    old
-        Reference table.
-    new
-        Table of the build.
     columns
-        SPEC entry of each column by name. Text columns without the entry `compared` must be equal to the reference.
+        SPEC entry of each column by name.
 
     Returns
     -------
     reasons : list of str
-        One line for each reason. The table passes if the list is empty.
+        One line for each reason; the list is empty if the table passes.
     distances : list of dict
         One mapping for each column and measure, with these keys:
 
         - column: name of the column.
-        - kind, measure: kind of number in the column, and name of the measure, as in KINDS.
+        - kind, measure: keys of KINDS and MEASURES.
         - distance: largest distance, in units of the limit.
         - where: row with the largest distance.
-        - reference, new: values in this row of `old` and `new`, or the medians of the column if the measure gives only
-          one distance for the column.
+        - reference, new: values in this row, or medians if the measure has one distance for the column.
     """
     if list(old) != list(new):
         return [f"columns are {', '.join(new)} instead of {', '.join(old)}"], []
@@ -113,7 +108,7 @@ def _by_series(table, columns):
 
 
 def _kind(columns, name, series):
-    """Return the key of KINDS that applies to a column in a series, or None if the column is not compared."""
+    """Return the key of KINDS for a column; None if the column is not compared."""
     kinds = columns.get(name, {}).get("compared")
     if not isinstance(kinds, dict):
         return kinds
@@ -148,17 +143,13 @@ def _distance(old, new, name, kind, measure):
 def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[str], list[dict]]:
     """Compare points read from the printed book with the curves in a table.
 
-    Return the reasons why the table fails, and a list that contains only the largest distance. The two lists have the
-    form that `table_differences` returns.
+    Return reasons and the largest distance in the form of `table_differences`.
 
     Parameters
     ----------
     points
-        One row for each point, with some columns of `table` and the column `tolerance`. The rows of `table` with the
-        same text cells as the point form the curve. The tolerance is the largest allowed distance between point and
-        curve, after each coordinate is divided by the range of its column in the panel. Blank cells are ignored.
-    table
-        Plotted table in the build.
+        One row for each point, with some columns of `table` and the column `tolerance`. Text cells select a curve. The
+        tolerance limits the distance, after each coordinate is divided by its range in the panel.
     """
     if unknown := set(points) - {*table, "tolerance"}:
         return [f"unknown columns {', '.join(sorted(unknown))}; expected any of {', '.join(table)}, tolerance"], []
@@ -193,8 +184,7 @@ def _nearest(point, curve):
     return places[np.linalg.norm(places - point, axis=1).argmin()]
 
 
-# Measures of the distance between two columns of shape (n,). Each measure returns one distance per row, or one distance
-# for all rows. Distances are divided by `limit`, so that 1 is the largest allowed distance.
+# Each measure returns distances in units of `limit`, one per row or one for all rows.
 
 
 def _difference(old, new, limit):
@@ -223,13 +213,11 @@ def _rows(old, new, limit):
 
 
 def _balance(old, new, limit):
-    """Compare, for each class, how many rows enter the class with how many rows leave the class (sign test).
+    """Compare how many rows enter and how many leave each class (sign test).
 
-    For a column of numbers, compare how many numbers increase with how many decrease.
-
-    Rounding errors change rows in the two directions equally often. The distance is |n_1 - n_2| / sqrt(n_1 + n_2),
-    where n_1 and n_2 are the numbers of rows that change in the one and in the other direction. The denominator is the
-    standard deviation of n_1 - n_2. If a class of RARE_ROWS rows or more vanishes, the distance is MAX_DISTANCE.
+    Numbers are compared by increases and decreases. Rounding errors change rows equally often in both directions. The
+    distance is |n_1 - n_2| / sqrt(n_1 + n_2) for n_1 and n_2 changes in the two directions. The denominator is the
+    standard deviation of n_1 - n_2.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:
