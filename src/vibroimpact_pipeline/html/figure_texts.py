@@ -26,19 +26,9 @@ def figure_texts(config: dict) -> dict[str, dict]:
 
 
 def words(figure: str, scene: dict, parameters: dict) -> dict:
-    """Return the SPEC (description) of a figure, with placeholders in texts, such as {f10_hat}, replaced by values.
+    """Return the SPEC (description) of a figure, with values in place of placeholders such as {f10_hat}.
 
-    The values are those in `scene` and `parameters`. If the figure is one of the chapter, but `parameters` are not
-    those of the chapter, the result contains the texts for figures of your own.
-
-    Parameters
-    ----------
-    figure
-        Name of the figure.
-    scene
-        Config entry of the figure.
-    parameters
-        Parameters of the system that the figure shows, if any.
+    A figure of the chapter with other `parameters` gets the texts for figures of your own.
     """
     known = specs()
     spec = spec_of(figure, scene, known)

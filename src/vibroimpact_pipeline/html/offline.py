@@ -36,8 +36,7 @@ class OfflineExporter(HTMLExporter):
     """Export a notebook as one self-contained page."""
 
     def __init__(self):
-        # Default parameters are omitted because Papermill inserts the values of this run below them. Instructions are
-        # omitted because they are for readers who run the notebook.
+        # Omit default parameters, which Papermill overrides, and instructions for running the notebook.
         config = Config(TagRemovePreprocessor={"enabled": True, "remove_cell_tags": {"parameters", "instructions"}})
         super().__init__(config=config, exclude_input_prompt=True, exclude_output_prompt=True)
         self.raw_template = PAGE.read_text(encoding="utf-8")
@@ -54,19 +53,16 @@ def markdown_to_html(source: str) -> str:
 
 
 def linked(page: str, address: str) -> str:
-    """Return the page of a notebook with its links to Markdown documents replaced by links to the report's HTML pages.
+    """Return a notebook page with links to the report's HTML pages instead of Markdown documents.
 
-    The line "Notebook of ..." at the head of the page becomes a link to the figure, at `address`.
+    The line "Notebook of ..." links to `address`.
     """
     page = re.sub(r'href="\.\./(?:\.\./docs/)?(\w+)\.md"', r'href="../\1.html"', page)
     return re.sub(r'(<p class="of">)(.*?)(</p>)', rf'\1<a href="{escape(address)}">\2</a>\3', page, count=1)
 
 
 def page(notebook, title: str) -> str:
-    """Return the HTML page of an executed notebook; `title` is the title of the figure.
-
-    Messages that the library prints while it compiles functions are omitted.
-    """
+    """Return the HTML page of an executed notebook, without messages about compiling."""
     for cell in notebook.cells:
         if "outputs" in cell:
             cell.outputs = [output for output in cell.outputs if not output.get("text", "").startswith(PROGRESS)]

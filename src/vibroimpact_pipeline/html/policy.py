@@ -1,6 +1,6 @@
-"""Add a content security policy to pages, so that they load only files and scripts of the site itself.
+"""Add a content security policy to pages, so that they load only files of the site.
 
-Texts from the config and from results are already escaped when a page is made. The policy is a second protection.
+The policy is a second protection, since texts from config and results are already escaped.
 """
 
 import base64
@@ -18,7 +18,8 @@ HEAD = re.compile(r"<head>\n?")
 def policy(*scripts: str) -> str:
     """Return the policy as a meta element.
 
-    If inline `scripts` are given, the policy allows them and all script files of the site. If not, it allows no script.
+    With inline `scripts`, the policy also allows script files of the site. Without inline scripts, the policy allows no
+    script.
     """
     digests = (base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in scripts)
     allowed = " ".join([FILES, *(f"'sha256-{digest}'" for digest in digests)]) if scripts else "'none'"
@@ -35,7 +36,7 @@ def guarded(page: str) -> str:
     Raises
     ------
     ValueError
-        If the page has no head element.
+        If the page has no head.
     """
     page, found = HEAD.subn(f"<head>\n{policy()}\n", page, count=1)
     if not found:

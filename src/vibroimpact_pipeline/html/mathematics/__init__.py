@@ -1,6 +1,6 @@
-"""Convert LaTeX formulas to MathML, which browsers render without scripts, in an embedded font.
+"""Convert LaTeX formulas to MathML, which browsers render without scripts.
 
-The font is STIX Two Math 2.11, under the SIL Open Font License (OFL.txt), reduced to the characters of formulas by
+The font is STIX Two Math 2.11 (licence in OFL.txt), reduced to the characters of formulas by
 `pyftsubset --unicodes=... --layout-features=dtls --no-hinting --drop-tables+=DSIG,GPOS,GDEF,gasp --flavor=woff`.
 """
 
@@ -29,7 +29,9 @@ MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)'
 
 
 def mathml(tex: str, display: bool) -> str:
-    r"""Return a LaTeX formula as MathML: inline or, if `display`, on a line of its own (where it may have a \tag).
+    r"""Return a LaTeX formula as MathML; if `display` is True, on a line of its own.
+
+    Only a formula on a line of its own may have a \tag.
 
     Raises
     ------
