@@ -10,7 +10,7 @@ JUDGED_WITH = "ec3468120a00"
 
 
 def reason_not_judged(config: dict) -> str:
-    """Return the reason why claims cannot be judged with a config, or an empty text if they can be judged."""
+    """Return why claims cannot be judged with a config, or an empty text."""
     found = departures(config)
     if not found and digest(config) != JUDGED_WITH:
         found = ["simulations, stability.verdict_grid or regimes differ from those for which the claims were written"]

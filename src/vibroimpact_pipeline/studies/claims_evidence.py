@@ -12,12 +12,9 @@ TABLES = "fixed_points", "orbits", "verdict_grid", "modulation", "special_points
 
 
 def evidence(inputs: dict) -> Evidence:
-    """Return the evidence for judging claims on the cases of the chapter.
+    """Return the evidence for judging the claims of the chapter, given paths of results by name.
 
-    Parameters
-    ----------
-    inputs
-        Path of each result by name. The results of simulations are <case>_samples, <case>_events and <case>_summary.
+    Simulations are named <case>_samples, <case>_events and <case>_summary.
     """
     simulated = [name.removesuffix("_summary") for name in inputs if name.endswith("_summary")]
     return Evidence(

@@ -58,9 +58,9 @@ class Whole(Config, Studies):
         yield from (("machines", name) for name in self.machines)
 
     def varied_parameters(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
-        """Yield parameter values that must be valid, in addition to those of the cases.
+        """Yield further parameter values that must be valid.
 
-        Each item is a tuple (key path of the config entry, case or None for all cases, values by parameter).
+        An item is (key path, case or None for all cases, values by parameter).
         """
         branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
         for number, path in enumerate(branches.paths):

@@ -60,8 +60,7 @@ class Branches(Section):
     attractors: Attractors
 
     def conditions(self):
-        # A continuation stops after 2000 points. With steps of 1/200 of the range of the parameters, 2000 points
-        # suffice for a branch that is 10 times as long as the range.
+        # The limit of 2000 points suffices for a branch that is 10 times as long as the path.
         if self.longest_step < (least := max(path.range[1] - path.range[0] for path in self.paths) / 200):
             yield ("longest_step",), f"{self.longest_step} should be at least {least:g}, 1/200 of the longest path"
 

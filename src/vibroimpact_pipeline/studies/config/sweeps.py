@@ -60,10 +60,7 @@ class Axis(Section):
         return len(self.listed or self.tuples or ()) or self.cells or self.values
 
     def ends(self) -> list[dict[str, float]]:
-        """Return the parameters at the lowest and at the highest value of the axis.
-
-        For an axis that is given by `tuples`, return the parameters of every tuple.
-        """
+        """Return the parameters at both ends of the axis, or at every tuple of `tuples`."""
         values = self.tuples or [[end] * len(self.along) for end in self.range or (min(self.listed), max(self.listed))]
         return [dict(zip(self.along, at, strict=True)) for at in values]
 
@@ -99,15 +96,12 @@ class Sweep(Section):
     def corners(self) -> list[dict[str, float]]:
         """Return the parameters at all corners of the grid and band.
 
-        A parameter that is within its limits at all corners is within them everywhere.
+        Limits that hold at all corners hold everywhere.
         """
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):
-        """Yield a pair (key path, message) for each reason why companion figures cannot draw this sweep.
-
-        `name` is the name of the sweep; it determines which companion figures draw the sweep.
-        """
+        """Yield (key path, message) for each reason why companion figures cannot draw the sweep `name`."""
         for figure, spec in specs().items():
             if drawn := spec.get("sweeps", {}).get(name):
                 even = all(axis.range and axis.scale != "logarithmic" for axis in self.axes)

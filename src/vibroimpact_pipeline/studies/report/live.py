@@ -1,8 +1,4 @@
-"""Compute the data of the interactive pages of the report.
-
-The data contain parameters, the fixed points of each case, and regimes and stability verdicts on grids of the two
-forcing amplitudes.
-"""
+"""Compute the data of the interactive pages of the report."""
 
 import json
 
@@ -22,7 +18,7 @@ FORCES = ("f10_hat", "f20_hat")
 
 
 def live_data(config: dict) -> str:
-    """Return the data of the page Play as JSON: the parameters, and forces and fixed points of each case.
+    """Return the data of the page Play as JSON.
 
     Cases that differ from the first case in more than the forcing amplitudes are omitted.
     """
@@ -38,11 +34,9 @@ def live_data(config: dict) -> str:
 
 
 def _points(system, roots) -> list[dict]:
-    """Return the fixed points of a system, sorted by label; `roots` are the symmetric exact orbits of the system.
+    """Return the fixed points of a system; `roots` are its symmetric exact orbits.
 
-    The entry of a fixed point contains its label, C, B and psi of module 2, and the verdict of (10.26). The entry also
-    contains the verdict on the exact orbit next to the fixed point and the largest modulus of a multiplier of this
-    orbit.
+    An entry contains C, B and psi of module 2, the verdict of (10.26), and the verdict on the exact orbit.
     """
     points = fixed_points(system)
     exact = exact_orbits(system, [point.C for point in points], roots)
@@ -63,8 +57,7 @@ def _point(system, point, orbit) -> dict:
 def map_data(results, config: dict) -> str:
     """Return the data of the regime map on the page Play as JSON.
 
-    The text is empty if the parameters of the map are not those of the first case. Each cell of the map has its forces,
-    its most frequent regime, and its fixed points.
+    The text is empty if the map and the first case have different parameters.
     """
     first, *_ = (case_parameters(config, case) for case in config["cases"])
     swept = case_parameters(config, config["sweeps"]["regime_map"]["case"]) if "regime_map" in config["sweeps"] else {}
@@ -85,9 +78,7 @@ def map_data(results, config: dict) -> str:
 def verdict_data(results, config: dict) -> str:
     """Return the data for the slider of epsilon as JSON.
 
-    There are two criteria: (10.26), and the theory, which combines the criteria on the fast and the slow scale. For
-    each criterion and each epsilon, the data list the fixed points that the criterion classifies as stable. The entry
-    of a fixed point is [f10, f20, verdict on the exact orbit].
+    For each criterion and epsilon, the data list stable fixed points as [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
     by_epsilon = list(table.groupby("epsilon"))[::-1]
@@ -108,10 +99,9 @@ DOTS = {"printed_10_26": "(10.26)", "fast": "fast scale", "theory": "fast and sl
 
 
 def verdict_dots(results) -> dict:
-    """Return the verdict matrix: values of epsilon, column heads, and one row for each fixed point.
+    """Return the verdict matrix, with one row for each fixed point.
 
-    A row contains the case and label of the fixed point and the verdict of each criterion of the theory. For each
-    epsilon, it also contains the verdict on the exact orbit and the largest modulus of a multiplier of the orbit.
+    For each epsilon, a row contains the verdict and the largest multiplier modulus of the exact orbit.
     """
     table = results.table("verdicts_by_epsilon.csv")
     rows = [

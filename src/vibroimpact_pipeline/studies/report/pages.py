@@ -48,10 +48,8 @@ class Pages:
         The checkout.
     results
         A `Results` object.
-    config
-        The validated config of the pipeline.
     shown
-        For each group, the names of its figures in the order of display.
+        Names of figures by group.
     tables
         Names of additional results to download.
     """
@@ -96,8 +94,7 @@ class Pages:
     def with_numbers(self, text: str, paper: bool = False) -> str:
         """Return a document with the numbers and figures of this build.
 
-        Each number is shown with as many decimals as in the document, and links to its source unless `paper` is True.
-        If this build has no value for a number, because of its settings, the number in the document is kept.
+        Unless `paper` is True, numbers link to their source. A number that this build lacks is kept.
         """
         if not paper:
             text = LIVE.sub(lambda found: self._live(**found.groupdict()), text)
@@ -105,9 +102,9 @@ class Pages:
         return PICTURE.sub(lambda found: self._picture(paper, **found.groupdict()), text)
 
     def number(self, key: str) -> tuple[float, str] | None:
-        """Return value and source of a number by its key in numbers.yaml, or None if this build has no such number.
+        """Return value and source of a number in numbers.yaml, or None if this build lacks the number.
 
-        Ratios of run times, which depend on the machine, are rounded to two significant digits.
+        Ratios of run times are rounded to two digits.
         """
         try:
             value = float(self.results.value(self.places[key]))
@@ -134,10 +131,7 @@ class Pages:
         return text[1:-1] if paper or name not in self.pictures else f"{text}(#{name})"
 
     def plates(self) -> str:
-        """Return the chapter's figures for the end of the printed article.
-
-        Figure 10.1 is omitted, since the text of the article shows this figure.
-        """
+        """Return the chapter's figures for the end of the article, except Figure 10.1, which the text shows."""
         shown = (name for name in self.chapter if name != "fig10_01")
         plates = [f"![{plain(self.about[name]['title'])}](../results/figures/{name}.png)" for name in shown]
         return "\n\n".join(["\n## The figures of the chapter", *plates]) if plates else ""
@@ -181,9 +175,9 @@ class Pages:
 
 
 def table(frame, heads: dict, number: int = 3) -> str:
-    """Return columns of a DataFrame as a Markdown table; values are shown with `number` significant digits.
+    """Return columns of a DataFrame as a Markdown table with `number` significant digits.
 
-    `heads` maps the name of each selected column to its head in the Markdown table.
+    `heads` maps the name of each column to its head.
     """
     rows = [[digits(value, number) for value in row] for row in frame[list(heads)].itertuples(index=False)]
     return "\n".join("| " + " | ".join(line) + " |" for line in [heads.values(), ["---"] * len(heads), *rows])
@@ -205,7 +199,7 @@ def attribute(text) -> str:
 
 
 def data(name: str, text: str) -> str:
-    """Return JSON as a script element of a page; < is escaped so that no text can end the element.
+    """Return JSON as a script element of a page, with < escaped.
 
     Raises
     ------

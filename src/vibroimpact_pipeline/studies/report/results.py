@@ -13,12 +13,7 @@ FOLDERS = ("figures", "accuracy", "nudge")
 class Results:
     """Read the results of a build from one directory.
 
-    Parameters
-    ----------
-    root
-        The directory.
-    judged
-        False if claims are not judged because the parameters are not those of the chapter.
+    If `judged` is False, the list of claims is empty.
     """
 
     def __init__(self, root, judged: bool = True):
@@ -32,10 +27,9 @@ class Results:
         return (self.root / name).read_text(encoding="utf-8")
 
     def files(self, figure: str) -> dict[str, Path]:
-        """Return the paths of the files of a figure by key.
+        """Return the paths of the files of a figure by kind, such as csv.
 
-        The key of a file <figure>.<kind> is the kind: csv, svg, pdf or png. The key of a further table, in the file
-        <figure>.<name>.csv, is the name of the table.
+        A further table <figure>.<name>.csv has the key <name>.
 
         Raises
         ------
@@ -71,10 +65,9 @@ class Results:
         return [claim for claim in self.claims() if named.search(claim["place"])]
 
     def most_accurate(self) -> pd.DataFrame:
-        """Return, for each problem and method, the finished run with the smallest error of the final state.
+        """Return the most accurate finished run for each problem and method.
 
-        The column ratio is the run time per forcing cycle, divided by the run time per forcing cycle of the
-        event-driven engine for the same problem.
+        The column ratio is the run time divided by the run time of the event-driven engine.
         """
         table = self.table("accuracy/work_precision.csv")
         whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]
@@ -83,12 +76,12 @@ class Results:
         return best.assign(ratio=best["seconds_per_cycle"] / best["problem"].map(ours))
 
     def value(self, place: str):
-        """Return the number at a place in the results; places are written as in docs/studies/numbers.yaml.
+        """Return the number at a place in the results, written as in docs/studies/numbers.yaml.
 
         Raises
         ------
         ValueError
-            If the place is a query of a table that does not find exactly one value.
+            If a query of a table does not find exactly one value.
         """
         file, *path = place.removeprefix("percent | ").split(" | ")
         scale = 100 if place.startswith("percent | ") else 1

@@ -67,23 +67,12 @@ SPHINX = {
 def write(folder, root, pages, built: str, departures=()) -> None:
     """Write the site and the PDF into a folder that already contains figures, data and notebooks.
 
-    Parameters
-    ----------
-    folder
-        Folder of the site.
-    root
-        The checkout.
-    pages
-        A `Pages` object.
-    built
-        Text that names the commit from which the pages are built.
-    departures
-        Differences from the parameters of the chapter, each on one line; every page shows the differences.
+    `built` names the commit. Every page shows `departures`, the differences from the chapter's parameters.
 
     Raises
     ------
     RuntimeError
-        If Sphinx reports a warning on a page; warnings on docstrings are ignored.
+        If Sphinx reports a warning, except on docstrings.
     """
     notice = NOTICE + "; ".join(departures) if departures else ""
     write_site(Path(folder), Path(root), pages, built, notice)
@@ -91,7 +80,7 @@ def write(folder, root, pages, built: str, departures=()) -> None:
 
 
 def write_site(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
-    """Write the site: the documents, the pages of report/pages, and an API page for each part of the library."""
+    """Write the documents, the pages of report/pages and the API pages as HTML."""
     settings, warnings = yaml.safe_load((root / "report/report.yaml").read_text(encoding="utf-8")), io.StringIO()
     with TemporaryDirectory() as scratch:
         scratch, static = Path(scratch), Path(scratch) / "static"
@@ -147,7 +136,7 @@ def fill(pages, name: str, source: list[str]) -> None:
 
 
 def explain(app, tree, equations: dict) -> None:
-    """Link the chapter's equation numbers on a page to their explanations, and add the numbers to the search index."""
+    """Link equation numbers on a page to their explanations, and add the numbers to the search index."""
     named, page = set(), app.builder.get_relative_uri(app.env.docname, "numbers")
     for text in list(tree.findall(nodes.Text)):
         if EQUATION.search(text) and not any(isinstance(node, NAMES) for node in _ancestors(text)):
@@ -168,7 +157,7 @@ def _ancestors(node):
 
 
 def write_article(folder: Path, root: Path, pages, built: str, notice: str = "") -> None:
-    """Write the article, docs/studies/findings.md, as PDF, with links to the pages of the site."""
+    """Write docs/studies/findings.md as PDF, with links to the pages of the site."""
     article = ELSEWHERE.sub("", (root / f"docs/studies/{ARTICLE}.md").read_text(encoding="utf-8"))
     text = pages.with_numbers(article + pages.plates(), paper=True)
     metadata = {"date": f"Built from {built}."} | ({"abstract": notice} if notice else {})
@@ -181,10 +170,7 @@ def write_article(folder: Path, root: Path, pages, built: str, notice: str = "")
 
 
 def setup(app) -> dict:
-    """Set up this module as a Sphinx extension.
-
-    The extension renders formulas as MathML, escapes vertical bars in docstrings, and adds the content security policy.
-    """
+    """Set up this module as a Sphinx extension for formulas, docstrings and the content security policy."""
     app.add_html_math_renderer("mathml", (_formula, None), (_formula, None))
     app.connect("autodoc-process-docstring", _with_bars)
     app.connect("html-page-context", _with_policy)
