@@ -23,10 +23,9 @@ WORKFLOW = "Snakefile"
 
 
 def results_behind(targets: list[str]) -> list[Path]:
-    """Return the targets and all results on which they depend, according to the records.
+    """Return the targets, all results on which they depend, and further results of the same jobs.
 
-    If a job made one of these results, all other results of the job are included. Results of other jobs are excluded,
-    since they may be from an older commit.
+    Results of other jobs may be outdated and are excluded.
     """
     known = {path: record for path, record in records().items() if Path(path).is_file()}
     behind, pending = set(), list(targets)
@@ -44,9 +43,9 @@ def _job(record):
 
 
 def differences(one, other, place: str = "") -> Iterator[tuple]:
-    """Yield (key path, value in `one`, value in `other`) for each difference between two nested mappings.
+    """Yield (key path, value in `one`, value in `other`) for each difference between nested mappings.
 
-    A missing value is None. `place` is the key path of the two mappings, "" at the top.
+    A missing value is None.
     """
     if isinstance(one, dict) and isinstance(other, dict):
         for name in one | other:
@@ -56,23 +55,9 @@ def differences(one, other, place: str = "") -> Iterator[tuple]:
 
 
 def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None:
-    """Write the archive of a clean checkout.
+    """Write the .tar.gz archive of a checkout; raise ValueError if the checkout is not clean.
 
-    Parameters
-    ----------
-    root
-        The checkout.
-    results
-        Paths of the results, relative to the working directory.
-    titles
-        Title of each figure by name.
-    path
-        Path of the archive, a .tar.gz file.
-
-    Raises
-    ------
-    ValueError
-        If the checkout is not a git checkout or has uncommitted changes.
+    `titles` contains the title of each figure by name.
     """
     commit = committed(root)
     cited = yaml.safe_load((root / "CITATION.cff").read_text(encoding="utf-8"))
@@ -95,7 +80,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None
 
 
 def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, str]) -> ROCrate:
-    """Return the RO-Crate of a folder, with authors, licence and a description of each file."""
+    """Return the RO-Crate of a folder, which describes the folder and each file."""
     described = ROCrate()
     written_in = {"lang": "snakemake", "lang_version": version("snakemake")}
     workflow = described.add_workflow(None, WORKFLOW, main=True, **written_in, properties={"name": "The pipeline"})

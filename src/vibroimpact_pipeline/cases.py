@@ -9,14 +9,11 @@ COLLECTIONS = ("accuracy.problems", "sweeps")
 
 
 def with_cases(config: dict) -> dict:
-    """Return a copy of a config in which entries without a case name the default case.
+    """Return a copy of a config with the default case filled in.
 
-    The default case is `default_case`, or the first case if the config has no `default_case`. The chapter's figures
-    (fig10_...) get no default case, since they must name their case.
-
-    The config may omit a case of the chapter (`CASES`). Entries of `figures` and of `regimes.epsilon` that name an
-    omitted case are removed. All other entries that name an omitted case get the default case. Malformed entries are
-    left unchanged; validation reports them.
+    The chapter's figures (fig10_...) must name their case. If the config omits a case of the chapter, entries of
+    `figures` and `regimes.epsilon` that name this case are removed. Other entries that name this case get the default
+    case.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")
@@ -45,7 +42,7 @@ def case_overrides(config: dict, case: str) -> dict:
 
 
 def title_of(config: dict, case: str) -> str:
-    """Return the text for a case in titles and captions: its title, or its name and its overrides of `system`."""
+    """Return the title of a case, by default its name and its overrides of `system`."""
     overrides = [
         f"{name} = {value}" for name, value in case_overrides(config, case).items() if name in config["system"]
     ]

@@ -15,10 +15,7 @@ CASE_OF = {
 
 
 def departures(config: dict) -> list[str]:
-    """Return one line for each difference between a config and section 10.4 of the chapter.
-
-    Cases of the config that the chapter does not have are not compared.
-    """
+    """Return one line for each difference between a config and section 10.4 of the chapter."""
     found = _differences("system", config["system"], PARAMETERS)
     for case, forces in CASES.items():
         if case in config["cases"]:

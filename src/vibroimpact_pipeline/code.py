@@ -1,8 +1,7 @@
-"""Compute the fingerprint of the code of a job: its script, the modules that it imports, and their data files.
+"""Compute the fingerprint of the code of a job: its script, the imported modules, and their data files.
 
-The `params` of each rule contain the fingerprint. It covers the parsed code of modules without comments and docstrings.
-Editing a comment of a module therefore reruns at most the report, and editing a formula reruns every job that imports
-the module of the formula, directly or indirectly.
+If the fingerprint in `params` changes, Snakemake reruns the job. Comments and docstrings of modules affect only the
+report.
 """
 
 import ast
@@ -21,14 +20,9 @@ DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
 
 
 def code_files(*roots: str) -> list[Path]:
-    """Return all code and data files on which a job depends, sorted.
+    """Return the files on which a job depends, sorted.
 
-    Parameters
-    ----------
-    roots
-        Names of modules, such as vibroimpact.figures.fig10_06, and paths of files and folders in the checkout. For
-        modules, scripts and notebooks, the result includes all modules that they import, directly or indirectly. For
-        each module, it includes the data files in the same folder, such as styles and templates.
+    `roots` name modules, files or folders. Imported modules are included, and data files next to modules.
     """
     found, pending = set(), [path for root in roots for path in _paths(root)]
     while pending:
@@ -45,8 +39,7 @@ def code_files(*roots: str) -> list[Path]:
 def fingerprint(*roots: str) -> str:
     """Return the fingerprint of the files that `code_files` returns.
 
-    The fingerprint covers the parsed code of Python files, and every byte of other files. If a root is a folder, the
-    fingerprint covers every byte of all files in the folder, Python files included.
+    Comments and docstrings of a Python file have no effect, unless a root is a folder with the file.
     """
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
     for path in code_files(*roots):
@@ -59,7 +52,10 @@ def fingerprint(*roots: str) -> str:
 
 
 def change_times(*roots: str) -> dict[Path, int]:
-    """Return the ctime [ns] of each file of `code_files`; unlike the mtime, the ctime changes if a file is restored."""
+    """Return the ctime [ns] of each file of `code_files`.
+
+    Unlike the mtime, the ctime changes if a file is restored.
+    """
     return {path: path.stat().st_ctime_ns for path in code_files(*roots)}
 
 
@@ -93,10 +89,7 @@ def modules() -> dict[str, Path]:
 
 @cache
 def module_files(name: str) -> list[Path]:
-    """Return the files of a module and its parent packages, and the data files in the folder of the module.
-
-    The list is empty if the module is not part of this project.
-    """
+    """Return the files of a module and its parent packages, and data files next to the module."""
     if name not in modules():
         return []
     parts = name.split(".")
@@ -107,9 +100,9 @@ def module_files(name: str) -> list[Path]:
 
 @cache
 def _parsed(path: Path, time: int) -> tuple[str, set[str]]:
-    """Return the code of a file without comments and docstrings, and the modules of this project that it imports.
+    """Return the code of a file without comments and docstrings, and the project's modules that it imports.
 
-    The file is a module, script or notebook. Imports in functions are included. `time` is the ctime of the file.
+    The cache key contains `time`, the ctime.
     """
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".ipynb":

@@ -23,17 +23,15 @@ class File:
     Parameters
     ----------
     paths
-        Paths of the files; a placeholder such as {case} stands for one word.
-    about
-        Content of the files.
+        Paths, in which {case} or another placeholder stands for one word.
     columns
-        For each column by name: meaning, unit and, optionally, allowed values.
+        Meaning and unit of each column and, optionally, its allowed values.
     specific
-        Names of the columns with a meaning or values that are specific to these files.
+        Columns with a meaning or values that apply only to these files.
     keys
-        For JSON files, the meaning of each key by its path; * stands for every entry.
+        Meaning of each key path of a JSON file; * stands for every entry.
     on_demand
-        Commands for the files that the default build does not make, by path of the file.
+        Command for each path that the default build does not make.
     """
 
     paths: list[str]
@@ -59,9 +57,9 @@ def read() -> tuple[dict, dict]:
 
 
 def files(known: dict, data: dict) -> list[File]:
-    """Return a description of each kind of results file; the tables of figures come first.
+    """Return a description of each kind of results file.
 
-    `known` and `data` are the two values that `read` returns.
+    The arguments are the values that `read` returns.
     """
     shared = each(data["shared"])
     tables = [table for spec in known.values() for table in spec.get("tables", {}).values()]
@@ -79,8 +77,7 @@ def files(known: dict, data: dict) -> list[File]:
 def page(known: dict, data: dict, of_figures: bool | None = None) -> str:
     """Return the data dictionary in Markdown.
 
-    The page describes the tables of figures if `of_figures` is True, all other files if `of_figures` is False, and
-    all files by default.
+    `of_figures` selects tables of figures (True), other files (False) or all files (None).
     """
     parts = []
     if not of_figures:

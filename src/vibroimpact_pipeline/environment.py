@@ -27,9 +27,9 @@ def missing_libraries() -> list[str]:
 
 
 def set_environment(checkout: Path) -> None:
-    """Set environment variables of this process and its jobs: PYTHONPATH, cache folders, one thread per job.
+    """Set environment variables: PYTHONPATH, cache folders, and one thread per job.
 
-    The cache folders are in the checkout, or in the working directory if the checkout is not writable.
+    If the checkout is not writable, the cache folders are in the working directory.
     """
     cache_folder = (checkout if os.access(checkout, os.W_OK) else Path.cwd()) / ".cache"
     for variable, folder in CACHES.items():

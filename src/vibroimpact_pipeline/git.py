@@ -25,16 +25,16 @@ class GitRefused(ValueError):
 
 
 def output(*arguments, root=".") -> bytes:
-    """Return the output of a git command in a repository.
+    """Return the output of a git command in a repository, in English.
 
-    The output is in English. Environment variables that could select another repository are ignored.
+    Environment variables that could select another repository are ignored.
 
     Raises
     ------
     OSError
         If git is not installed.
     GitRefused
-        If the command fails; the message contains the error of git on one line.
+        If the command fails.
     """
     kept = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
     neutral = [word for setting in SETTINGS.items() for word in ("-c", "=".join(setting))]
@@ -46,15 +46,14 @@ def output(*arguments, root=".") -> bytes:
 
 
 def git(*arguments, root=".") -> str | None:
-    """Return the output of a git command in a directory, or None if git tracks no file of the directory.
+    """Return the output of a git command, or None if git tracks no file of the directory.
 
-    The result is None if git is not installed, if there is no repository, or if the directory is an untracked copy
-    inside another repository.
+    The result is also None if git is not installed.
 
     Raises
     ------
     GitRefused
-        If git refuses to read the repository.
+        If git fails inside a repository.
     """
     try:
         tracked = output("ls-files", "-z", ".", root=root)
@@ -68,7 +67,7 @@ def git(*arguments, root=".") -> str | None:
 
 
 def changes(root=".") -> list[str] | None:
-    """Return modified and untracked paths of a checkout, or None if git does not track the checkout (see `git`)."""
+    """Return modified and untracked paths of a checkout, or None if git does not track the checkout."""
     listed = git("status", "--porcelain", "--untracked-files=normal", "--ignore-submodules=none", ".", root=root)
     return None if listed is None else [line[3:] for line in listed.splitlines()]
 
@@ -89,7 +88,7 @@ def committed(root) -> str:
     Raises
     ------
     ValueError
-        If git does not track the checkout, refuses to read it, or finds uncommitted changes.
+        If `root` is not a clean git checkout.
     """
     commit, changed = git("rev-parse", "HEAD", root=root), changes(root)
     if changed is None:

@@ -29,14 +29,9 @@ class Refused(RuntimeError):
 
 @contextmanager
 def running(job) -> Iterator[SimpleNamespace]:
-    """Run the body of a `with` statement as the script of a Snakemake job; yield a temporary path for each output.
+    """Run a `with` body as a Snakemake job; yield an object with a temporary path for each output.
 
-    The yielded object has the path of each output as an attribute, such as `out.json` for the output `json`. Everything
-    that the script prints is written to the log of the job (see `log_of`).
-
-    The job fails with a message of one line and replaces no output if the code differs from `params.code` (see
-    `code.code_of`), if an input differs from its record (see `result_records`), if code or inputs change while the job
-    runs, or if a config value is invalid.
+    If code or inputs have changed, or if the body raises an exception, no output is replaced.
     """
     if sys.platform == "linux":  # make the kernel terminate this process when its parent ends
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
@@ -80,16 +75,9 @@ def log_of(job) -> Path:
 
 
 def with_key(error, decided: dict) -> str | None:
-    """Replace the argument name at the start of an error text by the full config key, such as system.kappa.
+    """Return an error text with the full config key, such as system.kappa, instead of the argument name.
 
-    Return the new text, or None if the argument is in none of the config entries.
-
-    Parameters
-    ----------
-    error
-        Error or text that begins with the name of an argument and a colon.
-    decided
-        Config entries of the job by full key.
+    The result is None if no config entry in `decided` contains the argument.
     """
     name, _, _ = str(error).partition(":")
     argument, _, _ = name.partition(".")
@@ -100,7 +88,10 @@ def with_key(error, decided: dict) -> str | None:
 
 @contextmanager
 def logging_to(path) -> Iterator[None]:
-    """Redirect the output of this process and its children to a log file; print errors as one line on the terminal."""
+    """Redirect the output of this process and its children to a log file.
+
+    Errors are also printed on the terminal.
+    """
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     terminal = os.dup(sys.stderr.fileno())
     with open(path, "w", encoding="utf-8") as log:

@@ -21,16 +21,9 @@ CONFIG = "config"
 
 
 def write(job, out) -> None:
-    """Write the provenance record of a figure; the files of the figure must exist.
+    """Write the provenance record of a figure whose files exist.
 
-    The record describes the config, code, inputs, files, package versions and commit.
-
-    Parameters
-    ----------
-    job
-        The Snakemake job.
-    out
-        Temporary paths of the outputs; the file at `out.provenance` already contains the versions of packages.
+    The file `out.provenance` must already contain the versions of packages.
     """
     folder = Path(job.output.provenance).parent
     outputs = {path: getattr(out, name) for name, path in job.output.items() if name != "provenance"}
@@ -49,7 +42,7 @@ def write(job, out) -> None:
 
 
 def read(path) -> dict:
-    """Return the provenance record of a figure, given the path of one of its files.
+    """Return the provenance record of a figure, given one of its files.
 
     Raises
     ------
@@ -66,14 +59,7 @@ def read(path) -> dict:
 def differences(path, record: dict, config: dict) -> Iterator[str]:
     """Yield one line for each change since the figure was made.
 
-    Parameters
-    ----------
-    path
-        Path of one file of the figure.
-    record
-        Provenance record of the figure.
-    config
-        The current config, validated.
+    `path` is a file of the figure, and `config` is the current config.
     """
     for place, value in record["config"].items():
         if (now := _at(config, place)) != value:
@@ -90,9 +76,9 @@ def differences(path, record: dict, config: dict) -> Iterator[str]:
 
 
 def _at(config, place):
-    """Return the config entry at a key path such as "section.key", or None if there is no such entry.
+    """Return the config entry at a key path such as "section.key"; None if the entry is missing.
 
-    For the path "cases.NAME", return the parameters of System for this case; for "cases", those of all cases by name.
+    For "cases" and "cases.NAME", return parameters of System.
     """
     section, _, name = place.partition(".")
     if place == "cases":

@@ -1,8 +1,7 @@
 """Write results atomically, and for each result a record of its content and origin.
 
-The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`. It contains the SHA-256 of the result, the
-rule with wildcards, and the SHA-256 of every input. Records are not in results/ but in the folder of
-Snakemake's own records, so that results copied from another build have no record.
+The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`. A record contains the rule, and the SHA-256
+of the result and of its inputs in results/. Results copied from another build have no record.
 """
 
 import base64
@@ -110,12 +109,12 @@ def is_result(path) -> bool:
 
 
 def checked_digests(paths: Iterable) -> dict[str, str]:
-    """Check that all results among the inputs of a job match their records; return the SHA-256 of each result by path.
+    """Return the SHA-256 of each result among the inputs of a job, by path.
 
     Raises
     ------
     ModifiedResult
-        If an input has no record or has been modified.
+        If a result has no record or has been modified.
     """
     digests = {path: digest_of(path) for path in map(str, paths) if is_result(path)}
     for path, digest in digests.items():
@@ -126,12 +125,11 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
 
 
 def distrust(outputs: Iterable) -> list[str]:
-    """Mark existing results that have no record, or differ from their record, as incomplete; return their paths.
+    """Mark existing results without a matching record as incomplete; return their paths.
 
-    Without the mark, Snakemake would treat such a result as up to date. A result with the mark is rebuilt when needed.
-    Results that already have the mark are skipped.
+    Snakemake rebuilds marked results when needed.
     """
-    # Read the marks before the records, since Snakemake removes the mark of a result after the job wrote the record.
+    # Read marks before records, since a job writes the record before Snakemake removes the mark.
     present = [path for path in map(str, outputs) if os.path.exists(path)]
     unmarked = [path for path in present if not _of_snakemake("incomplete", path).exists()]
     found = [path for path in unmarked if not _as_recorded(path)]
@@ -150,7 +148,7 @@ def _mark(path: str) -> None:
 def _as_recorded(path: str) -> bool:
     """Return True if a result matches its record; read the result only if modification times or size are unexpected."""
     try:
-        # Expected order: the job writes the record, Snakemake touches the result, and Snakemake writes its own record.
+        # The job writes the record; then Snakemake touches the result and writes its own record.
         times = [Path(one).stat().st_mtime_ns for one in (record_of(path), path, _of_snakemake("metadata", path))]
     except OSError:
         return False
@@ -161,10 +159,9 @@ def _as_recorded(path: str) -> bool:
 
 
 def _of_snakemake(folder: str, path: str) -> Path:
-    """Return the path of Snakemake's own record of a result, in a folder such as "metadata" or "incomplete".
+    """Return the path of Snakemake's own record of a result in a folder such as "metadata".
 
-    The file name is the path of the result in Base64, split to respect the length limit of names. Snakemake has no
-    public function for this path. The path was tested with Snakemake 9.12 and 9.27.
+    The path was tested with Snakemake 9.12 and 9.27.
     """
     name = base64.urlsafe_b64encode(path.encode()).decode()
     *cut, last = (name[start : start + 254] for start in range(0, len(name), 254))

@@ -22,12 +22,7 @@ TABLES = "*.csv", "*.json", "*.md", "regimes/*.csv", "accuracy/*.csv", "sweeps/*
 def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
     """Return the index of the results of a build as offline HTML.
 
-    Parameters
-    ----------
-    results
-        The results directory.
-    groups
-        For each heading, the titles of its figures by name, in the order of display.
+    For each heading, `groups` contains the titles of figures by name.
     """
     listed = {heading: _listed(results, titles) for heading, titles in groups.items()}
     claims = results / "claims.json"
@@ -39,9 +34,9 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
 
 
 def _choices(results) -> list[list[str]]:
-    """Return one row for each pair of problem and allowed error in accuracy/choices.csv.
+    """Return one row for each problem and allowed error in accuracy/choices.csv.
 
-    A row contains the problem, the decimal exponent of the allowed error, and the recommended methods.
+    A row contains the problem, the decimal exponent of the error, and methods.
     """
     path = results / "accuracy/choices.csv"
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines())) if path.is_file() else []
@@ -58,10 +53,7 @@ def _choices(results) -> list[list[str]]:
 
 
 def _listed(results, titles) -> list[dict]:
-    """Return title, links, picture and comment on the exact system for each figure that has files.
-
-    The comment is read from the notebook page of the figure.
-    """
+    """Return title, links, picture and comment on the exact system for each figure that has files."""
     found = []
     for name, title in titles.items():
         drawn = [(kind, f"{place}/{name}{end}") for place in ("figures", "accuracy") for kind, end in KINDS.items()]

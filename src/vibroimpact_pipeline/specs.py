@@ -1,21 +1,19 @@
 """Read the SPEC of every figure from the source code, without importing the code.
 
-A SPEC is a dictionary literal with the entries below. The inputs and settings of a figure are in its rule, in
-workflow/rules/.
+A SPEC is a dictionary literal with these entries:
 
 - title, caption, alt, equations: texts of the figure.
 - own: texts for figures of your own that use the same drawing code.
 - method: how the figure is computed.
-- notebook: name of the notebook that explains the figure, if any.
-- sweeps: for each sweep that the figure draws, the axes and observations that the figure needs.
-- columns: for each column of the plotted table, its meaning, unit and allowed values. The entry `compared`
-  selects the tolerance for the figure check. It is a key in a file tolerances.yaml, or a mapping with a key for each
-  series. The entry `infinite` allows infinite values.
+- notebook: name of the notebook that explains the figure.
+- sweeps: axes and observations that the figure needs from each sweep.
+- columns: meaning, unit and allowed values of each column. The key "C1, C2" describes two columns. The entry `compared`
+  selects a tolerance in tolerances.yaml, for the column or for each series. The entry `infinite` allows infinite
+  values.
 - file: path of the plotted table, if not the default.
-- tables: for each further table that `compute` returns, its file, description and columns.
+- tables: file, description and columns of each further table.
 
-The value of equations, columns or own may be the name of another figure, whose entry is then used. The key "C1, C2" in
-columns describes the two columns C1 and C2.
+The value of equations, columns or own may be the name of another figure, whose entry is then used.
 """
 
 import ast
@@ -34,9 +32,7 @@ PACKAGES = "vibroimpact.figures", "vibroimpact.studies.figures"
 def specs() -> dict[str, dict]:
     """Return the SPEC (description) of every figure by name.
 
-    An entry that is given as the name of another figure is replaced by the entry of the other figure.
-
-    In the `tables` of a SPEC, the key "csv" stands for the plotted table.
+    The key "csv" in `tables` stands for the plotted table.
     """
     found = {}
     for path in sorted(path for package in PACKAGES for path in (SOURCES / package.replace(".", "/")).glob("*.py")):
@@ -62,11 +58,9 @@ def module_of(figure: str) -> str:
 
 
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
-    """Return the SPEC (description) of a figure, with the name of its drawing module as the entry "module".
+    """Return the SPEC (description) of a figure, including its drawing module.
 
-    `scene` is the config entry of the figure, and `known` contains the SPEC of every figure of the library. If `scene`
-    has the entry "like", the result is a copy of the SPEC of the figure that "like" names. In the copy, the texts are
-    those in the entry "own", and file names contain the name `figure`.
+    If the config entry `scene` has the key "like", return the SPEC of that figure with the texts in "own".
     """
     module = scene.get("like", figure)
     if module == figure:
@@ -82,7 +76,7 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
 
 
 def with_model(caption: str, scene: dict) -> str:
-    """Return a caption; if the model of the figure is exact_orbit or second_term, add the name of the model."""
+    """Return a caption, followed by the model of the figure if this is exact_orbit or second_term."""
     other = scene.get("model") in ("exact_orbit", "second_term")
     return f"{caption} Drawn with the model *{scene['model'].replace('_', ' ')}*." if other else caption
 
@@ -101,15 +95,15 @@ def at(config: dict, path: str):
 
 
 def case_parameters(config: dict, case: str) -> dict:
-    """Return the parameters of System for a case: those in the section `system`, overridden by those of the case."""
+    """Return the parameters of System for a case: those of `system`, overridden by the case."""
     return config["system"] | case_overrides(config, case)
 
 
 def columns(table: dict, shared: dict) -> dict[str, dict]:
-    """Return the columns of a table by name; entries that a column lacks, such as the unit, are taken from `shared`."""
+    """Return the columns of a table by name, with missing entries taken from `shared`."""
     return {name: shared.get(name, {}) | entry for name, entry in each(table["columns"]).items()}
 
 
 def each(listed: dict) -> dict:
-    """Return a copy of a mapping with one name per key; an entry "C1, C2" is repeated for each name."""
+    """Return a copy of a mapping in which a key "C1, C2" becomes two keys."""
     return {name: entry or {} for names, entry in listed.items() for name in names.split(", ")}
