@@ -1,6 +1,6 @@
 """Measure the speed of every method on one motion, and the speed of ensembles.
 
-The table is printed, and written as CSV together with the versions of packages.
+The table is printed and written as CSV.
 """
 
 from vibroimpact_pipeline.code import ROOT

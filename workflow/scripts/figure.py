@@ -1,6 +1,6 @@
 """Compute and write the tables of one figure, and draw the figure from the written tables.
 
-If the rule has the outputs `json` and `gif`, the data of the interactive part and an animation are written, too.
+The outputs `json` (interactive data) and `gif` (animation) are optional.
 """
 
 import json

@@ -1,7 +1,4 @@
-"""Compare all figures with the reference set, and exit with status 1 if a figure fails.
-
-The script writes a page with the pictures, the verdicts as JSON, and a summary.
-"""
+"""Compare all figures with the reference set, and exit with status 1 if a figure fails."""
 
 import json
 import os

@@ -1,8 +1,7 @@
-"""Compute fixed points and exact 1:1 responses for one case, with verdicts of all criteria and proofs; write CSV.
+"""Compute fixed points and exact 1:1 responses of one case, with verdicts and proofs; write CSV.
 
 A 1:1 response has one impact at each wall per forcing period. search.json describes the search for asymmetric
-responses. It contains the number of asymmetric responses found, the number of Newton starts, and the smallest number of
-starts that led to one of the responses (mirror images count as one).
+responses.
 """
 
 import json

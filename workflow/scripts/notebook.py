@@ -1,6 +1,6 @@
-"""Write one page for each figure of a notebook: execute the notebook with the parameters and files of the figure.
+"""Execute a notebook and write a page for each figure that the notebook explains.
 
-Each executed notebook is saved in results/logs/notebooks after every cell, so that it shows which cell failed.
+Executed notebooks in results/logs/notebooks show which cell failed.
 """
 
 from pathlib import Path
@@ -50,9 +50,9 @@ def execute(notebook, executed, parameters: dict):
     Raises
     ------
     ValueError
-        If the notebook lacks a parameter (papermill would only warn), or if a cell raises ValueError.
+        If the notebook lacks a parameter, or if a cell raises ValueError.
     papermill.PapermillExecutionError
-        If a cell raises any other exception.
+        If a cell raises another exception.
     """
     if unknown := sorted(parameters.keys() - papermill.inspect_notebook(str(notebook)).keys()):
         raise ValueError(f"notebook: {notebook} should define the parameters {', '.join(unknown)}")
@@ -64,10 +64,9 @@ def execute(notebook, executed, parameters: dict):
 
 
 def parameters_of(config: dict) -> dict:
-    """Return the parameters of a notebook by name; `config` contains the config entries of its figure by key path.
+    """Return the parameters of a notebook by name, from config entries by key path.
 
-    The name of a parameter is the last key of the path. If a config entry is a case or a `plant`, each of its values
-    becomes a separate parameter.
+    Each value of a case or `plant` becomes a separate parameter.
     """
     given = {}
     for path, value in config.items():
@@ -87,7 +86,7 @@ with running(snakemake) as out:
         done = execute(snakemake.input.notebook, executed, given | {"inputs": shown["inputs"]})
         injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
         injected.id = "injected-parameters"  # a random id would change the page in every build
-        # A cell that has a figure as tag belongs only to the page of this figure.
+        # A cell with a figure as tag belongs only to the page of this figure.
         others = snakemake.params.pages.keys() - {figure}
         done.cells = [cell for cell in done.cells if not others.intersection(cell.metadata.get("tags", ()))]
         Path(getattr(out, figure)).write_text(page(done, texts["title"]), encoding="utf-8")

@@ -1,6 +1,6 @@
-"""Integrate one case; write samples.csv, events.csv and summary.json for the window after the transient.
+"""Integrate one case; write samples, events and a summary of the window after the transient.
 
-In addition, strobe.csv contains the state at the start of every forcing cycle, including the transient.
+strobe.csv contains the state at the start of every forcing cycle, including the transient.
 """
 
 import json
@@ -17,9 +17,7 @@ from vibroimpact.system.state import KINDS, NAMES
 def summarise(simulated: Window, settings: dict) -> dict:
     """Return a summary of the window after the transient.
 
-    The summary contains the start and end time, the number of events by kind and module, and the final state. It also
-    contains the largest change of a coordinate over n cycles, for each n from 1 to 4 that does not exceed the number of
-    cycles in the window.
+    The summary contains the largest change of a coordinate over n cycles, for n up to 4.
     """
     events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {

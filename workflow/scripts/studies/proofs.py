@@ -1,8 +1,7 @@
 """Write proofs on the fixed points and orbits of all cases as JSON.
 
-Interval arithmetic proves that three lists are complete: symmetric fixed points, asymmetric fixed points, and
-symmetric orbits. The list of asymmetric orbits is not proved complete. The search for these orbits counts the Newton
-starts that reach each orbit. If every orbit is reached from many starts, it is unlikely that an orbit was missed.
+Interval arithmetic proves the lists of fixed points and of symmetric orbits complete. The list of asymmetric orbits has
+no proof. If many Newton starts reach every orbit, a missed orbit is unlikely.
 """
 
 import dataclasses

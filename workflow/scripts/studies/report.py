@@ -1,4 +1,4 @@
-"""Build the report, an offline website and an article as PDF, from results."""
+"""Build the report from results. The report is an offline website with an article as PDF."""
 
 import json
 import shutil
@@ -42,7 +42,7 @@ def version(root) -> str:
 
 
 def groups(figures: list[str], charts: list[str]) -> dict[str, list[str]]:
-    """Return the figures of the report by group; groups and figures are in the order of display."""
+    """Return the figures of the report by group, in the order of display."""
     chapter = [figure for figure in figures if figure.startswith("fig10_")]
     companions = [figure for figure in figures if figure.startswith("companion_")]
     return {
