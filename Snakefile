@@ -1,4 +1,3 @@
-# `snakemake` in this directory finds the pipeline by this file. The method `include` is used instead of the directive
-# `include:`, which would not take over the default target.
+# Let `snakemake` find the pipeline. The directive `include:` would not take over the default target.
 
 workflow.include("workflow/Snakefile", overwrite_default_target=True)

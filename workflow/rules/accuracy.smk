@@ -1,9 +1,9 @@
-# Accuracy, speed and failures of each method. A job that measures run times uses all cores, so that it runs alone.
-# `accuracy: {effort: full}` in the config selects longer timings, and runs every method on every stress test.
+# Measure accuracy, speed and failures of each method. Timings use all cores, so that they run alone.
 
 ACCURACY = config["accuracy"]
+# Full effort means longer timings, and every method on every stress test.
 FULL = ACCURACY["effort"] == "full"
-# `cores` is None if Snakemake runs no jobs, for example when it makes a summary, a graph or its report.
+# `cores` is None if Snakemake runs no jobs, for example when it makes a summary.
 ALL_CORES = workflow.resource_settings.cores or 1
 
 
@@ -79,7 +79,7 @@ rule method_comparison:
         "../scripts/method_comparison.py"
 
 
-# Charts that the figure check compares with the reference set. The check ignores the run times in the charts.
+# The figure check compares these charts with the reference set, but ignores their run times.
 CHARTS = "work_precision", "stress_tests", "grazing"
 ALL_CHARTS = *CHARTS, "models"
 

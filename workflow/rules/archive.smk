@@ -1,4 +1,4 @@
-# Archive of a build: one citable file with all sources, from which the build can be repeated elsewhere.
+# Archive a build with all sources in one citable file, to repeat the build elsewhere.
 
 import tomllib
 

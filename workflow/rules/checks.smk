@@ -1,8 +1,7 @@
-# Compare figures with the reference set in figures/. Only `make accept` changes the set; it also records the reason.
+# Compare figures with the reference set in figures/. Only `make accept` changes the set.
 
 
-# The figure check has no output file, so that it always runs. It also prints the result on the terminal. With
-# STRICT=1 in the environment, it also fails if a picture differs from a reference that other library versions drew.
+# Without output files, this rule always runs. With STRICT=1, figures that are not comparable fail.
 rule figure_check:
     input:
         [getattr(rules, name).output for name in (*config["figures"], *CHARTS)],

@@ -22,7 +22,7 @@ def checkout_path(path):
     return path if os.path.samefile(ROOT, ".") else str(ROOT / path)
 
 
-# Use the library of the checkout that contains this file.
+# Use the library of this checkout.
 sys.path.insert(0, str(Path(inspect.currentframe().f_code.co_filename).parents[2] / "src"))
 # Quote the path of Python, since it may contain spaces.
 if os.path.exists(sys.executable):
@@ -49,7 +49,7 @@ STUDIES = (ROOT / "workflow/rules/studies").is_dir()
 
 
 CONFIG_FILES = [f"config/{name}.yaml" for name in ("config", "studies")[: 1 + STUDIES]]
-# Each file is read from the working directory or, if it is missing there, from the checkout.
+# Read each file from the working directory or, if missing there, from the checkout.
 FOUND = [path if Path(path).is_file() else checkout_path(path) for path in CONFIG_FILES]
 
 
@@ -68,7 +68,7 @@ def validated_config():
 
 
 validated = validated_config()
-# Declare the config files, so that Snakemake's report lists them. The files have already been validated above.
+# Declare the config files, which are already validated, so that Snakemake's report lists them.
 for file in FOUND:
 
     configfile: file

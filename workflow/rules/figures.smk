@@ -1,5 +1,4 @@
-# Figures of the chapter. Each has a rule of the same name: `snakemake --cores 2 fig10_06` makes one figure and its inputs.
-# A module for each figure, such as src/vibroimpact/figures/fig10_06.py, computes the plotted tables and draws them.
+# Each figure of the chapter has a rule and a module (in src/vibroimpact/figures) of its name.
 
 # Config entry of each figure by name; the rules of the studies add further figures.
 SCENES = dict(config["figures"])
@@ -9,7 +8,7 @@ MOTION = {
     "samples": "results/simulations/{case}/{model}/samples.csv",
     "events": "results/simulations/{case}/{model}/events.csv",
 }
-# READ lists, for each notebook, the results that the notebook reads in addition to the files of its figure.
+# READ contains results that a notebook reads in addition to the files of its figure.
 ORBITS = {"orbits": "results/orbits/{case}.csv"}
 READ = {
     "fixed_points": POINTS | ORBITS,
@@ -138,7 +137,7 @@ if STUDIES:
 config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
 config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}
 
-# Pages of figures. The job of a notebook executes the notebook once for each figure that the notebook explains.
+# One job executes a notebook once for each figure that the notebook explains.
 for path in sorted((ROOT / "notebooks").rglob("*.ipynb")):
     notebook = path.relative_to(ROOT).as_posix()
     shown = [figure for figure in SCENES if spec(figure).get("notebook") == path.stem]

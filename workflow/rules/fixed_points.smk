@@ -1,4 +1,4 @@
-# For each case, fixed points of the slow flow (10.23) and exact 1:1 responses, with the verdicts of all criteria.
+# Compute fixed points of the slow flow (10.23) and exact 1:1 responses of each case.
 
 
 rule fixed_points:

@@ -1,5 +1,4 @@
-# Index page of the results. It shows the figures with comments on the exact system, and links to all results, including
-# those of the studies.
+# The index page shows the figures and links to all results, including those of the studies.
 
 
 rule index:

@@ -1,4 +1,4 @@
-# Direct integration of (10.1), with one directory for each case and model (float64 or reference) that a figure shows.
+# Integrate (10.1) for each case and model (float64 or reference) that a figure shows.
 
 
 rule simulation:

@@ -1,6 +1,4 @@
-# Judge the claims of the chapter from the results of earlier stages. The claims are about the parameters of the chapter,
-# and the checks are written for the settings of this repository. With other values, no claim is judged, and the reason is
-# stated.
+# Judge the claims of the chapter. With other parameters or settings, claims are not judged.
 
 from vibroimpact_pipeline.studies.claims_config import reason_not_judged
 

@@ -4,14 +4,12 @@
 include: "common.smk"
 
 
-# For each figure, the arguments of its function `compute`:
-# - case: path of the config entry with the name of a case. The system of this case is an argument.
-# - systems: True if the systems of all cases are an argument.
-# - settings: paths of config entries. Each entry is an argument, whose name is the last key of the path. A * at the end
-#   of a path stands for all settings of a section except `case`.
-# - inputs: dictionary of table paths. Each table is an argument, whose name is the key of its path.
-# `outputs` replaces the usual outputs. A figure is omitted if the config lacks one of the entries above or an entry in
-# `needs`.
+# The function `compute` of each figure has these arguments:
+# - case: the system of a case. The config entry at this path names the case.
+# - systems: the systems of all cases, if True.
+# - settings: the config entries at these paths. * stands for all keys except `case`.
+# - inputs: the tables at these paths.
+# A figure is omitted if the config lacks one of these entries or an entry in `needs`.
 COMPANIONS = {
     "companion_10_08": {
         "case": "figures.fig10_08.case",

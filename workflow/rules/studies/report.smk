@@ -1,4 +1,4 @@
-# Build the report, an offline website and a PDF, from the results of all stages.
+# Build the report from the results of all stages. The report is an offline website with a PDF.
 
 
 rule report:

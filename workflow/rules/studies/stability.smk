@@ -1,5 +1,4 @@
-# Proofs on the fixed points and orbits of each case, stability verdicts at several epsilon for these points and
-# for a grid of forcing amplitudes, and measures of modulation.
+# Prove lists of fixed points and orbits complete, judge stability, and measure modulation.
 
 
 rule proofs:
@@ -14,7 +13,7 @@ rule proofs:
         "../../scripts/studies/proofs.py"
 
 
-# Verdicts of the theory and of exact orbits at several epsilon, on a grid of forcing amplitudes.
+# Judge stability on a grid of forcing amplitudes, by the theory and by exact orbits.
 rule verdict_grid:
     output:
         **in_report({"csv": "results/verdict_grid.csv"}, "Tables"),

@@ -1,5 +1,4 @@
-# Studies beyond the chapter: `snakemake --cores 2 studies`. To remove the studies, delete all folders and files named
-# `studies`.
+# The studies go beyond the chapter. To remove the studies, delete all folders and files named `studies`.
 
 
 include: "stability.smk"

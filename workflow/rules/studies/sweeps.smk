@@ -1,12 +1,11 @@
-# Parameter sweeps over a grid: snakemake sweep_NAME. A sweep is split into tiles, one job each. The number of tiles
-# follows from the predicted cost (vibroimpact.studies.sweeps.cost) unless `--set-scatter NAME=8` sets this number. The
-# table does not depend on the number of tiles.
+# A sweep is split into tiles, one job each. The table does not depend on the number of tiles.
 
 from vibroimpact.studies.sweeps.cost import points, tiles
 
 SWEEPS = config.get("sweeps", {})
 
 
+# `--set-scatter NAME=8` overrides the number of tiles that follows from the predicted cost.
 scattergather:
     **{name: tiles(sweep_request(sweep), config["tile_seconds"]) for name, sweep in SWEEPS.items()},
 
