@@ -1,4 +1,5 @@
 # Each figure of the chapter has a rule and a module (in src/vibroimpact/figures) of its name.
+# `snakemake --cores 2 fig10_06` makes one figure and its inputs.
 
 # Config entry of each figure by name; the rules of the studies add further figures.
 SCENES = dict(config["figures"])

@@ -7,7 +7,8 @@ include: "common.smk"
 # The function `compute` of each figure has these arguments:
 # - case: the system of a case. The config entry at this path names the case.
 # - systems: the systems of all cases, if True.
-# - settings: the config entries at these paths. * stands for all keys except `case`.
+# - settings: the config entries at these paths. An argument has the name of the last key. * stands for all keys except
+#   `case`.
 # - inputs: the tables at these paths.
 # A figure is omitted if the config lacks one of these entries or an entry in `needs`.
 COMPANIONS = {
