@@ -7,6 +7,7 @@ from vibroimpact.studies.theory.relaxation import relax
 
 FORCES = {"f10_hat", "f20_hat"}
 COLUMNS = ["path", "source", "first", "last", "uncertainty", "agreement"]
+"""Column uncertainty is the spacing of the values, and agreement is the share of values at which both sources agree."""
 SLOW_FLOW, SIMULATION = "slow flow", "simulation"
 _WINDOW_AND_TRANSIENT = 300, 300
 """Forcing cycles of the window and of the transient before the window. During the transient, a ball may leave resonance
@@ -14,16 +15,9 @@ for good."""
 
 
 def predicted(path, values) -> np.ndarray:
-    """Return True for each value, shape (n,), at which the slow flow predicts relaxation oscillations.
+    """Return a mask (n,) of the values at which the slow flow predicts a modulated response.
 
-    In a relaxation oscillation, a ball enters and leaves resonance again and again, see `theory.relaxation`.
-
-    Parameters
-    ----------
-    path
-        Function from a value to the system; only forces vary.
-    values
-        Values of the parameter of the path, shape (n,).
+    Only forces vary along `path`.
     """
     forces = [(system.f10_hat, system.f20_hat) for system in map(path, values)]
     share = relax(path.system, *_WINDOW_AND_TRANSIENT, forces=forces).share
@@ -31,16 +25,16 @@ def predicted(path, values) -> np.ndarray:
 
 
 def observed(values, p, names) -> np.ndarray:
-    """Return True for each of `values`, (n,), at which a run ends in a modulated or chaotic response.
+    """Return a mask (n,) of the values at which a run ends modulated or chaotic.
 
-    p: value of the parameter in each run. names: regime at the end of each run.
+    The regime of the run at p[k] is names[k].
     """
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
 
 
 def longest_range(values, flags) -> tuple[float, float]:
-    """Return the first and last value of the longest unbroken range of `values` with True in `flags`, or (nan, nan)."""
+    """Return the ends of the longest range of `values` in which all `flags` are True, or (nan, nan)."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
     if not len(edges):
         return np.nan, np.nan
@@ -49,19 +43,9 @@ def longest_range(values, flags) -> tuple[float, float]:
 
 
 def onsets(path, values, p, names) -> list[tuple]:
-    """Return the longest range of `values` with modulated responses, by the slow flow and by simulation.
+    """Return two rows with the modulated range of `values`, one by the slow flow and one by simulation.
 
-    Parameters
-    ----------
-    path, values
-        As for `predicted`; the values are evenly spaced.
-    p, names
-        As for `observed`.
-
-    Returns one row for SLOW_FLOW and one for SIMULATION, with the columns COLUMNS: names of the parameters of the path;
-    source; first and last value of the longest range with modulated responses; spacing of the values; share of the
-    values at which slow flow and simulation agree. The list is empty if parameters other than forces vary along the
-    path.
+    The list is empty if any parameter other than the forces varies.
     """
     if not set(path.names) <= FORCES:
         return []

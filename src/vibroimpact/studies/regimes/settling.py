@@ -1,7 +1,6 @@
 """Find the regime that each initial state ends in.
 
-A motion is followed in a given number of runs of equal length (rounds), or until it repeats. A motion that does not
-repeat is classified, and a longer run tests the classification.
+A motion runs in rounds until it repeats. If it does not repeat, it is classified, and a longer run tests the result.
 """
 
 from dataclasses import dataclass, replace
@@ -29,25 +28,25 @@ MOST_WITNESSES = 5
 
 @dataclass(frozen=True)
 class Observation:
-    """Settings of the search for the regime of a motion: lengths of runs and a tolerance.
+    """Settings that control the search for the regime of a motion.
 
     Parameters
     ----------
     cycles, rounds : int
-        Each initial state runs for up to `rounds` times `cycles` forcing periods, until the motion repeats.
+        Forcing periods per round, and largest number of rounds.
     window : int
-        Number of forcing periods that are searched for a repetition of the motion, see `classify_after`.
+        Forcing periods that are searched for a repetition of the motion.
     nearness : float
-        Largest difference between the displacements of a motion and of its repetition, see `classify_after`.
+        Largest difference of displacements that counts as a repetition, dimensionless.
     blocks, block : int
-        Number of blocks and forcing periods per block for the Lyapunov exponent of a motion that does not repeat.
+        Number of blocks for the Lyapunov exponent, and forcing periods per block.
     retest : int
-        Forcing periods of a longer run that tests the classification of a motion that does not repeat.
+        Forcing periods of the run that tests the regime of a motion without repetition.
 
     Raises
     ------
     ValueError
-        If a setting is not a number, or too small.
+        If a setting is not a number, or out of range.
 
     Examples
     --------
@@ -69,33 +68,11 @@ class Observation:
 
 
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
-    """Return the regime in which the motion from each initial state ends, in the order of `states`.
-
-    Motions that cannot be classified after the last round (see `Observation`) are continued for `retest` more cycles
-    and classified again.
-
-    The regimes of motions that do not repeat are then tested one after another. To test a regime, one of its motions,
-    the witness, runs for `retest` more cycles. If any initial state ends in a periodic motion, up to MOST_WITNESSES
-    motions are witnesses, since the motions of the regime may be chaotic transients towards the periodic motion.
-
-    All kinds of chaos count as one regime in this test. If all witnesses stay in the regime, the other motions of the
-    regime get the same name as the last witness, which may have changed to another kind of chaos. If any witness leaves
-    the regime, the other motions also run for `retest` more cycles. All motions that do not leave the regime are then
-    named unsettled.
-
-    Parameters
-    ----------
-    states
-        Initial states (n, 8) at tau = 0; an inactive module is put at rest.
-    observation : Observation
-        Lengths of the runs.
-    progress : bool, default False
-        Show on standard error, if it is a terminal, how many initial states are done.
-    """
+    """Return the final regime of the motion from each of `states`, (n, 8); an inactive module is put at rest."""
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        # Chaotic motions are selected by their regimes before all tests, so that no chaotic motion is tested twice.
+        # The kind of chaos before all tests counts, so that no chaotic motion is tested twice.
         now = first if name in CHAOS else regimes
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
@@ -104,18 +81,14 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
 
 
 def _rounds(system, states, observation, progress):
-    """Return, for each initial state, the regime of the motion after its last round.
-
-    Motions that do not repeat are classified after the last round. If the classification of a motion fails, the motion
-    runs for `retest` more cycles and is classified again.
-    """
+    """Return the regime of the motion from each state, when the motion repeats or after the last round."""
     found: list[Regime | None] = [None] * len(states)
     waiting, now = np.arange(len(states)), states
     for number in range(1, observation.rounds):
         now = finals(system, now, observation.cycles)
         for place, state in track([*zip(waiting, now, strict=True)], f"initial states, round {number}:", progress):
             found[place] = classify_after(system, state, observation.window, observation.nearness)
-        # a motion may still end in another regime if it is unsettled, or if it does not repeat and a ball is idle
+        # these motions may still end in another regime
         regimes = [found[place] for place in waiting]
         open_ones = [one.name == UNSETTLED or (one.name == IDLE and one.repeats is None) for one in regimes]
         waiting, now = waiting[open_ones], now[open_ones]
@@ -140,16 +113,19 @@ def _continued(regime, observation):
 
 
 def _test_classification(regimes, members, observation, progress):
-    """Test the regime of the motions with indices `members` by longer runs; update `regimes` in place, see `settle`."""
+    """Test the regime of the motions with indices `members` by longer runs; update `regimes` in place."""
     before = regimes[members[-1]].name
+    # If some motions are periodic, others may be chaotic transients. Several witnesses are then needed.
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
     _continue(regimes, witnesses, observation, progress)
+    # If all witnesses stay in the regime, the other motions get the name of the last witness.
     if all(_same_kind(before, regimes[k].name) for k in witnesses):
         for k in set(members) - set(witnesses):
             regimes[k] = replace(regimes[k], name=regimes[members[-1]].name)
         return
     _continue(regimes, set(members) - set(witnesses), observation, progress)
+    # A witness has left the regime, so that motions that stay are unsettled.
     for k in members:
         if _same_kind(before, regimes[k].name):
             regimes[k] = replace(regimes[k], name=UNSETTLED)

@@ -12,11 +12,7 @@ DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 
 
 class MotionSpectrum(NamedTuple):
-    """Spectrum of a motion without the cycles in which both balls stick at the same time.
-
-    errors, dimension_error: standard errors of the exponents and of the dimension, by bootstrap. double_sticks: number
-    of the cycles that are left out.
-    """
+    """Spectrum of a motion without its double sticks (cycles in which both balls stick), with bootstrap errors."""
 
     spectrum: Spectrum
     errors: np.ndarray
@@ -25,10 +21,7 @@ class MotionSpectrum(NamedTuple):
 
 
 def spectra_of(system, states, cycles: int, block: int) -> list[MotionSpectrum]:
-    """Return the spectrum of each motion over `cycles` cycles after a transient of ten blocks.
-
-    `block` is the number of cycles per block of the bootstrap; it is reduced to half of `cycles` if it is larger.
-    """
+    """Return the spectrum of each motion over `cycles` cycles, after a transient of ten bootstrap blocks."""
     found, block = [], max(1, min(block, cycles // 2))
     for state in states:
         one = lyapunov_spectrum(system, state, cycles, 0, 10 * block)
@@ -39,15 +32,7 @@ def spectra_of(system, states, cycles: int, block: int) -> list[MotionSpectrum]:
 
 
 def rows(key: dict, found) -> list[dict]:
-    """Return the rows of the table for motions of one regime, one row per quantity.
-
-    A row contains the mean of the quantity over the motions, the standard error of this mean, and the mean of the
-    bootstrap errors of the motions. For each motion, the sum of the exponents and the contraction are means over the
-    cycles in which no ball sticks. The rate of double sticks is the number of double sticks in all motions, divided by
-    the number of cycles of all motions.
-
-    key: columns that all rows share. found: the MotionSpectrum of each motion.
-    """
+    """Return the rows of the table for motions of one regime, one per quantity; all rows contain `key`."""
     size = found[0].spectrum.growth.shape[1]
     columns = {f"exponent {k + 1}": [(one.spectrum.exponents[k], one.errors[k]) for one in found] for k in range(size)}
     columns[DIMENSION] = [(one.spectrum.dimension, one.dimension_error) for one in found]
@@ -59,10 +44,7 @@ def rows(key: dict, found) -> list[dict]:
 
 
 def _rate(count, others):
-    """Return the rate per OF_CYCLES cycles of an event; `count` cycles have the event, and `others` cycles do not.
-
-    The standard error of the rate assumes Poisson statistics. For count = 0, the standard error is that for count = 1.
-    """
+    """Return the rate per OF_CYCLES cycles, with Poisson error, of an event in `count` cycles but not in `others`."""
     scale = OF_CYCLES / (count + others)
     return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}
 
