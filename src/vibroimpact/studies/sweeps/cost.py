@@ -23,10 +23,7 @@ def points(axes: list[Mapping]) -> int:
 def core_seconds(request: Mapping) -> float:
     """Predict the core seconds of a sweep, within a factor of about two.
 
-    Parameters
-    ----------
-    request : Mapping
-        "axes" and "spec" as for `vibroimpact.studies.sweeps.spec.parsed`.
+    `request` contains "axes" and "spec", as for `vibroimpact.studies.sweeps.spec.parsed`.
     """
     spec, observation = request["spec"], request["spec"].get("observation")
     starts, cycles = spec.get("starts", 0), spec.get("cycles", 0)
@@ -40,10 +37,7 @@ def core_seconds(request: Mapping) -> float:
 
 
 def tiles(request: Mapping, seconds: float) -> int:
-    """Return the number of tiles into which to divide a sweep so that each takes about `seconds` core seconds.
-
-    The number is at most one per point, and at most MOST_TILES.
-    """
+    """Return the number of tiles, at most one per point, so that each takes about `seconds` core seconds."""
     return max(1, min(math.ceil(core_seconds(request) / seconds), points(request["axes"]), MOST_TILES))
 
 

@@ -16,11 +16,7 @@ SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
 
 @dataclass(frozen=True)
 class Axis:
-    """Axis of a sweep, along which one or more parameters of System vary together.
-
-    along: names of the parameters. values: for each point, one number that all these parameters get, or a tuple with
-    one number per parameter.
-    """
+    """Axis of a sweep: at each point, one number for all parameters in `along`, or a tuple with a number for each."""
 
     along: tuple[str, ...]
     values: tuple[float | tuple[float, ...], ...]
@@ -37,23 +33,23 @@ def axis(
 ) -> Axis:
     """Return the axis of one parameter, or of several that vary together.
 
-    Give the points by `range` and `values`, by `range` and `cells`, by `listed`, or by `tuples`.
+    Give `range` with `values` or `cells`, or give `listed`, or `tuples`.
 
     Parameters
     ----------
-    along : sequence of str
-        Names of the parameters of System.
-    range : (float, float), optional
+    along
+        Names of parameters of System.
+    range
         Lower and upper end.
-    values : int, optional
-        Number of points from the lower to the upper end, both included.
-    scale : str, default LINEAR
-        Spacing of the `values` points, a key of SPACED.
-    listed : sequence of float, optional
-        One number per point; all parameters get this number.
-    cells : int, optional
-        Number of equal cells of the range; the points are the midpoints of the cells.
-    tuples : sequence of sequences of float, optional
+    values
+        Number of points in `range`, both ends included.
+    scale
+        Spacing of these points, a key of SPACED.
+    listed
+        One number per point, for all parameters.
+    cells
+        Number of equal cells of `range`; the points are their midpoints.
+    tuples
         For each point, one number per parameter.
     """
     if tuples is not None:
@@ -64,15 +60,7 @@ def axis(
 
 
 class Grid:
-    """The points of a sweep, numbered from 0; the last axis varies fastest.
-
-    Parameters
-    ----------
-    system
-        System that gives the values of the parameters that no axis varies.
-    axes : sequence of Axis
-        One or two axes.
-    """
+    """Points of a sweep: `system` with one or two axes of varied parameters; the last axis varies fastest."""
 
     def __init__(self, system: System, axes: Sequence[Axis]):
         self.base, self.axes = system, tuple(axes)
@@ -94,7 +82,7 @@ class Grid:
         Raises
         ------
         ValueError
-            If the point does not give a valid system; the message names the point.
+            If the system is not valid; the message names the point.
         """
         place = self.place(number)
         try:
@@ -104,8 +92,5 @@ class Grid:
             raise ValueError(f"at {where}: {error}") from None
 
     def tile(self, number: int, tiles: int) -> range:
-        """Return the numbers of the points of a tile; tiles are counted from 1.
-
-        A tile has every `tiles`-th point, so that all tiles take about the same time.
-        """
+        """Return every `tiles`-th point from point `number` - 1, so that all tiles take about the same time."""
         return range(number - 1, len(self), tiles)

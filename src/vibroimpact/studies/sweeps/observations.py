@@ -1,7 +1,4 @@
-"""Compute the observations of a sweep at one point of its grid.
-
-OBSERVATIONS lists the columns of each observation, and the function that returns their values.
-"""
+"""Compute the observations of a sweep at one point of its grid."""
 
 import numpy as np
 
@@ -22,10 +19,7 @@ FROM_REST = "from_rest"
 
 
 def observed(system, spec: Spec) -> dict:
-    """Return the values of all observations at one point by column, as Python numbers.
-
-    An inactive module is put at rest.
-    """
+    """Return the values of all observations at one point by column; an inactive module is put at rest."""
     simulates = not {"peaks", "regimes", *RUNS}.isdisjoint(spec.observe)
     states = inactive_at_rest(system, spread_starts(spec.starts, spec.seed)) if simulates else None
     row = {}
@@ -35,16 +29,13 @@ def observed(system, spec: Spec) -> dict:
 
 
 def _regimes(system, states, spec):
-    """Return the share of initial states that end in each regime, and the regime in which the start at rest ends."""
+    """Return the share of starts that end in each regime, and the regime of the start at rest."""
     names = [regime.name for regime in settle(system, states, Observation(**spec.observation))]
     return *(names.count(name) / len(names) for name in REGIMES), names[0]
 
 
 def _amplitudes(system, states, spec):
-    """Return the largest |X_i|, the root mean square of X_i, the mean ball speeds, and the number of unfinished runs.
-
-    Each of the first three quantities has one value per module, computed from all finished runs.
-    """
+    """Return the largest |X_i|, rms X_i and mean ball speeds of finished runs, and the number of other runs."""
     runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
     if not len(done):
@@ -54,11 +45,7 @@ def _amplitudes(system, states, spec):
 
 
 def _peaks(system, states, spec):
-    """Return the highest peak (see `absorbers.peaks`) for the parameter values in `spec.band`, and three more values.
-
-    The three values are the largest root mean square of X_1 or X_2, the value of the first parameter in `spec.band` at
-    the highest peak, and the number of unfinished runs.
-    """
+    """Return the highest peak in a band, the largest rms, the parameter at the peak, and a count of unfinished runs."""
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
     runs = by_cycle(systems, states, spec.cycles, spec.settle)
@@ -70,9 +57,9 @@ def _peaks(system, states, spec):
 
 
 def _energy(system, states, spec):
-    """Return (energy dissipated by impacts) / (work of the forces), and the number of finished runs without impacts.
+    """Return the share of the work of the forces that impacts dissipate, and the number of runs without impacts.
 
-    Energy and work are summed over all finished runs with impacts.
+    Only finished runs count, and the share is that of runs with impacts.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]
@@ -83,7 +70,7 @@ def _energy(system, states, spec):
 
 
 def fixed_point_counts(system) -> tuple[int, int]:
-    """Return the number of fixed points of the slow flow, and the number of those that the theory calls stable."""
+    """Return the number of fixed points of the slow flow, and how many of them the theory calls stable."""
     points = fixed_points(system)
     return len(points), sum(FixedPoints.stable(system, point) for point in points)
 

@@ -14,10 +14,7 @@ def columns(grid: Grid, spec: Spec) -> list[str]:
 
 
 def rows(grid: Grid, spec: Spec, numbers: Iterable[int]) -> Iterator[dict]:
-    """Yield one row for each point in `numbers`.
-
-    If an observation fails at a point, all observations of this point stay blank, and the column FAILED contains the
-    error message. Other points are not affected.
+    """Yield one row for each point in `numbers`; if an observation fails, the column FAILED has the error.
 
     Raises
     ------

@@ -15,30 +15,19 @@ POINT, FAILED = "point", "failed"
 
 @dataclass(frozen=True)
 class Spec:
-    """Observations at every point of a sweep, and their settings.
-
-    observe: names of the observations. starts, seed: number of initial states, and the seed from which they are drawn,
-    see `regimes.classification.starts`. cycles: forcing periods of a run. settle: forcing periods at the start of a run
-    that are not observed. band: arguments of `grid.axis`, which give the parameter values at which the observation
-    "peaks" looks for the highest peak. observation: arguments of `regimes.settling.Observation`.
-    """
+    """Names of the observations at every point of a sweep, and their settings."""
 
     observe: tuple[str, ...]
-    starts: int = 1
+    starts: int = 1  # number of initial states, drawn with `seed`
     seed: int = 0
-    cycles: int = 0
-    settle: int = 0
-    band: dict | None = None
-    observation: dict | None = None
+    cycles: int = 0  # forcing periods of a run
+    settle: int = 0  # forcing periods before the observation begins
+    band: dict | None = None  # arguments of `grid.axis` for the observation "peaks"
+    observation: dict | None = None  # arguments of `Observation` for the observation "regimes"
 
 
 def parsed(request: Mapping) -> tuple[Grid, Spec]:
-    """Return the grid of a request, and the Spec of its observations.
-
-    Parameters
-    ----------
-    request : Mapping
-        "system": parameters of System; "axes": a list of arguments of `grid.axis`; "spec": arguments of `Spec`.
+    """Return the grid and the Spec of a request with the keys "system", "axes" and "spec".
 
     Raises
     ------
