@@ -1,16 +1,15 @@
 """Find all fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
 
-The manifold of a module has three parts (charts, see `branch`). On each chart, a parameter x_i with |x_i| <= 1
-describes module i; the unknowns are x_1 and x_2. The complex amplitude of module i is z_i u_i / beta_i, where z_i and
-beta_i are polynomials in x_i, and |u_i| = 1. The balance of the slow flow is linear in u_i / beta_i, with coefficients
-that depend on x_1 and x_2 alone (docs/derivation.md, section 11). Cramer's rule gives u_i / beta_i = m_i / Delta. The
-names of m_1 and m_2 in the code are n1 and n2. Since |u_i| = 1, the conditions for a fixed point are |Delta|^2 =
-|beta_1 m_1|^2 = |beta_2 m_2|^2. For a given system, `completeness.points` can prove that no fixed point is missed.
+The manifold of a module has three parts, called charts (see `branch`). On a chart, a parameter x_i in [-1, 1] describes
+module i. The complex amplitude of the module is z_i u_i / beta_i with |u_i| = 1, where z_i and beta_i are polynomials
+in x_i. The balance of the slow flow is linear in u_i / beta_i, with coefficients that depend on x_1 and x_2 alone
+(docs/derivation.md, section 11). Cramer's rule gives u_i / beta_i = m_i / Delta; in the code, m_i is n1 or n2. Since
+|u_i| = 1, a fixed point satisfies |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2. `completeness.points` can prove for a
+system that no fixed point is missed.
 
-On the asymmetric chart, x_i = v^2, where v is the difference between the times of the two flights of a cycle, divided
-by the period. Fixed points with v^2 < 0 are not motions at leading order. They are kept, since they continue the
-asymmetric branch beyond its start at v = 0. If terms of order epsilon raise v^2 above 0, a motion exists close to such
-a point.
+On the asymmetric chart, x_i = v^2, where v is the difference of the two flight times of a cycle, divided by the period.
+A fixed point with v^2 < 0 is not a motion at leading order. It is kept, since terms of order epsilon may raise v^2
+above 0. A motion then exists close to the point.
 """
 
 import itertools
@@ -41,50 +40,28 @@ _ROUNDING = 1e-10  # rounding error of an eigenvalue, relative to the largest ei
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AsymmetricPoint(Representation):
-    """A fixed point of the slow flow with unequal flights in one or both modules.
+    """A fixed point of the slow flow with unequal flights in one or both modules, and its mirror images.
 
-    The point also represents its mirror images, in which the long and the short flight of a module are exchanged. For a
-    single machine, the entries of the inactive module in `squared`, `C`, `B`, `psi` and `middle` are NaN.
-
-    Attributes
-    ----------
-    charts : tuple of str
-        Name of the chart (part of the manifold, see `branch`) of each module.
-    x : ndarray
-        Parameter of each module in its chart, shape (2,).
-    asymmetric : ndarray
-        True for a module on the asymmetric branch, shape (2,).
-    squared : ndarray
-        v^2 of each module, shape (2,), where v is the difference between the times of the two flights of a cycle,
-        divided by the period; 0 for a module on the symmetric branch.
-    C, B, psi, slow_eigenvalues : ndarray
-        As for a FixedPoint.
-    middle : ndarray
-        Phase of U_i half-way from the impact with W_i = +1 to the next impact [rad], shape (2,).
+    `squared`, `C`, `B`, `psi` and `middle` are NaN for an inactive module. `C`, `B`, `psi` and `slow_eigenvalues` are
+    as in FixedPoint.
     """
 
-    charts: tuple[str, str]
-    x: np.ndarray
-    asymmetric: np.ndarray
-    squared: np.ndarray
+    charts: tuple[str, str]  # part of the manifold for each module, see `branch`
+    x: np.ndarray  # parameter of each module in its chart
+    asymmetric: np.ndarray  # True for a module on the asymmetric branch
+    squared: np.ndarray  # v^2, where v is the difference of the two flight times divided by the period
     C: np.ndarray
     B: np.ndarray
     psi: np.ndarray
-    middle: np.ndarray
+    middle: np.ndarray  # phase of U_i [rad] half-way from the impact with W_i = +1 to the next impact
     slow_eigenvalues: np.ndarray
 
     def fast(self, kappa) -> np.ndarray:
-        """Return the multipliers of the impact maps of both modules over a cycle, at constant B and phi, shape (4,).
-
-        For a single machine the shape is (2,).
-        """
+        """Return the multipliers of the impact maps over a cycle at constant B and phi, two per active module."""
         return np.concatenate([one[1] for one in self._modules(kappa)])
 
     def fast_verdict(self, kappa) -> str:
-        """Return "stable", "unstable" or "undecided" by the impact maps of both modules.
-
-        A point with v^2 below 0 is unstable.
-        """
+        """Return "stable", "unstable" or "undecided" by the impact maps; v^2 < 0 in a module gives "unstable"."""
         return all_stable(one[0] for one in self._modules(kappa))
 
     def _modules(self, kappa):
@@ -120,10 +97,7 @@ class AsymmetricPoint(Representation):
 
 
 class Balance:
-    """The two conditions for the parameters (x_1, x_2) of a fixed point, given the chart of each module (see `branch`).
-
-    For an inactive module i, condition i is x_i = 0.
-    """
+    """Conditions on (x_1, x_2) at a fixed point, for one chart per module; x_i = 0 for an inactive module i."""
 
     def __init__(self, system: System, pair: tuple[str, str]):
         one, two = (charts(system.kappa)[name] for name in pair)
@@ -155,31 +129,22 @@ class Balance:
 
 
 def _product(one, other):
-    """Return the product of two functions of (x_1, x_2).
-
-    `one`, `other` and the product are arrays (3, n). Their rows are the values of the function at n places, the
-    derivatives with respect to x_1, and the derivatives with respect to x_2.
-    """
+    """Return the product of two functions of (x_1, x_2); arrays (3, n) contain values and both derivatives."""
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
 
 
 def _size(function):
-    """Return the squared modulus of a function of (x_1, x_2), as an array (3, n) like `function`.
-
-    The rows are the values at n places and the derivatives with respect to x_1 and to x_2.
-    """
+    """Return the squared modulus of a function of (x_1, x_2); arrays (3, n) contain values and both derivatives."""
     return (function[0].conj() * function).real * np.array([[1], [2], [2]])
 
 
 def fixed_points(system: System) -> list[AsymmetricPoint]:
-    """Return all fixed points with an asymmetric module and C_1, C_2 >= 0, ascending in C_1.
-
-    Points with v^2 in [-1, 0) are included.
+    """Return all fixed points with an asymmetric module and C_1, C_2 >= 0, ascending in C_1, also with v^2 < 0.
 
     Raises
     ------
     ValueError
-        If system is not a System, or if its fixed points need not be isolated (see `symmetric_points.search`).
+        If the fixed points need not be isolated.
     """
     return [point for point in search(system) if not (point.C < 0).any()]
 
@@ -198,10 +163,7 @@ def search(system: System) -> list[AsymmetricPoint]:
 
 
 def pairs_of(system, pairs) -> list[tuple[str, str]]:
-    """Return the entries of `pairs`, with one chart per module, for which a system can have fixed points.
-
-    `branch` explains the charts. An inactive module only has the chart of small C, with x_i = 0.
-    """
+    """Return those of `pairs` that a system can use; an inactive module only has the chart of small C."""
     idle = {1, 2} - set(system.modules)
     return [pair for pair in pairs if system.modules and all(pair[module - 1] == SMALL for module in idle)]
 

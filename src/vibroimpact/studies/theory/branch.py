@@ -1,20 +1,19 @@
 """The manifold of symmetric and asymmetric motions in three charts: polynomials of a real parameter x in [-1, 1].
 
-The table gives the polynomials z, n, beta and path of each chart. A module's complex amplitude is b = z u / beta with
-|u| = 1, and the first harmonic of its saw-tooth is n u / beta. So the describing function of the ball is N = n / z. The
-amplitude of the saw-tooth is C = path / beta. In the table, mu = 8 / pi^2, and rho, (10.15), measures the dissipation
-of impacts. The functions c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v) are entire functions of v^2 and are
-replaced by their power series (docs/derivation.md, section 11):
+A module has the complex amplitude b = z u / beta with |u| = 1. The first harmonic of its saw-tooth is n u / beta, so
+that the describing function of the ball is N = n / z. The amplitude of the saw-tooth is C = path / beta. The table
+gives z, n, beta and path of each chart, with mu = 8 / pi^2 and the measure rho of dissipation, (10.15). The functions
+c = cos(pi v / 2) and s = 2 sin(pi v / 2) / (pi v) are replaced by their power series in v^2 (docs/derivation.md,
+section 11):
 
     chart         x      z                          n          beta                            path
     small C       C      1 - (1 + i rho) x          mu x       1                               x
     large C       1 / C  x - (1 + i rho)            mu         x                               1
     asymmetric    v^2    -(4 c / pi^2 + i rho s)    mu c^2 s   ((1 - x) s - 4 c / pi^2) c      (1 - x) s c
 
-On the asymmetric branch the flight from wall +1 takes the fraction (1 - v) / 2 of the cycle, and the flight back takes
-the fraction (1 + v) / 2. A motion and its mirror image have opposite values of v. Therefore all quantities except the
-impact phases are functions of v^2. A motion on the asymmetric branch is called stable if its impacts are stable at
-constant amplitude B and phase phi of U.
+On the asymmetric branch, the flight from wall +1 takes the fraction (1 - v) / 2 of the cycle. A mirror image has the
+opposite v. Therefore all quantities except the impact phases are functions of v^2. Here a motion is called stable if
+its impacts are stable at constant amplitude B and phase phi of U.
 """
 
 import functools
@@ -30,7 +29,7 @@ from vibroimpact.theory.manifold import rho
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC
 
 SMALL, LARGE, ASYMMETRIC = "small C", "large C", "asymmetric"
-_TERMS = 16  # number of terms of c and s; the next term, (pi^2 / 4)^16 / 32!, is below rounding
+_TERMS = 16  # terms of c and s; the next, (pi^2 / 4)^16 / 32!, is below rounding
 _ROUNDING = 1e-12  # rounding error of `trace`
 
 
@@ -58,7 +57,7 @@ class Chart:
 
 
 def series(terms, pi=math.pi):
-    """Return the coefficients of cos(pi v / 2) and of sin(pi v / 2) / (pi v / 2) in powers of v^2."""
+    """Return `terms` coefficients of cos(pi v / 2) and of sin(pi v / 2) / (pi v / 2) in powers of v^2."""
     power = [(-pi * pi / 4) ** k for k in range(terms)]
     return tuple([p / math.factorial(2 * k + odd) for k, p in enumerate(power)] for odd in (0, 1))
 
@@ -77,25 +76,22 @@ def charts(kappa: float) -> dict[str, Chart]:
 
 
 def amplitudes(squared, kappa):
-    """Return C and B on the asymmetric branch at v^2 in [0, 1), each in the shape of v^2.
+    """Return C and B on the asymmetric branch at v^2 = `squared` in [0, 1).
 
-    At v^2 = 0, C = pi^2 / (pi^2 - 4). As v^2 tends to 1, C grows to 2, for every kappa, and B grows without bound.
+    For every kappa, C grows from pi^2 / (pi^2 - 4) towards 2.
     """
     return charts(kappa)[ASYMMETRIC].amplitudes(np.asarray(squared, dtype=float))
 
 
 def impact_phases(v, kappa):
-    """Return the phases of U [rad] at an impact with W = +1 and at the next impact, with W = -1, for -1 < v < 1."""
+    """Return the phases of U [rad] at the impact with W = +1 and at the next impact, for -1 < v < 1."""
     chart, v = charts(kappa)[ASYMMETRIC], np.asarray(v, dtype=float)
     middle, half = np.angle(-chart.z(v**2) / chart.beta(v**2)), np.pi * (1 - v) / 2
     return middle - half, middle + half
 
 
 def trace(squared, kappa):
-    """Return the trace of the linear map of perturbations over one cycle, on the asymmetric branch at v^2 = `squared`.
-
-    A cycle has two impacts, so that the determinant of the map is kappa^4.
-    """
+    """Return the trace of the one-cycle map of perturbations on the asymmetric branch; the determinant is kappa^4."""
     squared = np.asarray(squared, dtype=float)
     G = 1 - squared - (1 - squared) / amplitudes(squared, kappa)[0]  # (2 v / pi) cot(pi v / 2)
     tangent = (np.tan(np.pi / 2 * np.sqrt(squared.astype(complex))) ** 2).real
@@ -107,37 +103,28 @@ def trace(squared, kappa):
 
 
 def multipliers(squared: float, kappa: float) -> np.ndarray:
-    """Return the multipliers, shape (2,), of perturbations of impact time and ball speed over one cycle.
-
-    The motion is that on the asymmetric branch at v^2 = `squared`; B and phi are constant.
-    """
+    """Return the multipliers (2,) of perturbations over one cycle on the asymmetric branch, at constant B and phi."""
     return np.roots([1.0, -trace(squared, kappa), kappa**4]).astype(complex)
 
 
 def period_doubling(kappa: float) -> float:
-    """Return the v^2 at which a multiplier is -1, between 0.17 and 0.22; the branch is stable from 0 to this v^2."""
+    """Return the v^2, between 0.17 and 0.22, at which a multiplier is -1 and the stable part of the branch ends."""
     return brentq(lambda squared: trace(squared, kappa) + 1 + kappa**4, 0.0, 0.3, xtol=1e-15)
 
 
 def stable(squared: float, kappa: float) -> str:
-    """Return the verdict "stable", "unstable" or "undecided" on the motion with v^2 = `squared`.
-
-    The motion is stable if both of its `multipliers` are inside the unit circle.
-    """
+    """Return "stable" if both `multipliers` are inside the unit circle, else "unstable" or "undecided"."""
     return verdict(1 + kappa**4 - abs(trace(squared, kappa)), _ROUNDING)
 
 
 def overshoot(v: float, kappa: float) -> float:
-    """Return the largest |W_0| - 1 over a cycle, or 0 if the ball stays between the walls.
-
-    If the ball does not stay between the walls, |W_0| is largest at a turning point of a flight, where W_0' = 0.
-    """
+    """Return the largest |W_0| - 1 over a cycle, or 0 if the ball stays between the walls."""
     C, B = amplitudes(v**2, kappa)
     a, b = impact_phases(v, kappa)
     change, excess = 4 * C / (np.pi * (1 - v**2)), 0.0  # change of the slope of Z at an impact
     for wall, start, fraction in ((1, a, (1 - v) / 2), (-1, b, (1 + v) / 2)):
         slope = -wall * change * (1 - fraction)
-        turn = np.arccos(np.clip(-slope / B, -1, 1))
+        turn = np.arccos(np.clip(-slope / B, -1, 1))  # here W_0' = 0
         since = np.remainder(np.array([turn, -turn]) - start, 2 * np.pi)
         W = wall + B * (np.sin(start + since) - np.sin(start)) + slope * since
         excess = max(excess, *np.where(since <= 2 * np.pi * fraction, np.abs(W) - 1, 0.0))

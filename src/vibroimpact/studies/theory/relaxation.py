@@ -1,9 +1,9 @@
 """Compute the strongly modulated response by the slow flow: drift along the manifold, loss of resonance, return.
 
-A ball in resonance is on the stable part of the manifold, which is symmetric or, beyond symmetry breaking, asymmetric.
-When the amplitude of the box has fallen to the fold, B = B_min, the ball leaves resonance. The model assumes that the
-ball then rests in the middle of its box, without any effect on the box, until B has grown to 1, so that the walls reach
-the ball. Then the ball is in resonance again (docs/derivation.md, section 12). No parameter is fitted.
+A ball in resonance is on the stable part of the manifold, which is asymmetric beyond symmetry breaking. At the fold,
+B = B_min, the ball leaves resonance. The model assumes that the ball then rests in the middle of its box and has no
+effect on the box. When B has grown to 1, the walls reach the ball, which is in resonance again (docs/derivation.md,
+section 12). No parameter is fitted.
 """
 
 from dataclasses import dataclass
@@ -27,22 +27,14 @@ _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 
 @dataclass(frozen=True, eq=False)
 class Relaxation:
-    """Statistics of both modules in a relaxation oscillation, each (..., 2).
-
-    share: share of the observed time in which each ball is in resonance.
-    largest: largest amplitude B of each box.
-    """
+    """Share of the time in resonance, and largest amplitude B, of both modules, each (..., 2)."""
 
     share: np.ndarray
     largest: np.ndarray
 
 
 def describing_function(kappa: float):
-    """Return the function of B that gives the describing function N of a ball on the stable part of the manifold.
-
-    For small B, this part is on the symmetric branch. For larger B, where the symmetric branch is unstable, it is on
-    the asymmetric branch.
-    """
+    """Return the describing function of a ball on the stable part of the manifold, as a function of B."""
     r, chart = rho(kappa), charts(kappa)[ASYMMETRIC]
     squared = np.linspace(0.0, _LARGEST_SQUARED, _NODES)
     skewed = np.abs(chart.z(squared) / chart.beta(squared))
@@ -56,13 +48,8 @@ def describing_function(kappa: float):
 def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Relaxation:
     """Follow the slow flow for `cycles` forcing periods after a transient of `settle` periods.
 
-    Parameters
-    ----------
-    start : default (1.0, 1.0)
-        Initial complex amplitudes b_i = B_i exp(-i psi_i) of both modules; both balls start in resonance.
-    forces : optional
-        Pairs of forces (f10_hat, f20_hat), shape (..., 2), that replace the forces of the system. Each pair gives its
-        own oscillation.
+    Both balls start in resonance, with complex amplitudes `start`. Each pair in `forces`, (..., 2), replaces the forces
+    of the system.
     """
     e, K = impedances(system)
     forces = np.array([system.f10_hat, system.f20_hat] if forces is None else forces)
@@ -84,16 +71,9 @@ def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Re
 
 
 def lost_at(system, point) -> float:
-    """Return the factor on both forces, below 1, at which the symmetric module of a fixed point leaves resonance.
+    """Return the factor on both forces, below 1, at which the symmetric module of `point` leaves resonance.
 
-    At this factor, C of the symmetric module falls to the fold of the manifold. The result is nan if no module is
-    symmetric, if C is below the fold at the given forces, if C stays above the fold down to half of the given forces,
-    or if the fixed point ceases to exist before C reaches the fold.
-
-    Parameters
-    ----------
-    point
-        An asymmetric fixed point of the system; it is followed in small steps.
+    C of this module then falls to the fold of the manifold. The result is nan if no such factor above 0.5 is found.
     """
     symmetric = np.flatnonzero(~point.asymmetric & np.isfinite(point.C))
     if len(symmetric) != 1 or not point.asymmetric.any():
