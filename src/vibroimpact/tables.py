@@ -1,7 +1,7 @@
 """Build tidy tables of plotted numbers, and write and read them as CSV without loss.
 
-Every table has the columns `panel` and `series`, then one column per plotted quantity, named as on the axis.
-The column `label` names single points. A field is blank if a row has no value of the quantity.
+Every table has the columns `panel` and `series`, and a column for each plotted quantity. The column `label` names
+single points. A field without a value is blank.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ BLANK_TEXT = (*TEXT, "failed")
 
 
 def curve(panel: str, series: str, **quantities) -> pd.DataFrame:
-    """Return the rows of one curve or point set; `quantities` are arrays (n,), or scalars that hold for all rows."""
+    """Return the rows of one curve or point set; `quantities` are arrays (n,), or scalars for all rows."""
     values = np.broadcast_arrays(*(np.atleast_1d(quantity) for quantity in quantities.values()))
     columns = dict(zip(quantities, values, strict=True))
     return pd.DataFrame({"panel": panel, "series": series, **columns})

@@ -1,26 +1,14 @@
-"""Convert between the amplitude C of the saw-tooth Z = W - U = -(1 + epsilon) Y, (10.11), and the path of a ball."""
+"""Convert between the amplitude C of the saw-tooth Z = W - U, (10.11), and the path of a ball."""
 
 
 def sawtooth_amplitude(epsilon: float, path):
-    """Return the saw-tooth amplitude C of a ball that moves by `path` from one wall to the other.
+    """Return the saw-tooth amplitude C from the change `path` of Y on a flight; C has the sign of `path`.
 
-    C is half the distance that the saw-tooth Z = -(1 + epsilon) Y covers on a flight. Both flights of a cycle have the
-    same C, even if their durations and speeds differ. For a flight of half a period,
-    C = (1 + epsilon) pi |Y'| / (2 Omega).
-
-    Parameters
-    ----------
-    epsilon : float
-        Mass ratio m / M.
-    path : array_like
-        Change of Y from one wall to the other, any shape, dimensionless. C has the sign of `path`.
+    C is half the distance that Z = -(1 + epsilon) Y covers. Both flights of a cycle have the same C.
     """
     return (1 + epsilon) * path / 2
 
 
 def path_of(epsilon: float, C):
-    """Return the change of the ball displacement Y on a flight from wall to wall, for amplitudes C of any shape.
-
-    This is the inverse of `sawtooth_amplitude`.
-    """
+    """Return the change of the ball displacement Y on a flight from wall to wall, from the amplitude C."""
     return 2 * C / (1 + epsilon)

@@ -16,8 +16,7 @@ def instance(name: str, value, kind: type):
     Raises
     ------
     ValueError
-        If `value` is not an instance of `kind`. For a PhysicalSystem in place of a System, the message suggests
-        `dimensionless()`.
+        If `value` has another type.
     """
     if not isinstance(value, kind):
         if kind.__name__ == "System" and hasattr(value, "dimensionless"):
@@ -33,7 +32,7 @@ def real(name: str, value) -> float:
     Raises
     ------
     ValueError
-        If the value is not a real number, not finite, or beyond the range of floats.
+        If the value is not such a number.
     """
     if not isinstance(value, float) and not _is_real(value):
         raise ValueError(f"{name}: {short_repr(value)} is not a number")
@@ -47,7 +46,7 @@ def real(name: str, value) -> float:
 
 
 def positive(name: str, value) -> float:
-    """Return a finite real number above 0 as a float.
+    """Return a finite number above 0 as a float.
 
     Raises
     ------
@@ -61,7 +60,7 @@ def positive(name: str, value) -> float:
 
 
 def pair(name: str, values) -> tuple[float, float]:
-    """Return two finite real numbers from a list, a tuple or an array as floats.
+    """Return a pair of numbers (list, tuple or array) as floats.
 
     Raises
     ------
@@ -76,12 +75,12 @@ def pair(name: str, values) -> tuple[float, float]:
 
 
 def whole(name: str, value, least: int, most: int) -> int:
-    """Return a whole number from `least` to `most` as an int; a float with a whole value is accepted.
+    """Return a whole number from `least` to `most` as an int; the float 2.0 is whole.
 
     Raises
     ------
     ValueError
-        If the value is not a whole number, or out of range.
+        If the value is not such a number.
     """
     if not (_is_real(value) and least <= value <= most and int(value) == value):
         raise ValueError(f"{name}: {short_repr(value)} is not a whole number from {least} to {most}")
@@ -94,14 +93,14 @@ def reals(name: str, values) -> np.ndarray:
     Raises
     ------
     ValueError
-        If `values` is not an array of real numbers, or if it is masked.
+        If `values` is masked, or is not an array of real numbers.
     """
     try:
         array = np.array(values)
     except (TypeError, ValueError):  # the rows have different lengths
         array = None
     if array is not None and array.dtype == object and all(map(_is_real, array.flat)):
-        array = np.array(array.tolist())  # converts an array of dtype object, such as part of a table row
+        array = np.array(array.tolist())  # from dtype object, such as part of a table row
     if array is None or array.dtype.kind not in "iuf":
         raise ValueError(f"{name}: {short_repr(values)} is not an array of real numbers")
     if np.ma.isMaskedArray(values) or (array.ndim > 1 and any(map(np.ma.isMaskedArray, values))):

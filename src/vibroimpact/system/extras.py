@@ -4,10 +4,7 @@ from importlib.util import find_spec
 
 
 def need(extra: str, *packages: str) -> None:
-    """Raise an error unless all `packages` are installed.
-
-    The message gives the pip command that installs `extra`, one of the groups of optional dependencies in
-    pyproject.toml.
+    """Raise an error that names the pip command for the group `extra`, unless all `packages` are installed.
 
     Raises
     ------

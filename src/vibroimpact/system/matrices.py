@@ -1,6 +1,6 @@
-"""Compute the mass, damping and stiffness matrices of the boxes in (10.2) for each contact state.
+"""Compute the mass, damping and stiffness matrices of the boxes in (10.2).
 
-The contact state `stuck` contains, for each module, True while its ball sticks to a wall.
+`stuck` contains True for each module whose ball sticks to a wall.
 """
 
 import numpy as np
@@ -19,15 +19,12 @@ def stiffness_matrix(system) -> np.ndarray:
 
 
 def masses(system, stuck=(False, False)) -> np.ndarray:
-    """Return the moving mass of each module, shape (2,): 1, or 1 + epsilon while its ball sticks to a wall."""
+    """Return the moving mass of each module, shape (2,): 1, or 1 + epsilon while its ball sticks."""
     return np.array([1.0 + system.epsilon if sticks else 1.0 for sticks in stuck])
 
 
 def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
-    """Return the dynamic stiffness K - Omega^2 M + i Omega C of the boxes, shape (2, 2) complex.
-
-    The matrix maps the complex amplitudes of a harmonic response to the forcing amplitudes.
-    """
+    """Return the dynamic stiffness K - Omega^2 M + i Omega C of the boxes, complex, shape (2, 2)."""
     omega = system.Omega
     dynamic = stiffness_matrix(system) + 1j * omega * damping_matrix(system)
     dynamic[[0, 1], [0, 1]] -= omega**2 * masses(system, stuck)
@@ -35,10 +32,9 @@ def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
 
 
 def rate_matrix(system, stuck=(False, False)) -> np.ndarray:
-    """Return the rate matrix A of the boxes and the forcing in (10.2), shape (6, 6).
+    """Return the rate matrix A of the boxes and the forcing in (10.2), shape (6, 6): dz/dtau = A z.
 
-    dz/dtau = A z for z = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]. Since z includes the forcing phase, the
-    flow is exp(A tau) for all parameters, also for undamped or resonant boxes and repeated or defective eigenvalues.
+    z = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]. The flow is exp(A tau), also at resonance.
     """
     mass = masses(system, stuck)[:, None]
     omega = system.Omega

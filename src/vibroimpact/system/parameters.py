@@ -16,8 +16,7 @@ LARGEST = 1e15
 class System:
     """Parameters of two coupled vibro-impact modules under forcing f_i sin(Omega tau).
 
-    All parameters are dimensionless. The parameters with a hat are scaled as in (10.4)-(10.6): the coefficient in
-    (10.2) is epsilon times the value with the hat.
+    All parameters are dimensionless. A coefficient in (10.2) is epsilon times the value with the hat, (10.4)-(10.6).
 
     Parameters
     ----------
@@ -36,13 +35,13 @@ class System:
     sigma_e_hat : float
         Detuning of the forcing frequency: Omega = 1 + epsilon sigma_e_hat, above 0.
     f10_hat, f20_hat : float
-        Forcing amplitudes; a negative amplitude means forcing in antiphase to sin(Omega tau).
+        Forcing amplitudes; a negative amplitude means forcing in antiphase.
 
     Raises
     ------
     ValueError
-        If a parameter is not a finite number, exceeds 1e15 in magnitude or is out of its range, or if the boxes (with
-        the balls in free flight) are driven at an undamped resonance, where no bounded linear response exists.
+        If a parameter is not a finite number, is out of its range or exceeds 1e15 in magnitude. Also if the forces
+        excite an undamped resonance of the boxes.
 
     Examples
     --------
@@ -129,10 +128,8 @@ class System:
     def modules(self) -> tuple[int, ...]:
         """Numbers of the active modules: (1, 2), (1,), (2,) or ().
 
-        A module is active if a force drives it, or if a force drives the other module and the modules are coupled.
-
-        Analyses leave out an inactive module; `simulate` still integrates it from its initial state. For a single
-        machine the result is (1,), see `PhysicalSystem.single`.
+        A module is active if a force drives it, directly or through the coupling. Analyses leave out inactive
+        modules, but `simulate` integrates them.
         """
         forced = [module for module, force in ((1, self.f10_hat), (2, self.f20_hat)) if force != 0]
         coupled = self.alpha12_hat != 0 or self.gamma12_hat != 0
@@ -141,8 +138,7 @@ class System:
     def with_inactive_damped(self) -> "System":
         """Return a copy of the system in which the inactive box is damped: its gamma1_hat or gamma2_hat is 1.
 
-        The inactive box, that is the box of the inactive module, stays at rest with and without damping. Without
-        damping it may have a resonance, at which the equations of the two boxes have no unique solution.
+        The damping removes resonances of this box, which is at rest in any case.
 
         Returns
         -------
@@ -159,7 +155,7 @@ class System:
         Parameters
         ----------
         **changes : float
-            New values by parameter name.
+            New values by name.
 
         Returns
         -------
@@ -183,8 +179,7 @@ class System:
     def _resonates(self) -> bool:
         """Return True if a force drives the undamped boxes at a resonance."""
         stiffness = dynamic_stiffness(self)
-        # Bound on the rounding errors of the matrix: a multiple of the sum of all terms in its entries. The entries
-        # themselves give no bound, since their terms can cancel: all entries are 0 if both uncoupled boxes resonate.
+        # The sum of all terms bounds the rounding errors. The entries do not, since their terms can cancel.
         springs = 1.0 + self.stiffness2 + 2.0 * self.alpha12
         dampers = self.gamma1 + self.gamma2 + 2.0 * self.gamma12
         rounding = 1e-12 * (springs + self.Omega * (dampers + 2.0 * self.Omega))

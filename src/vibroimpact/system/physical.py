@@ -16,33 +16,31 @@ class PhysicalSystem:
     Parameters
     ----------
     M, m : float
-        Mass of a box and of a ball.
+        Mass of a box and of a ball, above 0.
     k1, k2, k12 : float
-        Stiffness of box 1 and of box 2 to ground, and of the coupling.
+        Stiffness of box 1 and of box 2 to ground (above 0), and of the coupling (at least 0).
     c1, c2, c12 : float
-        Damping of box 1 and of box 2 to ground, and of the coupling.
+        Damping of box 1 and of box 2 to ground, and of the coupling, at least 0.
     F10, F20 : float
         Force amplitudes.
     omega1, omega2 : float
-        Circular frequencies of the forces.
+        Circular frequencies of the forces, above 0.
     L : float
-        Clearance: a ball at y hits a wall of its box at x if |x - y| = L.
+        Clearance, above 0: a ball at y hits a wall of its box at x if |x - y| = L.
     kappa : float
         Restitution coefficient.
     base, unbalance : float, default 0.0
-        Excitation of box 1 by ground motion or by an unbalance, see `single`. F10 is then replaced by the resulting
-        force amplitude at omega1.
+        Excitation of box 1 as in `single`, at least 0. It replaces F10 by the force amplitude at omega1.
 
     Raises
     ------
     ValueError
-        If a parameter is not a finite number; if a mass, a stiffness to ground, a frequency or L is not above 0; if a
-        damping, k12, base or unbalance is below 0; or if base and unbalance are both given.
+        If a parameter is not a finite number or is out of range, or if base and unbalance are both given.
 
     Notes
     -----
-    With omega10 = sqrt(k1 / M), the units of the dimensionless quantities are: time 1 / omega10, frequency omega10,
-    displacement L, velocity L omega10, force k1 L, energy k1 L^2.
+    With omega10 = sqrt(k1 / M), the units of the dimensionless quantities are 1 / omega10 (time), omega10 (frequency),
+    L (displacement), L omega10 (velocity), k1 L (force) and k1 L^2 (energy).
 
     Examples
     --------
@@ -102,10 +100,9 @@ class PhysicalSystem:
     ) -> "PhysicalSystem":
         """Return the parameters of one machine with a ball in its box.
 
-        Module 1 of the returned system is the machine. Module 2 is a copy of the machine, but neither coupled nor
-        driven, and is therefore inactive (see `System.modules`). Fixed points, orbits, branches, proofs, attractors and
-        exponents are those of module 1, with 4 multipliers, 4 exponents and 2 slow eigenvalues. Arrays with one entry
-        per module still have two entries, the second of them NaN. In states, the components of module 2 are 0.
+        The machine is module 1. Module 2 is a copy without coupling and force, and is therefore inactive
+        (`System.modules`). Results describe module 1, with 4 multipliers, 4 exponents and 2 slow eigenvalues. In arrays
+        with one entry per module, the entry of module 2 is NaN. In states, the components of module 2 are 0.
 
         Parameters
         ----------
@@ -124,12 +121,11 @@ class PhysicalSystem:
         omega : float, optional
             Circular frequency of the force [rad/s]; the natural frequency by default.
         base : float, default 0.0
-            Amplitude G of a motion of the ground below spring and damper [m], given in place of F. The force on the
-            box is G sqrt(k^2 + c^2 omega^2); the ground lags behind the force by arctan(c omega / k). Displacements are
-            absolute.
+            Amplitude G of a ground motion [m], in place of F. The force amplitude is G sqrt(k^2 + c^2 omega^2); the
+            ground lags behind the force by arctan(c omega / k). Displacements are absolute.
         unbalance : float, default 0.0
-            Mass of a rotor times its eccentricity, u [kg m], given in place of F. The force on the box is u omega^2;
-            M includes the rotor.
+            Mass times eccentricity of a rotor, u [kg m], in place of F. The force amplitude is u omega^2; M includes
+            the rotor.
 
         Returns
         -------
@@ -176,13 +172,12 @@ class PhysicalSystem:
         Returns
         -------
         System
-            The dimensionless system; its time is tau = omega10 t, and its lengths are in units of L.
+            The system, with time tau = omega10 t and lengths in units of L.
 
         Raises
         ------
         ValueError
-            If the two forcing frequencies differ ((10.5) needs Omega_1 = Omega_2), or if a dimensionless parameter is
-            not admissible (see System).
+            If the two forcing frequencies differ, (10.5), or if System does not accept a parameter.
         """
         if self.omega1 != self.omega2:
             raise ValueError(

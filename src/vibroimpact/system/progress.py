@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 
 
 def track(things: Sequence, words: str, progress: bool = True) -> Iterator:
-    """Yield `things` one by one; if `progress`, a terminal shows `words` and the number of things done."""
+    """Yield `things` one by one; if `progress`, show `words` and the number of things done on a terminal."""
     for number, one in enumerate(things, start=1):
         yield one
         if progress and sys.stderr.isatty():

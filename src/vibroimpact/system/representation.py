@@ -17,10 +17,7 @@ class Representation:
 
 
 class Found(list):
-    """List of results that stores the column names of its table, so that an empty list also has a table with columns.
-
-    `to_frame` makes the table.
-    """
+    """List of results with the column names of their table, so that an empty list also gives columns."""
 
     def __init__(self, results: Iterable, columns: Iterable[str]):
         super().__init__(results)

@@ -22,17 +22,16 @@ EVENT = np.dtype([("tau", "f8"), ("module", "i1"), ("wall", "i1"), ("kind", "i1"
 """Data type of an event: time, module (1 or 2), wall (+1 or -1), kind (a key of KINDS), state just after the event."""
 
 _LABELS = "keys", "columns", "coords", "_fields"
-"""Attributes that only labelled values have: mappings, tables and their rows, labelled arrays and named tuples."""
+"""Attributes of labelled values (mappings, tables, labelled arrays, named tuples), which may have another order."""
 
 
 def states_array(name: str, values) -> np.ndarray:
-    """Return a new float array of states, whose components have the order of NAMES.
+    """Return a new float array of states, with components in the order of NAMES.
 
     Raises
     ------
     ValueError
-        If the values are not an array of real numbers, or if they have labels, such as the keys of a mapping or the
-        columns of a table. Labelled values could be in another order.
+        If `values` is not an array of real numbers, or has labels.
     """
     _refuse_labels(name, values)
     return reals(name, values)
@@ -49,10 +48,7 @@ def _refuse_labels(name, values):
 
 
 def active_mask(system) -> np.ndarray:
-    """Return a mask (8,) of the components of the state that belong to an active module (see `System.modules`).
-
-    If no module is active, the motions of both modules decay freely, and all entries are True.
-    """
+    """Return a mask (8,) of the state components of active modules; if no module is active, all are True."""
     return np.isin(MODULES, system.modules or (1, 2))
 
 

@@ -2,15 +2,7 @@
 
 
 def stored(stiffness2, alpha12, epsilon, boxes, balls):
-    """Return the kinetic energy of boxes and balls plus the energy of the springs.
-
-    Parameters
-    ----------
-    stiffness2, alpha12, epsilon
-        Attributes of the System.
-    boxes, balls
-        (X1, X2, X1', X2') and (Y1, Y2, Y1', Y2'), as numbers or arrays.
-    """
+    """Return the kinetic energy plus that of the springs, from (X1, X2, X1', X2') and (Y1, Y2, Y1', Y2')."""
     x1, x2, v1, v2 = boxes
     kinetic = v1 * v1 + v2 * v2 + epsilon * (balls[2] * balls[2] + balls[3] * balls[3])
     return 0.5 * (kinetic + x1 * x1 + stiffness2 * x2 * x2 + alpha12 * (x1 - x2) * (x1 - x2))

@@ -4,16 +4,9 @@ STABLE, UNSTABLE, UNDECIDED = "stable", "unstable", "undecided"
 
 
 def verdict(margin: float, error: float) -> str:
-    """Return "stable" for a positive margin, "unstable" for a negative one, or "undecided".
+    """Return "stable" if margin > error, "unstable" if margin < -error, and otherwise "undecided".
 
-    The verdict is "undecided" if the margin is not larger in magnitude than its error, or not a number.
-
-    Parameters
-    ----------
-    margin : float
-        Distance from the threshold, positive on the stable side.
-    error : float
-        Bound on the error of the margin.
+    `error` bounds the error of the margin. Nan as an argument gives "undecided".
     """
     if margin > error:
         return STABLE
