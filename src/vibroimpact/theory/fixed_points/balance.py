@@ -1,13 +1,10 @@
-"""Write the fixed-point conditions (10.23) as two polynomials, with the roots of (10.24) but without its poles.
+"""Write the fixed-point conditions (10.23) as two polynomials in the saw-tooth amplitudes C_1 and C_2.
 
-The variables of the polynomials are the saw-tooth amplitudes C_1 and C_2.
-
-On the manifold b_i = B_i exp(-i psi_i) = z_i u_i with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. The conditions (10.23)
-are therefore linear in the phasors u_i, with coefficients that are linear in C_i (docs/derivation.md, section 5):
+The polynomials have the roots of (10.24), but not its poles. On the manifold, b_i = B_i exp(-i psi_i) = z_i u_i with
+z_i = 1 - (1 + i rho) C_i and |u_i| = 1. So (10.23) is linear in the phasors u_i (docs/derivation.md, section 5):
     q_i u_i + K (z_i u_i - z_j u_j) = f_i,    q_i = e_i z_i + mu C_i,    mu = 8 / pi^2.
-Here f_i is the forcing amplitude of module i and j is the other module. The impedances e_i of box i and K of the
-coupling come from `slow_flow.impedances`.
-The function `singular_points` computes the singular points of (10.24) (docs/derivation.md, section 8).
+Here f_i is the forcing amplitude of module i, and j is the other module. The impedances are e_i of box i and K of the
+coupling (`slow_flow.impedances`).
 """
 
 from dataclasses import dataclass
@@ -24,8 +21,7 @@ _ROUNDING = 100 * np.finfo(float).eps
 class Balance:
     """Coefficients of the balance q_i u_i + K (z_i u_i - z_j u_j) = f_i of module i, where j is the other module.
 
-    z (2,): coefficients of z_i = z[0] + z[1] C_i, the same for both modules. q (2, 2): coefficients of q_i = q[i, 0] +
-    q[i, 1] C_i. K: impedance of the coupling. forcing (2,): f_1 and f_2.
+    `z` and `q` give z_i = z[0] + z[1] C_i and q_i = q[i, 0] + q[i, 1] C_i. `forcing` is (f_1, f_2).
     """
 
     z: np.ndarray
@@ -47,7 +43,7 @@ class Balance:
         return self.z[0] + self.z[1] * C, self.q[:, 0] + self.q[:, 1] * C
 
     def solve(self, C) -> tuple[np.ndarray, complex]:
-        """Return the numerators n_i, (2,), and the denominator Delta of u_i = n_i / Delta at C (2,) (Cramer's rule)."""
+        """Return the numerators n_i, (2,), and the denominator Delta of u_i = n_i / Delta at C (2,)."""
         z, q = self.at(C)
         numerators = self.forcing * q[::-1] + self.forcing.sum() * self.K * z[::-1]
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
@@ -58,13 +54,8 @@ class Balance:
         return -np.angle(self.at(C)[0] * numerators / denominator)
 
     def of_module(self, i) -> tuple[np.ndarray, np.ndarray, bool]:
-        """Return C (n,) and psi (n,) of the fixed points of the uncoupled module i (0 or 1), and a flag.
-
-        The flag is True if two fixed points coincide within rounding; they are then returned as one.
-
-        Without coupling, |q_i|^2 = f_i^2 is quadratic in C_i: the line of all q_i in the complex plane intersects the
-        circle |q| = |f_i|.
-        """
+        """Return C and psi of the fixed points of the uncoupled module i (0 or 1), and True if two points coincide."""
+        # |q_i|^2 = f_i^2: the line of all q_i in the complex plane meets the circle of radius |f_i|.
         (q0, q1), f = self.q[i], self.forcing[i]
         along = q0 * q1.conjugate() / abs(q1)
         nearest, force, noise = abs(along.imag), abs(f), _ROUNDING * (abs(q0) + abs(f))
@@ -76,16 +67,12 @@ class Balance:
         return C, -np.angle((self.z[0] + self.z[1] * C) * f / (q0 + q1 * C)), bool(multiple)
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the coefficients of two polynomials equivalent to (10.24), and magnitudes of the coefficients.
+        """Return the coefficients of two polynomials equivalent to (10.24), and scales of the rounding errors.
 
-        Both arrays have the shape (2, 3, 3); entry [:, j, k] belongs to C_1^j C_2^k. A coefficient is a sum of terms,
-        and its magnitude is the sum of the moduli of these terms. The magnitudes are the scale of rounding errors.
-
-        The polynomials are |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2. They vanish where |u_1| = |u_2| = 1, since u_i =
-        n_i / Delta (`solve`). n_1 depends on C_2 alone and n_2 on C_1 alone.
+        Both arrays are (2, 3, 3), and entry [:, j, k] belongs to C_1^j C_2^k. The polynomials |n_2|^2 - |n_1|^2 and
+        |Delta|^2 - |n_1|^2 vanish where |u_1| = |u_2| = 1. A scale is the sum of the moduli of a coefficient's terms.
         """
-        # The first polynomial is proportional to the square of the forces. It is computed for forces of order one,
-        # since squares of tiny forces underflow. Scaling by a power of 2 causes no rounding error.
+        # Squares of tiny forces would underflow. Scaling by a power of 2 causes no rounding error.
         unit = np.ldexp(1.0, np.frexp(np.abs(self.forcing).max())[1])
         parts = self.z, self.q, self.K, self.forcing / unit
         delta, one, two = map(_modulus_squared, _solution(*parts))
@@ -112,15 +99,10 @@ def _modulus_squared(polynomial):
 
 
 def determinant(system, C) -> float:
-    """Return the common denominator of h_1 and h_2 in (10.24), Im(p_1 p_2 conj(z_1 z_2 K^2)) with p_i = q_i + K z_i.
+    """Return the denominator Im(p_1 p_2 conj(z_1 z_2 K^2)) of (10.24), with p_i = q_i + K z_i of `Balance`.
 
-    z_i, q_i and K are those of `Balance`. Constant factors, powers of B_i and the square in h_1 are left out.
-
-    The equations sin^2 psi_i + cos^2 psi_i = 1 for i = 1, 2 lead to two equations that are linear in the cosine and
-    sine of psi_2 - psi_1. The determinant of the two linear equations is four times the returned value.
-
-    The returned value is a quadratic polynomial in C_1. For coupled modules, all its coefficients vanish only
-    if p_2 = 0. Since impacts dissipate energy, p_2 = 0 is possible only if C_2 = 0.
+    It lacks constant factors and powers of B_i (docs/derivation.md, section 8). For coupled modules, this polynomial in
+    C_1 is identically 0 only if p_2 = 0. Since impacts dissipate energy, C_2 is then 0.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)
@@ -128,20 +110,9 @@ def determinant(system, C) -> float:
 
 
 def singular_points(system, point, module) -> np.ndarray:
-    """Return the isolated points S on the manifold of one module at which h_1 and h_2 of (10.24) are singular.
+    """Return (C, B) of the isolated singular points of (10.24) on the manifold of one module, shape (n, 2).
 
-    Parameters
-    ----------
-    point
-        Fixed point that gives the constant C of the other module.
-    module
-        The module on whose manifold the points lie, 1 or 2.
-
-    Returns
-    -------
-    ndarray
-        (C, B) of each point with C >= 0, shape (n, 2), ascending in C; n is 0, 1 or 2. For uncoupled modules n is 0,
-        since the whole manifold is singular and no point is isolated.
+    The points ascend in C. `point` gives C of the other module. Uncoupled modules have no isolated singular points.
 
     Raises
     ------
@@ -162,13 +133,13 @@ def singular_points(system, point, module) -> np.ndarray:
 
 
 def _real_roots(coefficients):
-    """Return the real roots of c + b x + a x^2 for coefficients (c, b, a); roots equal within rounding count as one."""
+    """Return the real roots of c + b x + a x^2; a discriminant of 0 within rounding counts as 0."""
     c, b, a = coefficients
     discriminant = b * b - 4 * a * c
     if abs(discriminant) <= 8 * np.finfo(float).eps * (b * b + abs(4 * a * c)):
         discriminant = 0.0
     if discriminant < 0:
         return np.empty(0)
-    # The square root has the sign of b, so that no digits cancel. The roots of the polynomial are q / a and c / q.
+    # The root has the sign of b, so that no digits cancel.
     q = -(b + np.copysign(np.sqrt(discriminant), b)) / 2
     return np.array([top / bottom for top, bottom in ((q, a), (c, q)) if bottom != 0])

@@ -1,8 +1,8 @@
 """Find all real common zeros, in a square, of two polynomials of degree 2 in each of the variables x and y.
 
-The resultant eliminates y and has degree 8 in x. Its roots are only starts for Newton's method in both variables, so
-that rounding errors in the resultant do not matter. Zeros that are equal within rounding are returned as one zero,
-marked as multiple. (Resultants: Cox, Little and O'Shea 2015, Ideals, Varieties, and Algorithms, section 3.6.)
+The resultant eliminates y and has degree 8 in x. Its roots only start Newton's method, so that their rounding errors do
+not matter. Zeros that are equal within rounding are returned as one multiple zero. (Resultants: Cox, Little and
+O'Shea 2015, Ideals, Varieties, and Algorithms, section 3.6.)
 """
 
 import numpy as np
@@ -24,19 +24,9 @@ _SAME = 1e-5
 
 
 def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray]:
-    """Return the common zeros of two polynomials in [-radius, radius]^2.
+    """Return the common zeros (n, 2) in [-radius, radius]^2, sorted by x, and a mask (n,) of multiple zeros.
 
-    Parameters
-    ----------
-    coefficients
-        Coefficients of x^j y^k in each polynomial, shape (2, 3, 3).
-    magnitudes
-        Sums of the moduli of the terms that form each coefficient, shape (2, 3, 3); the scale of rounding errors.
-
-    Returns
-    -------
-    tuple[ndarray, ndarray]
-        Zeros, shape (n, 2), in ascending order of x; and a mask of the multiple zeros, shape (n,).
+    `magnitudes` are the sums of the moduli of the terms of each coefficient.
 
     Raises
     ------
@@ -60,9 +50,7 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 
 
 def _starts(pair, size):
-    """Return starts (n, 2) for Newton's method, at least one near every real zero.
-
-    In a start (x, y), x is a nearly real root of the resultant and y is a root of one of the polynomials at this x.
+    """Return starts for Newton's method, shape (n, 2), at least one near every real zero.
 
     Raises
     ------
@@ -84,11 +72,9 @@ def _starts(pair, size):
 
 
 def _resultant(one, other, sign=-1):
-    """Return the coefficients (9,) of the resultant of two polynomials, a polynomial in x alone.
+    """Return the coefficients (9,) of the resultant, a polynomial in x, from coefficients [power of y, power of x].
 
-    one, other: coefficients (3, 3) with the power of y on the first axis. For a bound on rounding errors, call the
-    function with the moduli of the coefficients and sign = 1: each coefficient of the resultant is a sum of terms, and
-    the result then contains the sums of the moduli of these terms.
+    Moduli with sign = 1 give the sums of the moduli of all terms.
     """
 
     def minor(j, k):
@@ -107,10 +93,7 @@ def _quadratic(polynomial, x):
 
 
 def _newton(pair, size, points):
-    """Return the zeros to which Newton's method converges from the starts `points` (n, 2), with repetitions.
-
-    Newton's method has converged where both polynomials vanish within rounding.
-    """
+    """Return the zeros that Newton's method reaches from the starts `points`, (n, 2), with repetitions."""
     found = [np.empty((0, 2))]
     for _ in range(_STEPS):
         value, gradient, noise = _expanded(pair, size, points)
@@ -126,10 +109,7 @@ def _newton(pair, size, points):
 
 
 def _expanded(pair, size, points):
-    """Return values (n, 2) and Jacobians (n, 2, 2) of both polynomials, and bounds (n, 2) on the errors of the values.
-
-    size: for each coefficient, the sum of the moduli of its terms, as `magnitudes` of `real_zeros`. points: (n, 2).
-    """
+    """Return values (n, 2), Jacobians (n, 2, 2) and bounds (n, 2) on the errors of the values of both polynomials."""
     value, by_x, by_y = (_at(points, one) for one in (pair, *_derivatives(pair)))
     return value, np.stack([by_x, by_y], -1), _ROUNDING * _at(np.abs(points), size)
 
@@ -150,11 +130,9 @@ def _adjugate(matrix):
 
 
 def _contract(pair, size, points):
-    """Return a mask (n,) of the points that are simple zeros: Newton's method contracts in a square around the point.
+    """Return a mask (n,) of the simple zeros, at which Newton's method contracts in a square (Kantorovich's theorem).
 
-    The condition follows Kantorovich's theorem: the sum of two bounds must be smaller than the half-width of the
-    square. One bound is on the shift of the zero due to rounding. The other bound is on the change of the Newton step
-    within the square; it is computed from twice the sum of the moduli of the second derivatives.
+    The half-width exceeds the shift by rounding plus the change of the Newton step.
     """
     _, gradient, noise = _expanded(pair, size, points)
     by_x, by_y = _derivatives(pair)

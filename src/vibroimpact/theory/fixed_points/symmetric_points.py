@@ -1,10 +1,9 @@
 """Find all fixed points of the slow flow, the real solutions of (10.16) and (10.23).
 
-The zeros of the polynomials in C_1 and C_2 (`Balance.polynomials`) are refined by Newton's method for amplitudes and
-phases together. This restores digits that are lost because the polynomials are differences of squares. Without
-dissipation the slow flow is reversible: each fixed point has a partner with the same C and mirrored phases, and the
-denominator Delta of `Balance.solve` vanishes at both points. With very little dissipation, two well separated fixed
-points have amplitudes that are equal within rounding; only their phases distinguish them.
+Newton's method for amplitudes and phases refines the zeros of the polynomials in C_1 and C_2. The polynomials lose
+digits, since they are differences of squares. Without dissipation, each fixed point has a partner with the same C and
+mirrored phases, and Delta of `Balance.solve` vanishes at both. With very little dissipation, the amplitudes of both
+points are equal within rounding; only their phases differ.
 """
 
 from dataclasses import dataclass, replace
@@ -25,7 +24,7 @@ from vibroimpact.theory.slow_flow import FIRST_HARMONIC, equations, slow_eigenva
 _STEPS = 30
 _SETTLED = 1e-12  # largest relative Newton step after which the fixed point is exact within rounding
 _SAME = 1e-9
-_NEAR = 1e-3  # largest relative change of C in `_refined`; after a larger change, C belongs to another point
+_NEAR = 1e-3  # largest relative change of C in `_refined`; a larger one leads to another point
 _TRIANGLE_GAP = 1e-3  # tolerance of the triangle inequality in `_may_close`, relative to the perimeter
 _REGULAR = 1e5  # largest condition number of the Jacobian at a fixed point that counts as simple
 _AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
@@ -37,24 +36,24 @@ COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
 class FixedPoint(Representation):
     """A fixed point of the slow flow, (10.23): a periodic response with two impacts per cycle and module.
 
-    For a single machine (`PhysicalSystem.single`), C, B and psi of the second module, which stays at rest, are NaN.
+    For a single machine, C, B and psi of the second module are NaN.
 
     Attributes
     ----------
     system : System
         System of the fixed point.
     C, B : ndarray
-        Amplitudes of the saw-tooth and of U_i0 in both modules, each shape (2,), dimensionless.
+        Amplitudes of the saw-tooth and of U_i0, each shape (2,), dimensionless.
     psi : ndarray
-        Phases [rad] by which U_i0 = B_i sin(Omega tau - psi_i) lags behind the forcing, in (-pi, pi], shape (2,).
+        Phases [rad] in U_i0 = B_i sin(Omega tau - psi_i), in (-pi, pi], shape (2,).
     slow_eigenvalues : ndarray
-        Complex eigenvalues of the slow flow, per unit of tau_1, shape (4,), or (2,) for a single machine. At a fold of
-        the manifold an eigenvalue is infinite.
+        Complex eigenvalues of the slow flow, per unit of tau_1, two per active module. At a fold of the manifold one
+        is infinite.
     multiple : bool
-        True if several fixed points may coincide within rounding, for example if the system is at a fold or at a branch
-        point. The relative errors of C and psi are then about the square root of the rounding error.
+        True if several fixed points may coincide within rounding, as at a fold. The relative errors of C and psi are
+        then about the square root of the rounding error.
     label : str
-        "a", "b", ... as in the figures (see `labels`); "" for a point that does not come from `fixed_points`.
+        "a", "b", ... as in the figures; "" for a point that does not come from `fixed_points`.
 
     Examples
     --------
@@ -107,13 +106,12 @@ def fixed_points(system: System) -> list[FixedPoint]:
     Returns
     -------
     list of FixedPoint
-        Fixed points in ascending order of C_1, or of C of the active module for a single machine. The labels
-        follow another order (see `labels`).
+        Fixed points in ascending order of C of the first active module. The labels follow another order.
 
     Raises
     ------
     ValueError
-        If system is not a System, or if its fixed points need not be isolated (see `search`).
+        If system is not a System, or if its fixed points need not be isolated at an undamped resonance.
 
     Examples
     --------
@@ -125,34 +123,27 @@ def fixed_points(system: System) -> list[FixedPoint]:
 
 
 def search(system: System) -> list[FixedPoint]:
-    """Return all fixed points, including those with a negative C_i, in ascending order of C_1 and without labels.
+    """Return all fixed points, also with negative C_i, in ascending order of C_1 and without labels.
 
     Raises
     ------
     ValueError
-        If system is not a System, or if the boxes, in the slow flow without balls, have an undamped resonance that the
-        forces do not excite. The boxes can then vibrate freely with any phase, so that the fixed points need not be
-        isolated.
+        If the boxes have an undamped resonance in the slow flow that the forces do not excite. Fixed points then need
+        not be isolated.
     """
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
     if system.modules == (1, 2):
         zeros, multiple = real_zeros(*balance.polynomials(), search_radius(system))
         solutions = _solutions(system, balance, zeros, multiple)
-    else:  # at most one active module; if there is none, no fixed point exists, since impacts dissipate energy
+    else:  # without an active module no fixed point exists, since impacts dissipate energy
         solutions = [solution for module in system.modules for solution in _of_one_module(balance, module - 1)]
     points = [FixedPoint.of(system, *solution) for solution in solutions]
     return sorted(points, key=lambda point: tuple(np.nan_to_num(point.C)))
 
 
 def search_radius(system) -> float:
-    """Return an upper bound on sqrt(C_1^2 + C_2^2) for all fixed points.
-
-    The bound depends only on the forcing amplitudes f_i and on rho (docs/derivation.md, section 6).
-
-    The power of the forces is at most |f_1| B_1 + |f_2| B_2, where B_i <= 1 + sqrt(1 + rho^2) |C_i|. The power
-    dissipated by impacts, mu rho (C_1^2 + C_2^2) with mu = 8/pi^2, cannot exceed the power of the forces.
-    """
+    """Return an upper bound on sqrt(C_1^2 + C_2^2) for all fixed points (docs/derivation.md, section 6)."""
     r = rho(system.kappa)
     f = np.abs([system.f10_hat, system.f20_hat])
     grow = np.sqrt(1 + r**2) * np.linalg.norm(f)
@@ -161,13 +152,10 @@ def search_radius(system) -> float:
 
 
 def labels(system, points) -> list[str]:
-    """Return the label "a", "b", "c", ... of each fixed point; "a" is the least stable point.
+    """Return the label "a", "b", ... of each fixed point; "a" is the least stable point.
 
-    Points that are unstable by (10.26) come first, then the points that are stable by (10.26). Each of the two groups
-    is sorted by descending growth rate, which is the largest real part of the eigenvalues of the slow flow.
-
-    The chapter gives labels in its figures, but no rule for them. The order used here agrees with more sentences of
-    section 10.4 than the other plausible orders (docs/errata.md lists the sentences).
+    Points that are unstable by (10.26) come first. Within both groups the growth rate descends. The chapter gives no
+    rule; this order fits section 10.4 best (docs/errata.md).
     """
     limit = printed_limit(rho(system.kappa))
     keys = [(bool(np.nanmin(point.C) > limit), -point.slow_eigenvalues.real.max()) for point in points]
@@ -186,8 +174,7 @@ def refuse_free_motion(system) -> None:
     if abs(denominator) <= 1e-12 * scale * own and np.abs(numerators).max() <= 1e-12 * scale * force:
         raise ValueError(
             f"sigma_e_hat: at {system.sigma_e_hat} the slow flow has an undamped resonance that the forces do not "
-            "excite, so that the fixed points may not be isolated and cannot be listed; add damping or change the "
-            "frequency"
+            "excite, so that the fixed points may not be isolated; add damping or change the frequency"
         )
 
 
@@ -212,13 +199,10 @@ def _solutions(system, balance, zeros, multiple):
 
 
 def _mirrored_pair(system, balance, C):
-    """Return (C, psi) for the two simple fixed points with amplitudes close to C, or [] unless there are exactly two.
+    """Return (C, psi) of two fixed points near the multiple zero C of the polynomials, or [] unless there are two.
 
-    C: a multiple zero of the polynomials; its error is at least of the order of the square root of the rounding error.
-
-    With z_i, q_i, K and f_i of `Balance` and p_i = q_i + K z_i, the balance p_1 u_1 - K z_2 u_2 = f_1 is a triangle in
-    the complex plane. The side lengths |p_1|, |K z_2| and |f_1| determine two triangles, which are mirror images.
-    Newton's method starts once from the phases u_1, u_2 of each triangle.
+    p_1 u_1 - K z_2 u_2 = f_1 with p_1 = q_1 + K z_1 is a triangle in the complex plane. Its sides determine two
+    mirrored triangles, from which Newton's method starts.
     """
     z, q = balance.at(C)
     p, k, f = q[0] + balance.K * z[0], balance.K * z[1], balance.forcing[0]
@@ -233,12 +217,10 @@ def _mirrored_pair(system, balance, C):
 
 
 def _may_close(balance, C):
-    """Return False if a zero C of `Balance.polynomials` is spurious, since no phases balance the forces near C.
+    """Return False if no phases balance the forces near a zero C of `Balance.polynomials`.
 
-    Without dissipation, Delta, n_1 and n_2 of `Balance.solve` can vanish at the same C. Both polynomials then vanish at
-    C, but C need not belong to a fixed point. At a fixed point, module i satisfies f_i = p_i u_i - K z_j u_j, where
-    p_i = q_i + K z_i and j is the other module. The lengths |f_i|, |p_i| and |K z_j| must therefore be the sides of a
-    triangle.
+    Without dissipation, Delta, n_1 and n_2 can vanish at such a C. At a fixed point, the terms of the balance
+    f_i = p_i u_i - K z_j u_j with p_i = q_i + K z_i form a triangle.
     """
     z, q = balance.at(C)
     sides = np.abs([balance.forcing, q + balance.K * z, balance.K * z[::-1]])

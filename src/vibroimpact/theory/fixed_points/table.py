@@ -19,10 +19,7 @@ COLUMNS = ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2", "multiple"]
 
 @dataclass(frozen=True, eq=False)
 class LabelledPoint:
-    """A fixed point of the slow flow with its label, as read from a table.
-
-    C, B and psi [rad] have shape (2,); `multiple` is as in FixedPoint.
-    """
+    """A labelled fixed point of the slow flow from a table; C, B and psi [rad] have shape (2,)."""
 
     label: str
     C: np.ndarray
@@ -32,10 +29,7 @@ class LabelledPoint:
 
 
 def fixed_point_table(case: str, system) -> pd.DataFrame:
-    """Return a table of all fixed points of a system, one row per point, sorted by label.
-
-    The columns are COLUMNS; the first column contains the name `case`.
-    """
+    """Return a table of all fixed points of a system with the columns COLUMNS, sorted by label."""
     rows = [[case, p.label, *p.C, *p.B, *p.psi, p.multiple] for p in fixed_points(system)]
     return pd.DataFrame(rows, columns=COLUMNS).sort_values("label", ignore_index=True)
 
@@ -58,7 +52,7 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
     Raises
     ------
     ValueError
-        If the table has no point with this label.
+        If the table has no such point.
     """
     points = {point.label: point for point in labelled_points(table)}
     if label not in points:
@@ -71,9 +65,8 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
 def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
     """Return the position of each fixed point on the manifold, one row per point and active module.
 
-    The columns are label, module, C, B, arm, branch and overshoot. The arm is "left" or "right" of C_min, (10.25). The
-    branch is "stable" or "unstable" by (10.26). The overshoot is 0 if the ball stays between the walls, and
-    otherwise the largest |W_0| - 1, where W_0 is the relative displacement of (10.10).
+    The arm is "left" or "right" of C_min, (10.25). The branch is "stable" or "unstable" by (10.26). The overshoot
+    is the largest |W_0| - 1, or 0 if the ball stays between the walls.
     """
     r = rho(system.kappa)
     rows = [
@@ -94,8 +87,5 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def verdicts(places: pd.DataFrame) -> pd.Series:
-    """Return "stable" or "unstable" for each fixed point, by label, from the table of `place_on_manifold`.
-
-    A fixed point is stable by (10.26) if, for every active module, the branch in the table is "stable".
-    """
+    """Return the verdict on each fixed point by label: "stable" if all its branches in `places` are "stable"."""
     return places.groupby("label")["branch"].agg(all_stable).rename("verdict")
