@@ -1,10 +1,8 @@
-"""Apply stability criteria to a motion with two impacts per cycle: (10.26), Masri's analysis, the slow flow.
+"""Apply stability criteria to a motion with two impacts per cycle.
 
-Each criterion gives "stable" or "unstable", or "undecided" if the error bounds are too large for a decision. A motion
-is stable if both modules are stable. An inactive module (see `System.modules`), whose saw-tooth amplitude C is NaN, is
-ignored. The verdicts are named printed_10_26 (the condition as printed), fast (Masri's analysis as derived in
-docs/stability.md), slow (the slow flow), theory (fast and slow together) and exact (the Floquet multipliers of the
-exact orbit).
+A motion is stable if all active modules are stable; C of an inactive module is NaN. The verdict printed_10_26
+is by (10.26) as printed. The verdict fast is by Masri's analysis (docs/stability.md), slow by the slow flow, and theory
+by both together. The verdict exact is by the Floquet multipliers of the exact orbit.
 """
 
 from typing import NamedTuple
@@ -26,21 +24,14 @@ _STEP = 1e-6
 
 
 class Stability(NamedTuple):
-    """Verdicts of the theory on a motion, each "stable", "unstable" or "undecided".
-
-    fast: verdict of Masri's analysis, for impacts at constant amplitude B and phase phi of U. slow: verdict of the slow
-    flow.
-    """
+    """Verdicts on a motion, by Masri's analysis at constant B and phi (`fast`) and by the slow flow (`slow`)."""
 
     fast: str
     slow: str
 
     @property
     def theory(self) -> str:
-        """Verdict of the theory, from the verdicts `fast` and `slow`.
-
-        "stable" if both verdicts are "stable", "unstable" if one of them is "unstable", else "undecided".
-        """
+        """Verdict of the theory: "stable" if `fast` and `slow` are, "unstable" if one of them is, else "undecided"."""
         return all_stable(self)
 
     def __str__(self) -> str:
@@ -55,9 +46,7 @@ def of_fixed_point(system, point) -> dict[str, str]:
 def of_orbit(orbit) -> dict[str, str]:
     """Return, by name, the verdict of each criterion in CRITERIA on an exact orbit.
 
-    The attributes `system`, `impact_phases`, `C`, `multipliers` and `residual` of the orbit are used.
-
-    The criteria assume a symmetric motion. An asymmetric orbit is described by psi and C from `slow_variables`.
+    The criteria assume a symmetric motion.
     """
     psi, C = slow_variables(orbit)
     error = (orbit.residual + ROUNDING) / np.min(np.abs(orbit.multipliers - 1))
@@ -65,11 +54,9 @@ def of_orbit(orbit) -> dict[str, str]:
 
 
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
-    """Return (psi, C) of an exact orbit, each (2,).
+    """Return (psi, C) of an exact orbit, each (2,), with psi from the impact phase by (10.17).
 
-    C_i is the saw-tooth amplitude; psi_i follows from the impact phase by (10.17). The impact phase is the mean of two
-    phases: the phase at wall +1, and the phase half a period after the impact at wall -1. These two phases differ only
-    if the orbit is asymmetric.
+    An asymmetric orbit has two impact phases, of which the mean is used.
     """
     around = np.exp(2j * np.pi * orbit.impact_phases)
     phase = impact_phase(orbit.C, rho(orbit.system.kappa))
@@ -77,11 +64,7 @@ def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
 
 
 def fixed_point_error(system, point) -> float:
-    """Return an estimate of the largest error of psi and C at a computed fixed point.
-
-    The estimate is the size of a Newton step plus the effect of rounding, or infinite if several fixed points may
-    coincide.
-    """
+    """Estimate the largest error of psi and C at a fixed point by a Newton step plus rounding; inf if multiple."""
     if point.multiple:
         return np.inf
     residual, J = equations(system, point.psi, point.C)
@@ -92,10 +75,7 @@ def fixed_point_error(system, point) -> float:
 
 
 def _of(system, psi, C, error):
-    """Return the verdicts in CRITERIA on a motion with psi and C, each (2,); `error` bounds the errors of psi and C.
-
-    At the fold of the manifold, where an eigenvalue of the slow flow is infinite, the slow verdict is "undecided".
-    """
+    """Return the verdicts in CRITERIA from psi and C, each (2,), with errors up to `error`."""
     limit, active = printed_limit(rho(system.kappa)), C[~np.isnan(C)]
     printed = all_stable(verdict(c - limit, error + ROUNDING * max(1.0, abs(c))) for c in active)
     fast = all_stable(masri.stable(c, system.kappa, error) for c in active)
@@ -105,10 +85,7 @@ def _of(system, psi, C, error):
 
 
 def _eigenvalues(system, psi, C, error):
-    """Return the eigenvalues of the slow flow and their estimated errors, each (4,), or (2,) for a single machine.
-
-    The errors due to rounding and to `error` are estimated to first order, with the left and right eigenvectors.
-    """
+    """Return the eigenvalues of the slow flow and first-order estimates of their errors, infinite at a fold."""
     J, M = linearisation(system, psi, C)
     values, left, right = eig(J, M, left=True, right=True)
     if not np.isfinite(values).all() or not np.isfinite(error):

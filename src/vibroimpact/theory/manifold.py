@@ -1,13 +1,12 @@
 """Slow invariant manifold (SIM) of a module in 1:1 resonance, (10.15)-(10.17) and (10.25), and its saw-tooth.
 
-The amplitude B of U, the amplitude C of the saw-tooth, and rho, which measures dissipation (10.15), are dimensionless
-numbers or arrays that broadcast; angles are in radians.
+B is the amplitude of U, C is the amplitude of the saw-tooth, and rho measures dissipation, (10.15). They are
+dimensionless numbers or arrays that broadcast. Angles are in radians.
 
-A value of C is admissible if the ball stays between the walls, that is if |W_0| <= 1 for the relative displacement W_0
-of (10.10). Let t be the time since the impact at W = +1. Until the next impact, W_0 = cos t + C h(t) with
-h(t) = 1 - 2 t / pi - cos t + rho sin t (docs/stability.md). W_0 is linear in C, so that the admissible C form one
-interval. The interval begins at C = 0. At the upper end of the interval, the ball leaves the wall W = +1, turns back
-and grazes this wall once, before it flies to the wall W = -1.
+C is admissible if the ball stays between the walls, |W_0| <= 1 for the relative displacement W_0 of (10.10). At a time
+t <= pi after the impact at W = +1, W_0 = cos t + C h(t) with h(t) = 1 - 2 t / pi - cos t + rho sin t
+(docs/stability.md). W_0 is linear in C, so that the admissible C form one interval. It begins at C = 0. At its upper
+end, the ball leaves the wall W = +1 and grazes this wall once, before it flies to the wall W = -1.
 """
 
 import numpy as np
@@ -15,10 +14,8 @@ from scipy.optimize import brentq
 
 
 def sawtooth(tau0, C, theta):
-    """Return Z = (2 C / pi) arcsin cos(tau0 - theta), (10.11); arguments broadcast (dimensionless, radians).
-
-    Z is computed as a triangle wave, since arcsin loses half of the digits at the peaks, where the impacts are.
-    """
+    """Return Z = (2 C / pi) arcsin cos(tau0 - theta), (10.11)."""
+    # arcsin would lose half of the digits at the peaks, where the impacts are.
     from_peak = np.abs(np.remainder(np.asarray(tau0) - theta + np.pi, 2 * np.pi) - np.pi)
     return C * (1 - 2 * from_peak / np.pi)
 
@@ -39,18 +36,18 @@ def slope(C, rho):
 
 
 def C_of_B(B, rho):
-    """Return the saw-tooth amplitudes C on the lower arm (C <= C_min) and on the upper arm of the manifold, (10.15).
+    """Return C on the lower arm (C <= C_min) and on the upper arm of the manifold at B, (10.15).
 
     Raises
     ------
     ValueError
-        If some B is below B_min, where the manifold has no real point.
+        If some B is below B_min, where the manifold has no point.
     """
     B = np.asarray(B, dtype=float)
     above = B - B_min(rho)
     if not np.all(above >= 0):
         raise ValueError(f"B: {np.min(B)} is below B_min = {B_min(rho)} for rho = {rho}")
-    # Differences of squares are written as products, to avoid cancellation at the fold and on the lower arm near C = 0.
+    # Products in place of differences of squares avoid cancellation at the fold and near C = 0.
     root = np.sqrt((1 + rho**2) * above * (B + B_min(rho)))
     return (1 - B) * (1 + B) / (1 + root), (1 + root) / (1 + rho**2)
 
@@ -66,25 +63,16 @@ def C_min(rho):
 
 
 def impact_phase(C, rho):
-    """Return theta + phi in (-pi, pi], the phase of U at the impact with the wall W = +1.
-
-    At this impact U = 1 - C, (10.12); the phase follows from (10.17).
-    """
+    """Return theta + phi in (-pi, pi], the phase of U at the impact with W = +1, (10.12) and (10.17)."""
     return np.arctan2(1 - C, rho * C)
 
 
 def overshoot(C, rho):
-    """Return the largest excess of |W_0| over 1 in a cycle, for the motion at a point of the manifold.
-
-    W_0 is the relative displacement of (10.10). The result is 0 if the ball stays between the walls.
-
-    W_0 is stationary where B cos(tau_0 + phi) = +-2 C / pi, so that the maximum is found without
-    sampling.
-    """
+    """Return the largest |W_0| - 1, (10.10), in a cycle, or 0 if the ball stays between the walls."""
     C = np.asarray(C, dtype=float)
     B = B_of_C(C, rho)
+    # After the impact at W = +1, W_0 is stationary where B cos(tau_0 + phi) = 2 C / pi.
     turn = np.arccos(np.clip(2 * C / (np.pi * B), -1, 1))
-    # W_0 has two stationary points in the flight after an impact at W = +1; these are their times since the impact.
     since = np.remainder(np.stack([turn, -turn]) - impact_phase(C, rho), 2 * np.pi)
     W = (1 - C) * np.cos(since) + rho * C * np.sin(since) + C * (1 - 2 * since / np.pi)
     return np.max(np.where(since <= np.pi, np.abs(W) - 1, 0), axis=0, initial=0)
@@ -93,7 +81,7 @@ def overshoot(C, rho):
 def grazing_time(kappa: float) -> float:
     """Return the time t [rad] from an impact until the ball grazes the same wall again, for C = largest_C(kappa).
 
-    p = t / 2 is the only root of p cot p = 1 / (1 + kappa), since p cot p falls from 1 to 0 on (0, pi/2).
+    p = t / 2 solves p cot p = 1 / (1 + kappa). The root is unique, since p cot p falls from 1 to 0 on (0, pi/2).
 
     Raises
     ------
@@ -102,8 +90,7 @@ def grazing_time(kappa: float) -> float:
     """
     if not 0 < kappa < 1:
         raise ValueError(f"kappa: {kappa} is not between 0 and 1 (both excluded)")
-    # tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3, so that p is at most sqrt(3 kappa). The search is in terms of
-    # p / sqrt(3 kappa). Since kappa is below 1, p is also at most 1.17.
+    # tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3, so that p <= sqrt(3 kappa). Also p <= 1.17, since kappa < 1.
     unit = np.sqrt(3 * kappa)
     return 2 * unit * brentq(lambda x: _tangent_excess(unit * x) - kappa, 0.6, min(1.1, 1.2 / unit), xtol=1e-15)
 
@@ -116,9 +103,7 @@ def _tangent_excess(p):
 def largest_C(kappa: float) -> float:
     """Return the largest C at which the ball stays between the walls, that is |W_0| <= 1 with W_0 of (10.10).
 
-    C is given by 1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time(kappa) / 2.
-
-    C grows with kappa, from 1 at kappa = 0.
+    1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time(kappa) / 2. As kappa grows from 0, C grows from 1.
 
     Raises
     ------
@@ -130,7 +115,7 @@ def largest_C(kappa: float) -> float:
 
 
 def stays_within_walls(C: float, kappa: float) -> bool:
-    """Return True if the ball stays between the walls at amplitude C, that is for 0 <= C <= largest_C(kappa).
+    """Return True if the ball stays between the walls, that is for 0 <= C <= largest_C(kappa).
 
     Raises
     ------

@@ -11,12 +11,7 @@ from vibroimpact.theory.manifold import impact_phase, rho, sawtooth
 class Response:
     """Coordinates of both modules at n times, each (n, 2), dimensionless.
 
-    Attributes
-    ----------
-    U, X : ndarray
-        Coordinates U_i = X_i + epsilon Y_i, and displacements X_i of the boxes.
-    W, Y : ndarray
-        Relative displacements W_i = X_i - Y_i, and displacements Y_i of the balls.
+    X is the displacement of the box and Y that of the ball; U = X + epsilon Y and W = X - Y.
     """
 
     U: np.ndarray
@@ -26,16 +21,9 @@ class Response:
 
 
 def leading_order(system, point, tau) -> Response:
-    """Return U_i0 and W_i0 of (10.9), (10.10) for a fixed point, with the corresponding X_i and Y_i, at times `tau`.
+    """Return U_i0 and W_i0 of (10.9), (10.10) at a fixed point, with X_i and Y_i, at times `tau`, (n,).
 
-    All coordinates of an inactive module are 0.
-
-    Parameters
-    ----------
-    point
-        A fixed point, of which C, B and psi are used.
-    tau
-        Times, shape (n,), dimensionless; the forcing is f_i sin(Omega tau).
+    The forcing is f_i sin(Omega tau). All coordinates of an inactive module are 0.
     """
     phase = system.Omega * np.asarray(tau, dtype=float)[:, None] - point.psi
     U = point.B * np.sin(phase)
@@ -48,14 +36,7 @@ def leading_order(system, point, tau) -> Response:
 def impact_times(system, point) -> np.ndarray:
     """Return the time tau in [0, period) at which each ball meets the wall W = +1, shape (2,).
 
-    Each ball meets the wall W = -1 half a period later.
-
-    The time is NaN for an inactive module.
-
-    Parameters
-    ----------
-    point
-        A fixed point, of which C and psi are used.
+    Each ball meets the wall W = -1 half a period later. The time is NaN for an inactive module.
     """
     phase = impact_phase(point.C, rho(system.kappa)) + point.psi
     return np.remainder(phase, 2 * np.pi) / system.Omega

@@ -13,11 +13,10 @@ _ONE = np.eye(2)
 
 
 def impedances(system) -> tuple[np.ndarray, complex]:
-    """Return the slow impedances: (e_1, e_2) of the two boxes alone, without balls and coupling, and K of the coupling.
+    """Return the slow impedances: (e_1, e_2) of the two boxes without balls and coupling, and K of the coupling.
 
-    Let b_n = B_n exp(-i psi_n) for module n, and let m be the number of the other module. The slow flow is
-    2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m), where N is the describing function of the ball
-    and D_1 = d / dtau_1.
+    With b_n = B_n exp(-i psi_n), the slow flow is 2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m). Here m is the
+    other module, N is the describing function of the ball, and D_1 = d / dtau_1.
     """
     detuning = np.array([0, system.sigma20_hat]) - 2 * system.sigma_e_hat
     damping = np.array([system.gamma1_hat, system.gamma2_hat])
@@ -27,19 +26,13 @@ def impedances(system) -> tuple[np.ndarray, complex]:
 def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
     """Return the rates D_1 B_i and D_1 psi_i, each (2,), by (10.22); both vanish at a fixed point, (10.23).
 
-    Parameters
-    ----------
-    B, psi, C
-        Amplitudes, phases [rad] and saw-tooth amplitudes of the modules, each shape (2,).
+    B, psi [rad] and the saw-tooth amplitudes C have the shape (2,).
     """
     return rates_from_phasors(system, np.asarray(B), np.cos(psi), np.sin(psi), np.asarray(C))
 
 
 def rates_from_phasors(system, B, cosine, sine, C):
-    """Return the same values as `rates`, from B, cos psi, sin psi and C, each shape (2,).
-
-    The values are rational functions of these arguments, so that the function is suitable for computer algebra.
-    """
+    """Return `rates` from B, cos psi, sin psi and C, as rational functions for computer algebra."""
     forcing = np.array([system.f10_hat, system.f20_hat])
     damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat
     stiffness = np.array([0, system.sigma20_hat]) + system.alpha12_hat - 2 * system.sigma_e_hat
@@ -56,16 +49,10 @@ def rates_from_phasors(system, B, cosine, sine, C):
 
 
 def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return the rates D_1 (B_1, psi_1, B_2, psi_2) on the manifold, (4,), and their derivatives (4, 4).
+    """Return the rates D_1 (B_1, psi_1, B_2, psi_2) on the manifold, and their Jacobian.
 
-    The derivatives are taken with respect to (C_1, psi_1, C_2, psi_2).
-
-    If only one module is active, the shapes are (2,) and (2, 2).
-
-    Parameters
-    ----------
-    psi, C
-        Phases [rad] and saw-tooth amplitudes, each shape (2,).
+    The Jacobian contains derivatives with respect to (C_1, psi_1, C_2, psi_2). With one active module, the shapes are
+    (2,) and (2, 2), else (4,) and (4, 4).
     """
     psi, C = (np.where(_active(system)[::2], of, 0.0) for of in (psi, C))
     rest = np.column_stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C)).ravel()
@@ -75,14 +62,8 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     """Return J and M, each (..., 4, 4): perturbations x of (C_1, psi_1, C_2, psi_2) satisfy M dx/dtau_1 = J x.
 
-    J and M stay finite at the fold C_min, where the usual Jacobian in (B, psi) is infinite. M contains the slope dB/dC
-    of the manifold and is singular at the fold. If only one module is active, J and M have the shape (..., 2, 2).
-
-    Parameters
-    ----------
-    psi, C
-        Phases [rad] and saw-tooth amplitudes on the manifold, each shape (..., 2). Entries of an inactive module have
-        no effect.
+    At the fold, M is singular, whereas the Jacobian in (B, psi) is infinite. With one active module, J and M are
+    (..., 2, 2).
     """
     r = rho(system.kappa)
     psi, C = (np.where(_active(system)[::2], of, 0.0) for of in (psi, C))
@@ -95,16 +76,8 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
     """Return J and M as in `linearisation`, for any curve on which B_i and N_i B_i are functions of a parameter x_i.
 
-    N_i is the describing function of ball i. J and M apply to perturbations of (x_1, psi_1, x_2, psi_2).
-
-    Parameters
-    ----------
-    psi
-        Phases [rad], shape (..., 2).
-    B, ball
-        Amplitudes B_i and complex N_i B_i, each shape (..., 2).
-    B_x, ball_x
-        Derivatives of B_i and of N_i B_i with respect to x_i, each shape (..., 2).
+    `ball` is N_i B_i, with the describing function N_i. `B_x` and `ball_x` are derivatives with respect to x_i. All
+    arrays have the shape (..., 2).
     """
     e, K = impedances(system)
     forcing = np.array([system.f10_hat, system.f20_hat])
@@ -128,22 +101,14 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _active(system):
-    """Return a mask (4,) of the slow variables that belong to an active module (see `System.modules`).
-
-    If no module is active, the motions of both modules die out, and all entries are True.
-    """
+    """Return a mask (4,) of the slow variables of active modules; if no module is active, all are True."""
     return np.isin(MODULES, system.modules or (1, 2))
 
 
 def slow_eigenvalues(system, psi, C) -> np.ndarray:
-    """Return the complex eigenvalues of the slow flow, per unit of tau_1, by descending real part.
+    """Return the eigenvalues of the slow flow per unit of tau_1, two per active module, by descending real part.
 
-    There are two eigenvalues for each active module. At the fold of the manifold an eigenvalue is infinite.
-
-    Parameters
-    ----------
-    psi, C
-        Phases [rad] and saw-tooth amplitudes of a fixed point, each shape (2,).
+    At the fold of the manifold one is infinite.
     """
     return descending(eigvals(*linearisation(system, psi, C)))
 
