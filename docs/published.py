@@ -7,7 +7,7 @@ import vibroimpact as vi
 
 
 def wall(F, omega, c, kappa):
-    """Return an oscillator (mass 1, stiffness 1); its wall is a ball of mass 1e12, and the unit of length is L = 50."""
+    """Return an oscillator that hits a wall (a ball of mass 1e12); lengths are in units of 50."""
     return vi.PhysicalSystem.single(M=1, m=1e12, k=1, c=c, F=F, L=50, kappa=kappa, omega=omega).dimensionless()
 
 
@@ -28,7 +28,7 @@ def resonant(system):
 
 
 def flight(stiffness, x, V):
-    """Return the duration and the final X of a flight of the ball that starts at X = x with the ball speed V."""
+    """Return the duration of a ball's flight that starts with the speed V at X = x, and the final X."""
     cell = vi.PhysicalSystem.single(M=1, m=0.3, k=stiffness, c=0, F=0, kappa=1 - 1e-12).dimensionless()
     v = V / stiffness**0.5  # dimensionless speed; tau is the time multiplied by stiffness**0.5
     impact = vi.simulate(cell, [x, x - 1, 0, 0, -0.3 * v, v, 0, 0], 9).events[0]
@@ -36,7 +36,7 @@ def flight(stiffness, x, V):
 
 
 def half_period(stiffness, V, low, high):
-    """Return half the period of a symmetric unforced motion that has an impact at an X between `low` and `high`."""
+    """Return half the period of a symmetric free motion that has an impact at an X in [low, high]."""
     x = brentq(lambda x: flight(stiffness, x, V)[1] + x, low, high)
     return flight(stiffness, x, V)[0]
 
@@ -109,7 +109,7 @@ def masri():
 
 def chatter():
     spring = vi.PhysicalSystem.single(M=1e-3, m=1e12, k=100, c=0, F=0, kappa=0.9).dimensionless()
-    # The mass hits the floor at X = 9.81e-5, which is above the equilibrium of the mass, X = 0.
+    # The floor is at X = 9.81e-5, above the equilibrium X = 0 of the mass.
     run = vi.simulate(spring, [1 + 9.81e-5, 1 + 9.81e-5, 0, 0, 0, 0, 0, 0], 44)
     times = run.events["tau"] / 1e5**0.5
     return [*times[[0, 1, 9, 49, 99, 149]], times[-1]]

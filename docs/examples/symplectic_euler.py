@@ -25,7 +25,7 @@ class SymplecticEuler(Method):
 
 @njit(cache=True)
 def _march(q, s, tau0, h, steps):
-    """Return the state after `steps` steps of length h, and for each impact a row [time, module, wall, speed]."""
+    """Return the state after all steps of length h, and one row [time, module, wall, speed] per impact."""
     epsilon, kappa = q[9], q[10]
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     for n in range(steps):
