@@ -1,20 +1,19 @@
 """Computational nonlinear dynamics of two coupled vibro-impact modules: theory, exact simulation, comparison.
 
-- `System`, `PhysicalSystem`: the parameters, dimensionless or in SI units.
-- `fixed_points`: the motions that the chapter's theory predicts.
-- `orbits`, `prove`: exact periodic motions with Floquet multipliers; proof of such a motion in interval arithmetic.
-- `periodic_orbit`: a periodic motion of any period with any sequence of impacts, refined from a nearby state.
-- `simulate`, `simulate_many`, `ensemble`: one exact run; many exact runs; summary statistics of many runs.
+- `System`, `PhysicalSystem`: parameters, dimensionless or in SI units.
+- `fixed_points`: motions that the chapter's theory predicts.
+- `orbits`, `prove`: exact periodic motions with Floquet multipliers, and their proofs.
+- `periodic_orbit`: a periodic motion of any period, refined from a nearby state.
+- `simulate`, `simulate_many`, `ensemble`: one exact run, many exact runs, summary statistics of many runs.
 - `largest_lyapunov`, `lyapunov_spectrum`: Lyapunov exponents with error estimates.
-- `attractors`, `basins`: the attractors of a system; their basins on a plane of initial states.
-- `sections`: stroboscopic sections of many runs, such as a bifurcation diagram.
-- `branches`: continuation, in one parameter, of 1:1 motions (one impact at each wall per forcing period).
-- `sweep`: regimes, amplitudes and other quantities on a grid of parameters.
+- `attractors`, `basins`: attractors, and their basins on a plane of initial states.
+- `sections`: stroboscopic sections, such as a bifurcation diagram.
+- `branches`: continuation of motions with one impact at each wall per forcing period.
+- `sweep`: regimes and amplitudes on a grid of parameters.
 - `design`: choice of the ball for a machine.
 - `to_frame`, `to_dataset`: results as tables.
 
-Verdicts on stability have the same names everywhere: `fast` (stability of the impacts), `slow` (stability of the
-amplitudes), `theory` (`fast` and `slow` together) and `exact` (stability of the exact orbit).
+Stability verdicts are named `fast` (impacts), `slow` (amplitudes), `theory` (both) and `exact` (exact orbit).
 """
 
 from importlib import import_module

@@ -1,7 +1,7 @@
 """Compile the code of `simulate`, `ensemble` and `Run` before its first use: `python -m vibroimpact.compile`.
 
-Numba caches the code in NUMBA_CACHE_DIR if this is set. Otherwise it uses the first of these folders that is writable:
-the folder of the library, the user's cache, a temporary folder.
+The code is cached in NUMBA_CACHE_DIR, if set, or in the first writable folder: that of the library, the user's cache, a
+temporary folder.
 """
 
 import gc
@@ -37,10 +37,7 @@ def simulations() -> None:
 
 
 def ensembles() -> None:
-    """Compile the code for ensembles: for several runs at once, and for runs of undamped systems (one run at a time).
-
-    Call this function last, because ensembles use all other compiled code.
-    """
+    """Compile the code for ensembles; call this function last, since ensembles use all other compiled code."""
     from vibroimpact.exact.lanes.ensemble import ensemble
 
     system = _system()

@@ -45,10 +45,7 @@ class Table(NamedTuple):
     """Function that draws the result as a Matplotlib Figure."""
 
     def write(self, file) -> None:
-        """Write the table as CSV to an open text file.
-
-        Numbers have all digits that are needed to read them back exactly; NaN is an empty field.
-        """
+        """Write the table as CSV to an open text file, with all digits; NaN is an empty field."""
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(self.columns)
         writer.writerows([["" if value != value else value for value in row] for row in self.rows])
@@ -86,8 +83,7 @@ def _fixed_points(system, options):
 def _orbits(system, options):
     """Return one row per admissible orbit.
 
-    For each module and wall, the columns contain the phase of the impact [forcing periods] and the speed of the ball
-    after the impact. modulus_1 is the largest modulus of a Floquet multiplier.
+    Phases are in forcing periods, speeds are those after an impact. modulus_1 is the largest Floquet modulus.
     """
     measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
     columns = ("symmetric", "C1", "C2", *measures, "modulus_1", "residual", "exact")

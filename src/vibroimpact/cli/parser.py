@@ -27,7 +27,7 @@ class _Parser(argparse.ArgumentParser):
 def main(arguments: list[str] | None = None) -> int:
     """Run one command and return 0.
 
-    The process exits with status 2 for invalid arguments, and with status 1 for a failed computation.
+    Exit with status 2 for invalid arguments, and with status 1 for a failed computation.
     """
     options = parser().parse_args(arguments)
     options.run(options)
@@ -85,9 +85,9 @@ def _check_folders(options):
 
 
 def _put(table: Table, output: Path | None):
-    """Write the table to the file `output`, if given, and print the summary, if the command has one.
+    """Write the table to `output`, if given, and print the summary, if there is one.
 
-    The table is printed if there is no file and no summary, or if the table cannot be saved.
+    The table is printed if there is no file and no summary, or if writing fails.
     """
     failed = None
     try:
