@@ -28,13 +28,7 @@ SHORT = 10
 
 
 def methods_table(seconds: float) -> list[dict]:
-    """Return one row per method and setting for the motion PROBLEM: time per impact [us], and errors of the run.
-
-    Parameters
-    ----------
-    seconds : float
-        Time [s] for which the run with each setting is repeated, as in `work_precision.measure`.
-    """
+    """Return one row per method and setting: time per impact [us], and errors, for the motion PROBLEM."""
     run = simulate(PROBLEM.system, PROBLEM.state, PROBLEM.cycles)
     per_cycle = _impacts(run) / PROBLEM.cycles
     errors = "error_state", "error_time", "missed", "spurious", "reason"
@@ -48,10 +42,7 @@ def methods_table(seconds: float) -> list[dict]:
 
 
 def scenes() -> dict[str, tuple]:
-    """Return a dictionary of scenes, which are sets of n motions; each key is the description of a scene.
-
-    Each value is a tuple (one system or n systems, initial states (n, 8), number of cycles).
-    """
+    """Return tuples (one system or n systems, initial states (n, 8), number of cycles), keyed by description."""
     equal, weak = (System(**PARAMETERS, **CASES[case]) for case in ("equal", "weak"))
     sweep = [
         equal.with_(sigma_e_hat=detuning, f10_hat=force, f20_hat=force)
@@ -68,17 +59,7 @@ def scenes() -> dict[str, tuple]:
 
 
 def scenes_table(seconds: float) -> list[dict]:
-    """Return the time per impact [us] on one core: for each scene, one row for `ensemble` and one for single runs.
-
-    The row of `ensemble` also contains an error. To measure the error, some motions of the scene are computed twice
-    over a few cycles: in an ensemble and by single runs. The difference for one motion is the largest difference
-    between the coordinates of the two final states. The error is the median of the differences for all these motions.
-
-    Parameters
-    ----------
-    seconds : float
-        Time [s] for which the ensemble is repeated. The single runs are repeated for the same time.
-    """
+    """Return the time per impact [us] on one core for `ensemble` and for single runs, two rows per scene."""
     with at_most(1):
         return [row for name, scene in scenes().items() for row in _compared(name, *scene, seconds)]
 

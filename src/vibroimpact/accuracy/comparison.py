@@ -14,24 +14,17 @@ OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDL
 
 
 def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per method, in the order of `work_precision`: relative cost, and results of the stress tests.
+    """Return one row per method: relative cost, and numbers of stress tests.
 
-    A run solves a problem if it has an error of at most 1e-6 and no missed or spurious impacts. The cost of a method
-    for a problem is the shortest time per cycle of the method's runs that solve the problem. Columns:
+    The arguments are rows of `work_precision.measure` and of `stress_tests.judge`. A method solves a problem if it has
+    a run with an error of at most 1e-6 and no missed or spurious impacts. Its cost is the shortest time of such a run.
 
-    - method, family;
     - problems: number of solved problems;
-    - times: cost divided by the cost of the first method, largest value over all problems; blank unless both methods
-      solve all problems;
+    - times: largest ratio of the cost to that of the first method; blank unless both methods solve all problems;
     - right: number of stress tests with a right result;
-    - wrong: number of stress tests with a wrong result for which the method reports no error or doubt;
+    - wrong: number of stress tests with a wrong result but no reported error or doubt;
     - stopped: number of stress tests that end with an error or do not finish;
     - tests: number of all stress tests.
-
-    Parameters
-    ----------
-    work_precision, stress_tests : DataFrame
-        Rows of `work_precision.measure` for all problems, and rows of `stress_tests.judge` for all tests.
     """
     good = _good(work_precision, GOAL)
     cost = good.pivot_table("seconds_per_cycle", "method", "problem", aggfunc="min")
@@ -47,11 +40,9 @@ def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> p
 
 
 def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
-    """Return the two cheapest methods for each problem and each allowed error in GOALS.
+    """Return the two cheapest methods with stress tests for each problem and each allowed error in GOALS.
 
-    `compared` is the result of `methods_table`. Methods without stress tests in `compared` are left out. Columns:
-    problem, error (largest allowed error of the final state), choice (1 or 2), method, setting, seconds_per_cycle, and
-    two columns copied from `compared`: wrong and tests.
+    compared: result of `methods_table`.
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]

@@ -16,10 +16,8 @@ WINDOW = 0.05
 class Errors(NamedTuple):
     """Errors of a run against a reference run.
 
-    error_state: largest difference of a coordinate of the final state. error_time: largest time difference [tau]
-    between matching impacts (0 if no impacts match). Both are inf if the run has no final state. missed: number of
-    impacts of the reference without a match in the run. spurious: number of impacts of the run without a match in the
-    reference.
+    error_state: largest error of a final coordinate, or inf without a final state. error_time: largest time error [tau]
+    of a matched impact. missed, spurious: numbers of unmatched impacts of the reference and of the run.
     """
 
     error_state: float
@@ -29,18 +27,9 @@ class Errors(NamedTuple):
 
 
 def run_errors(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
-    """Return the errors of a MethodRun against a reference run of the same motion.
+    """Return the errors of a MethodRun against a reference run.
 
-    The reference needs the attributes `events` and `final`, as in a run of `vibroimpact.simulate`.
-
-    Parameters
-    ----------
-    period : float
-        Forcing period, in units of tau.
-    faint : float, default FAINT
-        Impacts with at most this rebound speed need not be found.
-    events : bool, default True
-        False to compare only the final states, for a reference that does not have all events.
+    faint: rebound speed up to which impacts may be missed. events: False to ignore impacts.
     """
     if run.final is None:
         return Errors(np.inf, np.inf, 0, 0)
@@ -60,15 +49,15 @@ def run_errors(run, reference, period: float, faint: float = FAINT, events: bool
 
 
 def _near(times, others, window) -> np.ndarray:
-    """Return True for each time in `times` that differs by at most `window` from some time in `others`, else False."""
+    """Return True for each time that is within `window` of one of `others`, else False."""
     apart = np.abs(np.subtract.outer(np.asarray(times, dtype=float), others))
     return apart.min(axis=1, initial=np.inf) <= window
 
 
 def _align(expected, found, window):
-    """Pair the times of two ascending sequences, in order; the two times of a pair differ by at most `window`.
+    """Pair times of two ascending sequences that differ by at most `window`.
 
-    Return (largest difference in a pair, number of expected times without a pair, list of found times without a pair).
+    Return (largest difference in a pair, number of unpaired expected times, unpaired found times).
     """
     apart, lost, extra = 0.0, 0, []
     i = j = 0

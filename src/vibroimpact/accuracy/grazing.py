@@ -14,22 +14,12 @@ NEWTON_STEPS = 12
 
 
 def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float, ...]:
-    """Return an initial state (8,) from which ball 1 clears the wall +1 by `clearance` at its first approach.
+    """Return an initial state (8,) from which ball 1 clears the wall +1 by `clearance`, or hits it if this is negative.
 
-    W_1 = X_1 - Y_1 has its maximum when X_1' equals the velocity of the ball. Before the first impact, the motion of
-    the boxes and the velocity of the ball do not depend on the initial position of the ball. This position is set so
-    that the maximum of W_1 is 1 - clearance. With a negative clearance the ball hits the wall. Rounding the state to
-    float64 changes the clearance by up to 1e-16.
+    W_1 = X_1 - Y_1 is largest when X_1' equals the ball velocity. This time does not depend on the initial Y_1.
+    Rounding the state changes the clearance by up to 1e-16.
 
-    Parameters
-    ----------
-    boxes
-        Initial X_1, X_2, X_1', X_2' as decimal strings. Ball 2 starts in the middle of its box, with the velocity of
-        the box.
-    ball_velocity
-        Initial velocity of ball 1.
-    guess
-        Time tau near the maximum of W_1.
+    boxes: initial X_1, X_2, X_1', X_2' as decimal strings. guess: time tau near the maximum of W_1.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""List the models that can compute a figure of the chapter, and compute the motion of a fixed point with each model."""
+"""List the models that can compute a figure, and compute the motion of a fixed point with each model."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -47,10 +47,9 @@ SAMPLES = 400
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Symmetric motion that one model gives for a fixed point.
+    """Symmetric motion that a model gives for a fixed point.
 
-    point: label, C, B and psi of the motion. impacts: for each ball, a time tau >= 0 at which the ball hits the wall
-    W = +1, (2,). The ball hits the wall W = -1 half a period later. Inactive modules (see `System.modules`) have NaN.
+    impacts (2,): for each ball, a time tau >= 0 at which it hits the wall W = +1, or NaN for an inactive module.
     response: function that returns U, X, W, Y at times tau (n,).
     """
 
@@ -62,19 +61,13 @@ class Motion:
 def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
     """Return the motion that a model gives for each fixed point of a system.
 
-    The result of the model exact_orbit omits the fixed points without an exact orbit next to them.
-
-    Parameters
-    ----------
-    points : list of LabelledPoint
-        All fixed points of the system. All are needed because each orbit is assigned to the nearest point.
-    model : str
-        slow_flow, exact_orbit or second_term.
+    points: all fixed points, since an exact orbit belongs to the nearest one. The model exact_orbit omits points
+    without an orbit.
 
     Raises
     ------
     ValueError
-        If the model is unknown, or if second_term finds no orbit next to a fixed point at small epsilon.
+        If the model is not slow_flow, exact_orbit or second_term, or if second_term finds no orbit.
     """
     if model == "slow_flow":
         return [
@@ -91,12 +84,12 @@ def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
 
 
 def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
-    """Return the motion of one fixed point (see `motions`), given its label and a table of all fixed points.
+    """Return the motion of the fixed point with the given label; `points` contains all fixed points.
 
     Raises
     ------
     ValueError
-        As for `motions`, or if the table has no point with this label, or if no exact orbit lies next to the point.
+        As for `motions`, or if no motion with this label is found.
     """
     labelled_point(points, label)
     found = {one.point.label: one for one in motions(system, labelled_points(points), model)}
@@ -112,10 +105,7 @@ def _exact(system, point, root) -> Motion:
 
 
 def _second_term(system, point) -> Motion:
-    """Return the leading-order motion corrected by the second term of (10.7).
-
-    The second term changes C, the impact times and U.
-    """
+    """Return the leading-order motion, corrected by the second term of (10.7)."""
     C, shift = second_term.first_order(system, point)
     impacts = np.remainder(impact_times(system, point) + system.epsilon * shift / system.Omega, system.period)
     near = cache(lambda epsilon: second_term.near(system, point, epsilon))
@@ -132,10 +122,7 @@ def _second_term(system, point) -> Motion:
 
 
 def _motion(system, point, C, impacts, U) -> Motion:
-    """Return the motion with the given U(tau), and with a saw-tooth of the given amplitudes C and impact times.
-
-    B and psi are computed from the first harmonic of U.
-    """
+    """Return the motion with the given U(tau), saw-tooth amplitudes C and impact times."""
 
     def response(tau):
         boxes, Z = U(tau), _sawtooth(system, C, impacts, tau)
@@ -153,5 +140,5 @@ def _exact_U(system, root, tau):
 
 
 def _sawtooth(system, C, impacts, tau):
-    """Return the saw-tooth Z_i = W_i - U_i at times tau (n,), shape (n, 2); it is 0 for an inactive module."""
+    """Return the saw-tooth Z = W - U at times tau (n,), shape (n, 2); inactive modules have 0."""
     return np.nan_to_num(sawtooth(system.Omega * (tau[:, None] - impacts), C, 0.0))

@@ -1,6 +1,6 @@
-"""Compute the second term of (10.7) from the derivative of exact orbits with respect to epsilon, at epsilon = 0.
+"""Compute the second term of (10.7) from the epsilon-derivative of exact orbits at epsilon = 0.
 
-An asymptotic series is unique, so that the method of multiple scales gives the same term.
+The method of multiple scales gives the same term, because an asymptotic series is unique.
 """
 
 import numpy as np
@@ -20,9 +20,7 @@ class NoOrbit(ValueError):
 
 
 def first_order(system, point) -> np.ndarray:
-    """Return the epsilon-derivatives of C (row 0) and of the impact phases [rad] (row 1) at a fixed point, (2, 2).
-
-    Multiplied by epsilon, they are the second terms of (10.7). An inactive module (`System.modules`) has NaN.
+    """Return the second terms of (10.7), divided by epsilon, for C (row 0) and the impact phases [rad] (row 1).
 
     Raises
     ------
@@ -38,23 +36,18 @@ def first_order(system, point) -> np.ndarray:
 
 
 def at_zero(slope):
-    """Return the limit of the analytic function slope(epsilon) at epsilon = 0, by Richardson extrapolation.
-
-    Three values of the function are used, so that the error is of order STEP^3.
-    """
+    """Return the limit of an analytic function slope(epsilon) at 0, with an error of order STEP^3."""
     low, middle, high = (slope(n * STEP) for n in (1, 2, 4))
     return (8 * low - 6 * middle + high) / 3
 
 
 def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
-    """Return the system with the given epsilon, and the symmetric orbit (4,) of this system next to a fixed point.
-
-    The orbit is given as a root of SymmetricConditions: [impact times, amplitudes C].
+    """Return the system with the given epsilon, and its orbit [impact times, amplitudes C] next to a fixed point.
 
     Raises
     ------
     NoOrbit
-        If Newton's method, started at the fixed point, finds no root.
+        If Newton's method finds no orbit.
     """
     here = system.with_(epsilon=epsilon)
     start = np.nan_to_num(np.concatenate([impact_times(here, point), point.C]))
@@ -68,8 +61,7 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 def offsets(system, point, roots) -> np.ndarray:
     """Return C (row 0) and impact phases [rad] (row 1) of orbits, minus those of a fixed point.
 
-    `roots` (..., 4) are the roots of SymmetricConditions that describe the orbits. The result has the shape
-    (..., 2, 2); entries of an inactive module are NaN.
+    roots (..., 4): orbits, [impact times, amplitudes C].
     """
     phases = np.angle(np.exp(1j * system.Omega * (roots[..., :2] - impact_times(system, point))))
     return np.stack([roots[..., 2:] - point.C, phases], axis=-2)

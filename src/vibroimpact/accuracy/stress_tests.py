@@ -1,7 +1,4 @@
-"""Define stress tests (problems that are hard for a known reason), and judge every method on them.
-
-To add a stress test, extend the function `stress_tests`.
-"""
+"""Define stress tests, which are hard for a known reason, and judge methods on them."""
 
 from dataclasses import dataclass
 
@@ -27,11 +24,10 @@ CHAPTER = PARAMETERS | CASES["equal"]
 
 @dataclass(frozen=True)
 class StressTest:
-    """A test problem: group (kind of difficulty), name, system, initial state (8,) at tau = 0, forcing cycles.
+    """Test problem: group, name, system, initial state (8,) at tau = 0, number of cycles.
 
-    faint: impacts with at most this rebound speed need not be found (0: all impacts must be found). reference_cycles:
-    number of cycles after which the motion has settled, so that the reference run ends there; None if the reference run
-    has `cycles` cycles. quick: True if the test also belongs to the reduced set.
+    faint: rebound speed up to which impacts may be missed. reference_cycles: number of cycles of the reference run if
+    the motion settles. quick: True if the reduced set contains the test.
     """
 
     group: str
@@ -47,15 +43,15 @@ class StressTest:
 REST = (0.0,) * 8
 SETTLED = (-0.0863, 0.3689, -0.4889, -0.7167, -0.1597, -0.6893, -0.3681, -1.2869)
 MODULATED = (0.0647, 0.5421, -0.1898, 0.0, -0.2101, -0.6997, 0.0459, 0.0)
-PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 just before a slow impact; the wall pushes the ball
-RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 rests on a wall of box 1; the wall pushes the ball
+PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 will hit a wall slowly and chatter
+RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 rests on a wall that pushes it
 TOGETHER = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)  # both modules move in the same way
 MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # module 2 mirrors module 1
 FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # on the manifold at C = C_min, (10.25)
 
 
 def stress_tests() -> list[StressTest]:
-    """Return all stress tests, in the order in which tables list them."""
+    """Return all stress tests, in the order of the tables; add a new test here."""
     system = System(**CHAPTER)
     weak = system.with_(f10_hat=0.5, f20_hat=0.5)
     twins = system.with_(sigma20_hat=0.0)
@@ -127,20 +123,12 @@ def _row(test, method, reference):
 
 
 def grazing(system: System, side: int, digits: int) -> StressTest:
-    """Return the test in which ball 1 barely misses or barely hits a wall, by 10^-digits.
-
-    If `side` is 1, the gap between ball and wall falls to 10^-digits and increases again. If `side` is -1, the ball
-    hits the wall; without the wall, the ball would go 10^-digits farther. A method must find even the slowest impact.
-    """
+    """Return the test in which ball 1 misses (side 1) or hits (side -1) a wall by 10^-digits."""
     start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
     name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"
     return StressTest("grazing", name, system, start, 1, faint=0.0, quick=digits in (2, 6, 10, 14))
 
 
 def _crossing(system, periods):
-    """Return a state from which ball 1 reaches a wall after `periods` forcing periods, up to rounding.
-
-    In this state both boxes are at rest, and ball 2 rests in the middle of its box. The forcing amplitudes of `system`
-    must be 0, so that the boxes stay at rest until the impact.
-    """
+    """Return a state from which ball 1 hits a wall after `periods` periods, up to rounding, without forcing."""
     return (0.0, 0.0, 0.0, 0.0, 0.0, -1.0 / (periods * system.period), 0.0, 0.0)

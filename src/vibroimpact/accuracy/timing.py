@@ -9,10 +9,9 @@ MOST_CALLS = 5000
 
 
 def interleaved(functions, seconds: float) -> list[tuple]:
-    """Call several functions repeatedly, in turn, so that a disturbance of the machine affects all of them.
+    """Return the result and the shortest time [s] of each function, from repeated calls in turn.
 
-    Each function is called until its calls have taken `seconds` in total, but at most MOST_CALLS times. One-time work
-    (such as compilation) must be done by an earlier call. Return the result and the shortest time [s] of each function.
+    Because of the turns, a disturbance of the machine affects all functions. Compile all code before.
     """
     given, best = [None] * len(functions), [float("inf")] * len(functions)
     total, calls, left = [0.0] * len(functions), [0] * len(functions), list(range(len(functions)))

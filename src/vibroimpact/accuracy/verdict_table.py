@@ -24,10 +24,9 @@ epsilon = 0.1, it is at most 0.29, or above 2.5 where the orbits next to two fix
 
 
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
-    """Return one row per orbit, in the order of `orbits`, with the verdict of each criterion.
+    """Return one row per orbit with the verdict of each criterion.
 
-    Columns: case, label ("S1", ... if symmetric, "A1", ... if asymmetric), the columns of `Orbit.row` except `proved`,
-    one column per criterion and, if any of the orbits has a proof, the columns of `OrbitProof.row`.
+    The labels are S1, ... (symmetric) and A1, ... (asymmetric). Proofs of orbits add columns.
     """
     counts, rows = {True: 0, False: 0}, []
     for orbit in orbits:
@@ -42,16 +41,8 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.DataFrame:
     """Return one row per fixed point, sorted by label, with the verdict of each criterion.
 
-    Columns: case; label; admissible (True if the balls stay between the walls at leading order); C1 and C2 (saw-tooth
-    amplitudes); orbit (label of the symmetric orbit next to the point, see `partners`, or "" if there is none); one
-    column per criterion. The column `exact` contains the Floquet verdict on this orbit, or NO_ORBIT.
-
-    Parameters
-    ----------
-    points : list of FixedPoint or LabelledPoint
-        Fixed points of the system, with their labels.
-    orbits : DataFrame
-        `orbit_rows` of the same case.
+    admissible: True if the balls stay between the walls at leading order. orbit: label of the exact orbit next to the
+    point, or "". orbits: `orbit_rows` of the case.
     """
     points = sorted(points, key=lambda point: point.label)
     symmetric = orbits[orbits["symmetric"].astype(bool)]  # in an empty table this column is not boolean
@@ -70,9 +61,7 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
 def partners(points, orbits) -> list[int | None]:
     """Return, for each fixed point, the index of the exact orbit next to it, or None.
 
-    `points` (n, 2) and `orbits` (m, 2) contain the saw-tooth amplitudes C of both modules. The amplitude of an inactive
-    module (`System.modules`) is NaN and is ignored. Each point is matched with its nearest orbit, unless another point
-    is nearer to this orbit or the distance is REACH or more.
+    points (n, 2), orbits (m, 2): amplitudes C. A point and its orbit are nearest to each other and closer than REACH.
     """
     points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
     if not len(orbits):

@@ -20,13 +20,10 @@ DIGITS = 40
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """Part of a simulation after the transient (the window), with a record of the whole run once per cycle.
+    """Part of a simulation after the transient (the window).
 
-    samples: tau and the state at evenly spaced times, both ends of the window included. events: tau, module, wall, kind
-    and the state just after each event in the window. strobe: tau and the state at the start of every forcing cycle of
-    the whole run and at the end of the run. trust: the method of the simulation, and evidence of its accuracy. For
-    float64, the evidence is the certificate of the run. For the reference arithmetic, the evidence is the largest
-    difference between two runs and the digits of these runs.
+    samples: tau and the state at evenly spaced times. events: events in the window. strobe: tau and the state once per
+    cycle of the whole run. trust: method and evidence of accuracy.
     """
 
     samples: pd.DataFrame
@@ -38,14 +35,8 @@ class Window:
 def window(system: System, settings: dict) -> Window:
     """Simulate a case and return its window.
 
-    Parameters
-    ----------
-    system : System
-        Dimensionless parameters.
-    settings : dict
-        initial_state: shape (8,). transient_cycles, window_cycles: numbers of forcing cycles before and in the window.
-        samples_per_cycle: number of samples per cycle. model: "float64" or "reference". digits (optional, default
-        DIGITS): decimal digits of the first reference run, which are doubled until two successive runs agree.
+    settings: initial_state (8,), transient_cycles, window_cycles, samples_per_cycle, and model ("float64" or
+    "reference"). Optional: digits, the number of digits of the first reference run.
 
     Raises
     ------

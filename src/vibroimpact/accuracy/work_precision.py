@@ -27,15 +27,9 @@ class Problem:
 
 
 def measure(problem: Problem, methods: list[Method], seconds: float, short: bool = False) -> list[dict]:
-    """Return one row per method and setting: errors against the reference, time per cycle [s] and fitted order.
+    """Return one row per method and setting: errors, time per cycle [s] and fitted order.
 
-    Parameters
-    ----------
-    seconds : float
-        Time [s] for which the run with each setting is repeated. Runs with different settings take turns. Code is
-        compiled before the timing starts.
-    short : bool, default False
-        Use only every second setting of each method.
+    short: True to skip every second setting.
     """
     reference = proven_run(problem.system, problem.state, problem.cycles, exact_floats=False).run
     settings = [
@@ -69,10 +63,7 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 
 
 def _measured(problem, setting, run, time, reference):
-    """Return the columns of a run: errors, time, numbers of steps and evaluations, outcome and reason.
-
-    The reason states the cause of a failure, or the doubt that the method itself reports; otherwise it is empty.
-    """
+    """Return the columns of a run; the reason is the cause of a failure or the doubt that the method reports."""
     return {
         "setting": str(setting),
         **run_errors(run, reference, problem.system.period)._asdict(),
@@ -85,10 +76,9 @@ def _measured(problem, setting, run, time, reference):
 
 
 def fitted_order(points) -> float | None:
-    """Fit log(error) against log(scale) by least squares; return the slope, or None for fewer than three points.
+    """Return the slope of log(error) against log(scale), or None.
 
-    `points` are pairs of the value of `Method.scale` and the error of a run. Only pairs whose error is in the
-    range RESOLVED are used.
+    points: pairs (scale, error). At least three errors must be in the range RESOLVED.
     """
     largest, smallest = RESOLVED
     resolved = [(scale, error) for scale, error in points if smallest <= error <= largest]

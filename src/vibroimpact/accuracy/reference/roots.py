@@ -8,17 +8,14 @@ class Undecidable(ArithmeticError):
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
-    """Return an interval (arb) that contains the first root of the series in (0, end] and no other root.
+    """Return an interval with the first root of a series in (0, end] and no other root, or None if there is no root.
 
-    Return None if (0, end] contains no root. In either case, mean-value enclosures of the series prove the result.
-
-    series: arb_poly, positive at 0. hint: point in (0, end) at which the search first splits (0, end]; this saves time
-    if the first root is much nearer to 0 than to `end`.
+    series: arb_poly, positive at 0. hint: point at which (0, end] is split first.
 
     Raises
     ------
     Undecidable
-        If the precision cannot distinguish a nearly tangential approach from a contact.
+        If the precision cannot distinguish a near miss from a contact.
     """
     if not series(arb(0)) > 0:
         raise Undecidable("cannot decide whether a ball touches or leaves a wall when a flight starts; use more digits")
@@ -41,19 +38,15 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
         if depth > 0.6 * ctx.prec:
             least = float(abs(series(middle)).upper())
             raise Undecidable(
-                "cannot decide whether a ball touches or leaves a wall, since the distance or contact force falls to "
-                f"{least:.1e}; use more digits"
+                "cannot decide whether a ball touches or leaves a wall: "
+                f"the distance or contact force falls to {least:.1e}; use more digits"
             )
         pieces += [(middle, stop, depth + 1), (start, middle, depth + 1)]
     return None
 
 
 def refine(series, ball: arb) -> arb:
-    """Return the root of a series in the interval `ball`, to working precision.
-
-    The series must decrease on this interval and have one root in it. The interval Newton method is used, with
-    bisection as the fallback.
-    """
+    """Return the root of a series that decreases in the interval `ball`, to working precision."""
     slope = series.derivative()
     while True:
         middle = ball.mid()

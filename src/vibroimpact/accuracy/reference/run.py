@@ -1,9 +1,8 @@
 """Simulate (10.1) in arbitrary precision, as the reference for all other methods.
 
-Parameters and initial state are rational numbers. Between events the motion of the boxes is a Taylor series with an
-enclosed tail, and the next event is found with proof in ball arithmetic. Each flight starts from an exact (rational)
-state, so that the error of a single flight is enclosed. To check how these errors grow along the trajectory,
-`proven_run` repeats the run with more digits.
+Each flight is a Taylor series with an enclosed tail. Ball arithmetic proves which event is next. Each flight starts
+from an exact state, so that its error is enclosed. `proven_run` checks the growth of these errors by a run with more
+digits.
 """
 
 from dataclasses import dataclass
@@ -24,12 +23,10 @@ ACCURACY, MAX_DIGITS = 1e-15, 5000
 
 @dataclass(frozen=True, eq=False)
 class ReferenceRun:
-    """Dimensionless trajectory in arbitrary precision; a state is [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
+    """Dimensionless run in arbitrary precision; a state is [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
 
-    digits: decimals to which a single flight is computed. events: structured array (tau, module, wall, kind 0 impact /
-    1 stick / 2 release, state after), rounded to float64. event_taus (n,), event_states (n, 8), final_exact (8,): times
-    and states of the events, and final state, in arbitrary precision (flint.arb). samples (n, 8), final (8,): float64.
-    chatters: number of chatters that were extrapolated to their end.
+    events: array of type EVENT. event_taus (n,), event_states (n, 8), final_exact (8,): the same times and states, and
+    the final state, as flint.arb. samples (n, 8), final (8,): float64. chatters: number of completed chatters.
     """
 
     digits: int
@@ -44,10 +41,9 @@ class ReferenceRun:
 
 @dataclass(frozen=True, eq=False)
 class ProvenRun:
-    """Run confirmed by another run with half the digits.
+    """Run confirmed by a coarse run with half the digits.
 
-    run: run with more digits. coarse: run with fewer digits. agreement: largest absolute difference between both runs
-    in event times, event states, samples and final state; in practice, a bound on the error of `coarse`.
+    agreement: largest difference between both runs; in practice, a bound on the error of `coarse`.
     """
 
     run: ReferenceRun
@@ -60,34 +56,29 @@ def reference_run(
 ) -> ReferenceRun:
     """Simulate (10.1) over `cycles` forcing periods from the time tau0.
 
-    A ball that rests on a wall w = +1 or -1 at the start sticks if the first nonzero number among w X'' and its time
-    derivatives is positive (the wall pushes the ball), or if all these numbers are 0. Otherwise the ball leaves the
-    wall at once. Numbers below the accuracy of a flight count as 0.
+    At the start, a ball at rest on a wall w sticks if the wall pushes it. The wall pushes if the first nonzero number
+    among w X'' and its time derivatives is positive. The ball also sticks if all these numbers are 0.
 
     Parameters
     ----------
     system_parameters : System or mapping
-        The ten parameters, rational numbers: decimal strings, Fractions or floats.
+        The ten parameters. All numbers may be decimal strings, Fractions or floats.
     state : sequence
-        [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], rational numbers.
-    cycles, tau0
-        Number of forcing periods, and time tau at the start of the run, rational numbers.
+        [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
     digits : int
-        Decimal digits to which each flight is computed, at least 20.
+        Decimal digits of each flight, at least 20.
     sample_times : sequence, optional
-        Ascending times tau within the run. A float stands for its binary value. A sample at the time of an event is the
-        state after the event.
+        Ascending times tau within the run. A sample at the time of an event is the state after the event.
     exact_floats : bool, optional
-        True: a float stands for its binary value, Omega is rounded to a float, and a ball within rounding of a wall is
-        put on the wall, as in `simulate`. False: a float stands for its shortest decimal. The default is True for a
-        System, else False.
+        True: read floats as binary values, and treat Omega and balls near a wall as `simulate` does. False: read floats
+        as their shortest decimals, except sample times. The default is True for a System, else False.
 
     Raises
     ------
     ValueError
-        If parameters are inadmissible, a ball starts beyond a wall, or sample times are outside the run.
+        If parameters, state or sample times are inadmissible.
     Undecidable
-        If more digits are needed to decide, for example, whether a ball grazes or misses a wall.
+        If more digits are needed to decide whether an event happens.
     """
     if digits < 20:
         raise ValueError(f"digits: {digits} should be at least 20; for fewer digits, use vibroimpact.simulate")
@@ -118,18 +109,13 @@ def reference_run(
 def proven_run(system_parameters, state, cycles, digits=None, sample_times=None, exact_floats=None) -> ProvenRun:
     """Repeat `reference_run` with doubled digits until two successive runs differ by at most ACCURACY.
 
-    Parameters
-    ----------
-    system_parameters, state, cycles, sample_times, exact_floats
-        As in `reference_run`, with tau0 = 0.
-    digits : int, optional
-        Number of digits of the first run. The default is 40 plus 0.33 per forcing period, because a modulated motion
-        was measured to lose 0.33 digits per period.
+    digits: digits of the first run, by default 40 plus 0.33 per period. A modulated motion was measured to lose 0.33
+    digits per period.
 
     Raises
     ------
     ArithmeticError
-        If no two successive runs agree before the number of digits exceeds MAX_DIGITS.
+        If no two successive runs with at most MAX_DIGITS digits agree.
     """
     digits = digits or int(40 + 0.33 * float(to_fraction("cycles", cycles)))
     coarse, agreement = None, np.inf
@@ -152,10 +138,9 @@ def proven_run(system_parameters, state, cycles, digits=None, sample_times=None,
 
 
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
-    """Return the event times of `fine` (n,), and the difference between `coarse` and `fine` at each event (n,).
+    """Return the event times of `fine` (n,), and the largest difference from `coarse` at each event (n,).
 
-    The difference at an event is the largest of the differences in time and in each coordinate. It is inf for the first
-    event whose module, wall or kind is not the same in both runs, and for all later events.
+    The difference is inf from the first event on that differs in module, wall or kind.
     """
     error = np.full(len(fine.events), np.inf)
     for i, (one, other) in enumerate(zip(coarse.events, fine.events, strict=False)):

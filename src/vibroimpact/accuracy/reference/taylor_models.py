@@ -9,15 +9,14 @@ from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
 from vibroimpact.system import System
 
-# Largest product of a step and the norm of the rate matrix. Longer steps need more Taylor terms and lose more digits,
-# since cancellation can amplify rounding errors by e^REACH. With shorter steps, a run has more steps.
+# Largest step, multiplied by the norm of the rate matrix. Cancellation in a step can amplify rounding by e^REACH.
 REACH = 4
 
 
 def to_fraction(name: str, value, exact_floats: bool = False) -> Fraction:
     """Return the rational number that a value represents.
 
-    A float stands for its binary value if `exact_floats` is True, else for its shortest decimal (1/10 for 0.1).
+    exact_floats: True to read a float as its binary value, False to read 0.1 as 1/10.
 
     Raises
     ------
@@ -50,14 +49,14 @@ class ExactSystem:
 
     @classmethod
     def of(cls, parameters, exact_floats: bool = False) -> "ExactSystem":
-        """Return the coefficients for a System, or for a mapping from its ten parameters to numbers or decimal strings.
+        """Return the coefficients for a System, or for a mapping of its ten parameters.
 
-        Floats are read as in `to_fraction`. If `exact_floats` is True, Omega is rounded to a float, as in `simulate`.
+        exact_floats: as for `to_fraction`; True also rounds Omega to a float, as in `simulate`.
 
         Raises
         ------
         ValueError
-            If a parameter is missing, unknown or not admissible (see System).
+            If a parameter is missing, unknown or not admissible.
         """
         names = [field.name for field in fields(System)]
         if isinstance(parameters, System):
@@ -84,9 +83,8 @@ def _coupled(one, two, coupling):
 class Flow:
     """Power series of X1 and X2 in the time since an initial state, for a fixed set of sticking balls.
 
-    The motion is linear: with s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)] and s' = A s, the k-th coefficient
-    is given by the first two rows of A^k s / k!. No eigenvalues are used, so that repeated, defective, undamped and
-    resonant spectra need no special case. The last coefficient is an interval that encloses the neglected tail.
+    With s' = A s (`rate_matrix`), the k-th coefficients are the first two entries of A^k s / k!. No eigenvalues are
+    used, so that no spectrum is a special case. The last coefficient is an interval that encloses the neglected tail.
     """
 
     def __init__(self, system: ExactSystem, stuck, bits: int):
@@ -107,9 +105,8 @@ class Flow:
             self._table = arb_mat(
                 2 * self.terms, 6, [entry for start in (0, 6) for row in table for entry in row[start : start + 6]]
             )
-            # |A^k s| <= norm^k |s| bounds every neglected coefficient. While norm * t <= (terms - 4) / 2, the sum of
-            # the neglected terms is at most twice the first neglected term. The same bound holds for each of the first
-            # four derivatives of the series.
+            # Since |A^k s| <= norm^k |s|, the neglected terms sum to at most twice the first of them while
+            # norm * t <= (terms - 4) / 2. This also holds for the first four derivatives of the series.
             self._tail = 2 * to_ball(self.norm) ** self.terms / arb.fac_ui(self.terms)
 
     @property
@@ -118,17 +115,14 @@ class Flow:
         return Fraction(REACH) / self.norm
 
     def size(self, vector) -> arb:
-        """Return an upper bound of the weighted norm of `vector`, a value of [X1, X2, X1', X2', sin, cos].
-
-        The bound times `norm` is a bound of |X1''| and |X2''|.
-        """
+        """Return an upper bound of the weighted norm of [X1, X2, X1', X2', sin, cos]."""
         largest = arb(0)
         for weight, entry in zip(self._weights, vector, strict=True):
             largest = largest.max(abs(weight * entry))
         return largest.upper()
 
     def series(self, vector) -> tuple[arb_poly, arb_poly]:
-        """Return X1 and X2 as power series in time; `vector` is the initial value of [X1, X2, X1', X2', sin, cos]."""
+        """Return X1 and X2 as power series in time, from initial values [X1, X2, X1', X2', sin, cos]."""
         with ctx.workprec(self.bits):
             entries = (self._table * arb_mat(6, 1, vector)).entries()
             tail = arb(0, (self._tail * self.size(vector)).upper())
@@ -136,10 +130,7 @@ class Flow:
 
 
 def rate_matrix(system: ExactSystem, stuck) -> list:
-    """Return the exact rate matrix A (6 rows) of s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)].
-
-    `stuck`, (2,) bool, is True for a ball that sticks to a wall.
-    """
+    """Return the matrix A of s' = A s, where s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]."""
     rows = [[Fraction(0)] * 6 for _ in range(6)]
     for i in range(2):
         mass = 1 + system.epsilon if stuck[i] else Fraction(1)
@@ -153,11 +144,7 @@ def rate_matrix(system: ExactSystem, stuck) -> list:
 
 
 def _weighted_norm(rate):
-    """Return weights >= 1 for the six entries of a state vector, and the norm of `rate` with these weights.
-
-    The norm is the largest weighted row sum. Displacements are weighted by about the highest natural frequency, so that
-    the norm is near this frequency.
-    """
+    """Return six weights >= 1 that bring the norm of `rate` near the highest natural frequency, and this norm."""
     stiffness = max(sum(abs(entry) for entry in row[:2]) for row in rate[2:4])
     frequency = Fraction(max(1, math.ceil(8 * math.sqrt(stiffness)) / 8))
     weights = [frequency, frequency] + [Fraction(1)] * 4

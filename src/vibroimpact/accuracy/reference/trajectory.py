@@ -11,19 +11,17 @@ from vibroimpact.accuracy.reference.roots import Undecidable, first_root, refine
 from vibroimpact.accuracy.reference.taylor_models import ExactSystem, Flow, to_ball, to_fraction
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
-# Impacts of a completed chatter are not listed if their rebound speed |W'| is at most this.
-LISTED_SPEED = Fraction(1, 10**12)
-GUARD_BITS = 64  # bits of precision beyond the requested digits
-SEARCH_BITS = 96  # sufficient to exclude and bracket most events; otherwise the full precision is used
+LISTED_SPEED = Fraction(1, 10**12)  # rebound speed |W'| up to which impacts of a completed chatter are not listed
+GUARD_BITS = 64  # bits beyond the requested digits
+SEARCH_BITS = 96  # precision that suffices to find most events
 
 
 @dataclass
 class _Ball:
-    """Motion of one ball relative to its box: W (`gap`), W' (`rate`), and the wall that the ball touches, or 0.
+    """Motion of one ball relative to its box: gap W, its rate W', and the wall that the ball touches, or 0.
 
-    order: number of leading Taylor coefficients that vanish. For a stuck ball, these are coefficients of the contact
-    force; the order is None if the force is always zero. For a ball that leaves its wall, these are coefficients of the
-    distance 1 - wall W; the order is 1 after an impact and higher after a release.
+    order: number of leading Taylor coefficients that vanish. They belong to the contact force on a stuck ball, or to
+    the distance 1 - wall W of a ball that leaves its wall. None means that the force stays zero.
     """
 
     gap: arb
@@ -44,10 +42,9 @@ class _Candidate:
 
 @dataclass
 class Trajectory:
-    """Simulation in progress, computed at the working precision that the caller has set.
+    """Simulation in progress, at the working precision of the caller.
 
-    record: list of events (tau, module 0 or 1, wall, kind, state after), each number the midpoint of an enclosure
-    (flint.arb). samples: states at the requested times. The other attributes are described in ReferenceRun.
+    record: events (tau, module 0 or 1, wall, kind, state after).
     """
 
     system: ExactSystem
@@ -77,7 +74,7 @@ class Trajectory:
 
     def _sample_queue(self):
         times = [] if self.sample_times is None else list(self.sample_times)
-        # A float stands for its binary value, because sample times such as k * period are computed as floats.
+        # Floats have their binary values, because sample times such as k * period are computed as floats.
         rational = [Fraction(float(t)) if isinstance(t, float) else to_fraction("sample_times", t) for t in times]
         if any(later < earlier for earlier, later in pairwise(rational)):
             raise ValueError("sample_times: should be ascending")
@@ -189,11 +186,7 @@ class Trajectory:
         return [_Candidate(module, wall, root.mid()) for (module, wall), root in _earliest(found, self.tolerance)]
 
     def _bracket(self, series, longest):
-        """Return a list of ((module, wall), interval), one item for each event that may be the earliest.
-
-        Each interval (arb) contains the first root of the series that `_distance` returns for (module, wall), and no
-        other root of the series.
-        """
+        """Return ((module, wall), interval of the first root of `_distance`) for each event that may be the first."""
         keys = []
         for module, ball in enumerate(self.balls):
             if not ball.stuck:
@@ -212,11 +205,7 @@ class Trajectory:
         return found
 
     def _distance(self, key, series):
-        """Return the power series of the distance to a wall, or of the contact force of a stuck ball.
-
-        The series is positive until the event. If `order` leading coefficients vanish (see `_Ball`), the series is
-        divided by time to the power `order`.
-        """
+        """Return the distance to a wall, or the force on a stuck ball, as a power series without leading zeros."""
         module, wall = key
         ball = self.balls[module]
         if ball.stuck:
@@ -245,10 +234,7 @@ class Trajectory:
                 self._settle(i, started=True)
 
     def _impact(self, module):
-        """Apply Newton's restitution law (see system.restitution), which conserves X' + epsilon Y'.
-
-        The ball sticks if its rebound is too slow for the working precision.
-        """
+        """Apply Newton's restitution law; the ball sticks if its rebound is below the working precision."""
         ball = self.balls[module]
         if not ball.wall * ball.rate > -self.tolerance:
             raise Undecidable("cannot decide whether a ball at a wall moves towards it; use more digits")
@@ -264,11 +250,9 @@ class Trajectory:
         self._note(module, STICK)
 
     def _settle(self, *modules, started=False):
-        """Release each stuck ball whose contact force w X'' is negative just after the present instant.
+        """Release each stuck ball whose contact force w X'' is negative just after this instant.
 
-        modules: indices of the modules to check, by default both. The sign of the force is that of its first nonzero
-        Taylor coefficient, where coefficients of at most `tolerance` count as zero. This rule is used after the
-        force falls through zero, after the force jumps due to an impact of the other module, and at the start.
+        started: True at the start of a run, where a release is not recorded.
         """
         for module in modules or range(2):
             ball = self.balls[module]
@@ -287,11 +271,7 @@ class Trajectory:
     # -- chatter -----------------------------------------------------------------------------------------
 
     def _follow_chatter(self, contacts):
-        """Add the simultaneous impacts `contacts` to the current chatter, or start a new chatter.
-
-        A chatter goes on as long as the same balls hit the same walls. As soon as `_is_complete` returns True, the
-        chatter is replaced by its limit.
-        """
+        """Add the simultaneous impacts `contacts` to the current chatter or to a new one; complete it if possible."""
         if self.chatter is None or self.chatter.contacts != contacts:
             self.chatter = Chatter(contacts, self.system.kappa) if contacts else None
         if not contacts or any(self.balls[module].stuck for module, _ in contacts):
@@ -305,8 +285,7 @@ class Trajectory:
     def _is_complete(self, contacts):
         """Return True if the chatter can be replaced by its limit.
 
-        The limit must be known to `tolerance`, the last rebounds must be at most as fast as LISTED_SPEED, and the limit
-        must come before every sample and every other event.
+        The limit must be accurate and come before every sample and other event. The last rebounds must be slow.
         """
         if not self.chatter.change < self.tolerance:
             return False
@@ -319,11 +298,7 @@ class Trajectory:
         return bool(time > 0 and self.tau + time < next_stop + self.tolerance and self._is_undisturbed(contacts, time))
 
     def _is_undisturbed(self, contacts, time):
-        """Return True if it is certain that nothing disturbs the chatter of `contacts` within `time`.
-
-        Nothing disturbs the chatter if the contact forces of chattering and stuck balls certainly stay positive, and
-        all other balls certainly stay off the walls.
-        """
+        """Return True if contact forces certainly stay positive and other balls stay off the walls within `time`."""
         flow, vector = self._flow(SEARCH_BITS), self._vector()
         acceleration = flow.size(vector) * to_ball(flow.norm)
         series = flow.series(vector)
@@ -358,17 +333,13 @@ class Trajectory:
 
 
 def _force(ball, motion):
-    """Return the contact force w X'' of wall w on a ball that rests on it, per unit mass, as a power series."""
+    """Return the contact force w X'' of wall w on a ball at rest, per ball mass, as a series."""
     return ball.wall * motion.derivative().derivative()
 
 
 def _parabola_hint(distance, longest):
-    """Return the argument `hint` with which `first_root` finds the root of `distance` faster, or None.
-
-    In a short flight of a chatter, `distance` is almost linear, and its root is near the root of its linear part. The
-    hint is twice the root of the linear part, so that `first_root` needs only one split. The result is None if the hint
-    would not be positive, or if it would be at least a quarter of `longest`.
-    """
+    """Return twice the root of the linear part of `distance`, as a hint for `first_root`, or None."""
+    # in a short hop of a chatter, `distance` is almost linear
     height, slope = distance[0], distance[1]
     if not (height > 0 and slope < 0):
         return None
