@@ -13,14 +13,9 @@ WORKER = threading.local()
 
 
 def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], progress: bool) -> list:
-    """Return the list of `work(*piece)` for all pieces, in order; if `work` raises an exception, pass the exception on.
+    """Return the list of `work(*piece)` for all pieces, computed on all cores.
 
-    Parameters
-    ----------
-    runs : sequence of int
-        Number of runs in each piece.
-    progress : bool
-        Print the number of finished runs on standard error, about once a second.
+    runs: number of runs in each piece. progress: True to print the number of finished runs.
     """
     if min(cores(), len(pieces)) <= 1 and not progress:  # a pool would cost at least 0.1 ms and save nothing
         return [work(*piece) for piece in pieces]
@@ -38,10 +33,7 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
 
 
 def stop_if_cancelled():
-    """Raise CancelledError in this thread if another piece of the work failed or was interrupted.
-
-    Long computations call this function from time to time.
-    """
+    """Raise CancelledError in this thread if another piece of the work failed or was interrupted."""
     if (cancelled := getattr(WORKER, "cancelled", None)) and cancelled.is_set():
         raise CancelledError
 

@@ -1,7 +1,6 @@
 """Certificate of a run: proofs that no impact was missed, and error estimates for the states.
 
-The estimates assume rounding errors of the size of the float64 epsilon at the start and after every event, and
-propagate these errors by the variational flow.
+The estimates assume a rounding error of one float64 epsilon per event. The variational flow propagates these errors.
 """
 
 import math
@@ -33,18 +32,16 @@ from vibroimpact.system.state import IMPACT
 
 UNIT = np.finfo(float).eps
 TABLE, REBOUND = 0.15, 0.25
-"""Typical rounding errors in UNIT: TABLE of an entry of the flow tables, REBOUND of the rebound velocity at an impact,
-per unit of approach velocity. An error that repeats (the same entry is read again, or kappa is close to 1) adds up
-instead of averaging out."""
+"""Typical rounding errors in UNIT: TABLE of an entry of the flow tables, REBOUND of the rebound velocity per unit of
+approach velocity. An error that repeats adds up instead of averaging out."""
 
 
 class Errors(NamedTuple):
-    """Estimated errors of a state, in units of the constant UNIT (the float64 epsilon).
+    """Estimated errors of a state, in units of UNIT (the float64 epsilon).
 
-    independent: covariance (8, 8) of independent rounding errors. repeated: sums (8, 6) of rounding errors that recur
-    with the same value. Each column belongs to one source. Columns 0 to 3 are due to rounding of the flow tables
-    (precomputed free motion of the boxes), which changes the amplitude of box 1 (column 0) and box 2 (column 2), and
-    the phase of box 1 (column 1) and box 2 (column 3). Columns 4 and 5 are due to rounding at impacts of ball 1 and 2.
+    independent (8, 8): covariance of independent errors. repeated (8, 6): sums of errors that recur, one column per
+    source. Columns 0 to 3 belong to the flow tables: amplitude and phase of box 1, then of box 2. Columns 4 and 5
+    belong to impacts of balls 1 and 2.
     """
 
     independent: np.ndarray
@@ -53,11 +50,10 @@ class Errors(NamedTuple):
 
 @compiled
 def errors_of(flow, flights, events, limit):
-    """Return the estimated errors of the state at the start and end of every flight, and at the end of the run.
+    """Return the estimated errors at the start and end of each flight, (m + 1, 2), and at the end of the run.
 
-    The errors of the flights have shape (m + 1, 2) for m events. An error is the square root of the sum of the mean
-    square errors of all components. If the error after an event exceeds `limit`, all later errors are inf. An error
-    above `limit` at the end of the run is replaced by inf.
+    An error is the root of the summed mean square errors of all components. Once it exceeds `limit` after an event, the
+    later errors are inf. A final error above `limit` is inf.
     """
     q = flow.coefficients
     estimates, largest = np.full((len(flights), 2), math.inf), limit / UNIT
@@ -83,11 +79,7 @@ def errors_of(flow, flights, events, limit):
 
 @compiled
 def errors_at(flow, flights, events, times, limit):
-    """Return the estimated errors (n,) of the states at ascending `times` since the start of a run.
-
-    Each error is the final error from `errors_of` for a run that ends at this time, plus the effect of rounding the
-    time of the sample. Errors above `limit` are inf.
-    """
+    """Return the estimated errors (n,) of the states at ascending `times`, or inf above `limit`."""
     q = flow.coefficients
     estimates, largest, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
     errors = Errors(np.zeros((8, 8)), np.zeros((8, 6)))
@@ -120,10 +112,7 @@ def errors_at(flow, flights, events, times, limit):
 
 @inlined
 def _begin(q, flight, errors):
-    """Add the rounding errors of the initial state to `errors`.
-
-    The velocity of a ball has a rounding error only if the ball is at a wall.
-    """
+    """Add the rounding errors of the initial state to `errors`."""
     state = flight[BEFORE:AFTER]
     touching = abs(state[0] - state[4]) >= 1.0, abs(state[1] - state[5]) >= 1.0
     _add_rounding(q, errors, flight[:AFTER], state, touching)
@@ -131,15 +120,11 @@ def _begin(q, flight, errors):
 
 @inlined
 def _fly(flow, flight, errors, matrix, product):
-    """Propagate errors over a flight, and add the rounding errors of the flow tables.
-
-    A flight longer than `flow.longest` is cut into pieces, whose rounding errors are also added. The row `flight` is
-    overwritten and finally describes the last piece.
-    """
+    """Propagate errors over a flight, and add the rounding errors of the flow tables; overwrite `flight`."""
     left = flight[LENGTH]
     while left > 0.0:
         flight[LENGTH] = min(left, flow.longest)
-        # A flight of at most half a table spacing uses the first entry, the identity, which has no rounding error.
+        # Shorter flights use the first table entry. It is the identity and has no rounding error.
         if flight[LENGTH] > 0.5 * flow.spacing:
             _add_table(flow.coefficients, flight[BEFORE:AFTER], errors.repeated)
         fill_flight(flow, flight, matrix)
@@ -169,10 +154,9 @@ def _pass_event(q, flights, events, n, errors, matrix, product):
 
 @inlined
 def _end(q, flight, elapsed, errors, rate):
-    """Add to `errors` the effects of rounding the time and the state at the end of a run or at a sample.
+    """Add the effects of rounding the time and the state at the end of a run or at a sample.
 
-    elapsed: time of the sample since the start of the run; the rounding error of the sample time grows with this time.
-    At the end of a run, `elapsed` is 0: the end time is computed from the forcing phase, whose error does not grow.
+    elapsed: time of a sample, with which the error of this time grows; 0 at the end of a run.
     """
     late = 2.0 / q.omega + flight[LENGTH] + elapsed
     _, _, walls = start_of(flight)
@@ -184,7 +168,7 @@ def _end(q, flight, elapsed, errors, rate):
 
 @inlined
 def _propagate(matrix, errors, product):
-    """Propagate errors by a matrix M: replace C = `independent` by M C M^T, and S = `repeated` by M S."""
+    """Replace C = `independent` by M C M^T, and S = `repeated` by M S, for a matrix M."""
     covariance, sums = errors.independent, errors.repeated
     _multiply(matrix, covariance, product)
     for i in range(8):
@@ -199,7 +183,7 @@ def _propagate(matrix, errors, product):
 
 @inlined
 def _multiply(a, b, product):
-    """Write the product of the matrix `a` (8, 8), which has many zeros, and the vectors `b` (8, m) to `product`."""
+    """Write the product of the sparse matrix `a` (8, 8) and the matrix `b` (8, m) to `product`."""
     columns = b.shape[1]
     for i in range(8):
         for j in range(columns):
@@ -225,11 +209,8 @@ def _root(errors):
 
 @inlined
 def _add_table(q, state, sums):
-    """Add the rounding error of a table entry to `sums` (`Errors.repeated`), before a flight from a state (8,).
-
-    The error makes the motion of each box grow and rotate in the phase plane.
-    """
-    for i in range(2):
+    """Add the rounding error of a flow table entry to `sums`, before a flight from a state (8,)."""
+    for i in range(2):  # the motion of each box is scaled and rotated in the phase plane
         x, v = state[i], state[2 + i]
         omega = math.sqrt(max(q.k11 if i == 0 else q.k22, 1.0))
         sums[i, 2 * i] += TABLE * x
@@ -240,14 +221,11 @@ def _add_table(q, state, sums):
 
 @inlined
 def _add_rounding(q, errors, flight, state, met):
-    """Add to `errors` the rounding error of a state (8,), [boxes, balls], at the end of a flight.
+    """Add the rounding error of a state (8,), [boxes, balls], at the end of a flight.
 
-    flight: row of the flight; the entries for the end of the flight are not used. met: for each module, True if its
-    ball touches a wall.
-
-    A state is computed as a sum. The force contributes F / Omega^2 to a position and F / Omega to a velocity, and a
-    stiff spring also contributes to a velocity. The rounding error of a contribution remains even if the contribution
-    cancels later. The velocity of a free ball is computed only at an impact and has a rounding error only there.
+    The contributions to a state are rounded even if they cancel. The force contributes F / Omega^2 to a position, and
+    F / Omega to a velocity. A stiff spring also contributes to a velocity. The velocity of a free ball is rounded only
+    at an impact. met: for each ball, True if it is at a wall.
     """
     covariance, began = errors.independent, flight[BEFORE:]
     speed = q.drive / max(1.0, q.omega)
@@ -275,8 +253,7 @@ class Certificate(Representation):
     Attributes
     ----------
     flights, exclusions : int
-        Number of flights, and number of proofs that an interval has no event. The proofs cover every instant of the
-        run; otherwise the run raises an error.
+        Number of flights, and number of proofs that an interval has no event.
     chatters : int
         Number of completed chatters (infinite sequences of impacts).
     neglected : float
@@ -284,22 +261,18 @@ class Certificate(Representation):
     wall_residual : float
         Largest ||W| - 1| at an impact, before the ball was moved onto the wall.
     nearest_miss : float
-        Smallest gap to the nearer wall at which a ball turned back without an impact; inf if no ball turned back.
+        Smallest gap to a wall at which a ball turned back without an impact; inf if none did.
     shallowest_hit : float
-        Smallest depth beyond a wall that a ball would have reached if it had not hit the wall.
+        Smallest depth beyond a wall that a ball would have reached without an impact.
     clearance : float
-        Smallest ratio of a margin to the estimated error of the state at the same time. A margin is the error of the
-        state that would change the sequence of events. Margins are computed for near misses, impacts, contact forces of
-        sticking and released balls, and events near the start or the end of the run.
+        Smallest margin divided by the estimated error. A margin is the error that would change the sequence of events.
     undecided : int
-        Number of times at which rounding decides whether an event happens, such as whether a ball hits a wall.
+        Number of times at which rounding decides whether an event happens.
     error : float
-        Estimated error of the final state (root mean square), from a unit rounding error after every event, propagated
-        by the variational flow; inf if the run ends beyond `horizon`.
+        Estimated error of the final state (root mean square); inf if the run ends beyond `horizon`.
     horizon : float
-        Time tau at which the estimated error first exceeds 1e-3, at an event or at the end of the run; inf if no
-        estimate exceeds 1e-3. Beyond the horizon, the trajectory is a possible motion of the system, but not the motion
-        from the given initial state.
+        Time tau at which the estimated error first exceeds 1e-3, or inf. Beyond it, the run is a possible motion, but
+        not the one from the given initial state.
 
     Notes
     -----
@@ -333,7 +306,7 @@ class Certificate(Representation):
         errors, error = errors_of(flow, flights, rows, HORIZON_ERROR)
         margins, depths, doubts = margins_of(q, flights, turns, rows, phase, duration)
         known, horizon = np.isfinite(errors), np.inf
-        # The horizon is the first event after which the error is inf or, if there is none, the end of the run.
+        # The horizon is the first event after which the error is inf, or else the end of the run.
         if not np.isfinite(error):
             horizon = run.tau0 + [*rows[:, 0], duration][np.count_nonzero(known[:, 0]) - 1]
         return cls(

@@ -1,24 +1,20 @@
 """Decorators that compile the inner loops with Numba, cache them on disk and release the interpreter lock.
 
-Rounding: in functions that compute a step of a run, the compiler must not combine or reorder operations. Then a formula
-gives the same bits for floats and for the vectors with which an ensemble advances several runs together. There is one
-exception: in functions decorated by `compiled`, and in `inlined_source` functions that they call, the compiler may fuse
-a product and a sum into one operation with a single rounding.
+Rounding: in a step of a run, the compiler must not combine or reorder operations. A formula then gives the same bits in
+single runs and in ensembles. There is one exception. In `compiled` functions, and in `inlined_source` functions that
+they call, a product and a sum may be fused.
 
-Inlining: functions that run at every event are inlined into the loop. Otherwise passing a motion and its Taylor
-polynomials (about 30 numbers) would cost more than the computation. Most functions with a single caller are inlined as
-source (`inlined_source`), so that they are not compiled twice. The other functions are compiled once and then inlined.
+Inlining: functions that run at every event are inlined. Passing a motion (about 30 numbers) would cost more than the
+computation. Most functions with a single caller are `inlined_source`, so that they are not compiled twice.
 
 Reference counting: only `compiled` functions, and `inlined_source` functions that they call, create or return arrays.
-All other functions write to arrays of their caller without reference counting, which would cost an atomic operation and
-a call per reference.
+In other functions, counting would only cost time.
 
-Each decorator sets fastmath, inlining and reference counting explicitly, because Numba takes a missing option from the
-caller that is compiled first.
+Each decorator sets fastmath, inlining and reference counting, because Numba takes a missing option from the caller that
+is compiled first.
 
 The cache key depends on all source files that may be compiled into a function. Numba itself checks only the file of the
-function, not the files of the functions that it calls. If NUMBA_CACHE_DIR is set, only Numba's check is done, and the
-user must clear the cache after a change of the sources.
+function. If NUMBA_CACHE_DIR is set, only Numba's check is done: clear the cache after a change of the sources.
 """
 
 import hashlib
@@ -78,10 +74,7 @@ def disk_cached(**options):
 
 @cache
 def code_folder(package: Path) -> Path | None:
-    """Return the cache folder for a package, or None if NUMBA_CACHE_DIR is set.
-
-    The name of the folder contains a hash of all source files that may be compiled into a function of the package.
-    """
+    """Return the cache folder for a package, named after a hash of the sources, or None if NUMBA_CACHE_DIR is set."""
     if config.CACHE_DIR:
         return None
     files = {path for folder in (*(PACKAGE / name for name in SHARED_FOLDERS), package) for path in folder.glob("*.py")}
@@ -93,10 +86,7 @@ def code_folder(package: Path) -> Path | None:
 
 @cache
 def _writable() -> Path:
-    """Return the first writable folder of these: next to the library, in the user's cache, a new temporary folder.
-
-    A message is printed if the temporary folder is used, since every process then compiles again.
-    """
+    """Return the first writable folder: next to the library, in the user's cache, or a new temporary folder."""
     own = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
     for folder in (LIBRARY_CACHE, own / "vibroimpact"):
         if folder.is_absolute() and _takes_files(folder):  # "~" stays in the path if the home directory is unknown

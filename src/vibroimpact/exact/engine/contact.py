@@ -1,11 +1,10 @@
-"""Apply a free flight, or all events of one instant, to a motion: impacts, completed chatters, sticks and releases.
-
-The impact law is defined in `vibroimpact.system.restitution`, where all implementations of the law are listed.
+"""Apply a free flight, or all events of one instant, to a motion.
 
 Each event is a row of a table: [time since the start, module, wall, kind, state after the event, forcing phase,
-approach (see `record`), sine and cosine of the phase]. The phase is that of the instant at which the row is written.
-This instant is the time of the event, with one exception: the row of the stick that completes a chatter is written at
-the last simulated impact of the chatter. `Log.counters` contains further data for the certificate of the run.
+approach (see `record`), sine and cosine of the phase]. The phase is that of the event, with one exception. The stick
+that completes a chatter has the phase of the last simulated impact.
+
+`vibroimpact.system.restitution` defines the impact law and lists its implementations.
 """
 
 from typing import NamedTuple
@@ -26,15 +25,14 @@ from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses,
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 NEGLIGIBLE = 1e-18  # largest change of the state that completing a chatter may neglect
-HIGHEST_HOP = 1e-12  # largest height of a hop, measured in W, at which a chatter may be completed
+HIGHEST_HOP = 1e-12  # largest hop (in W) at which a chatter may be completed
 
 
 class Motion(NamedTuple):
     """State at one instant of a run.
 
-    boxes: (X1, X2, X1', X2'); balls: (Y1, Y2, Y1', Y2'). walls: for each module, the wall to which its ball sticks, or
-    0. touching: for each module, the wall on which its free ball rests or from which the ball is just moving away, or
-    0. sine, cosine: of the forcing phase.
+    boxes: (X1, X2, X1', X2'). balls: (Y1, Y2, Y1', Y2'). walls: for each ball, the wall to which it sticks, or 0.
+    touching: the wall on which a free ball rests or which it is just leaving, or 0. sine, cosine: of the forcing phase.
     """
 
     boxes: tuple[float, float, float, float]
@@ -72,11 +70,7 @@ def with_contacts(motion, i, wall, touching):
 
 @inlined
 def drift_balls(balls, walls, boxes, t):
-    """Return the positions and velocities of the balls a time t after the start of a flight.
-
-    balls: state at the start of the flight. boxes: state at the time t; a sticking ball moves with its box. walls: as
-    in `Motion`.
-    """
+    """Return positions and velocities of the balls after a time t; `boxes` is the state at that time."""
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
         y1, v1 = boxes[0] - walls[0], boxes[2]
@@ -87,18 +81,14 @@ def drift_balls(balls, walls, boxes, t):
 
 @inlined
 def free_flight(flow, motion, t):
-    """Return the motion a time t later, if no event happens in between.
-
-    In the result, `touching` is (0, 0), since only sticking balls touch a wall after a flight.
-    """
+    """Return the motion a time t later without events; only sticking balls then touch a wall."""
     boxes, sine, cosine = advance(flow, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine, t)
     return Motion(boxes, drift_balls(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
 
 
 EVENTS, FLIGHTS, EXCLUSIONS, UNDECIDED, CHATTERS, RESIDUAL, NEGLECTED, ENTRIES = range(8)
-"""Indices of a run's counters, and the number of counters. RESIDUAL: largest ||W| - 1| at an impact. NEGLECTED: sum of
-the bounds on the neglected changes of the state due to completing chatters. The others are counts; EXCLUSIONS counts
-the proofs that an interval has no event."""
+"""Indices of a run's counters, and their number. RESIDUAL: largest ||W| - 1| at an impact. NEGLECTED: bound on the
+changes that completed chatters neglect. EXCLUSIONS: number of proofs that an interval has no event."""
 
 
 class Log(NamedTuple):
@@ -116,8 +106,7 @@ PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # indices in the row of
 def record(log, time, i, wall, kind, boxes, balls, approach):
     """Write an event of module i (0 or 1) to the log, without the forcing phase.
 
-    approach: for an impact, the relative velocity before the impact; for the stick of a completed chatter, the relative
-    speed after the last simulated impact; otherwise 0.
+    approach: relative velocity before an impact; last relative speed for the stick of a completed chatter; otherwise 0.
     """
     row = log.rows[int(log.counters[EVENTS])]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
@@ -136,11 +125,10 @@ def pack(boxes, balls, state):
 
 @inlined
 def impact(q, box, ball):
-    """Return the velocities (X', Y') after an impact, from the velocities `box` and `ball` before the impact.
+    """Return the velocities (X', Y') after an impact, from the velocities `box` and `ball` before it.
 
-    The law is that of `restitution.after_impact`. The rounding of the factor (1 + kappa) / (1 + epsilon) would cause
-    the same error at every impact. The factor is therefore corrected by its rounding remainder. The velocity of the
-    heavier body changes less and is computed first; the other velocity follows from kappa.
+    The factor (1 + kappa) / (1 + epsilon) includes its rounding remainder, since its error would repeat at every
+    impact. The velocity of the heavier body is computed first, because it changes less.
     """
     relative = box - ball
     gained = q.impulse * relative + q.impulse_rest * relative
@@ -167,10 +155,9 @@ def box_accelerations(q, walls, boxes, sine):
 def _contact_push(q, jets, boxes, i, wall, sticking):
     """Return a number > 0 if the wall pushes ball i, at rest on it, and < 0 if the wall would have to pull the ball.
 
-    The sign of the number is that of the contact force or, if the force is zero within rounding, of the first nonzero
-    derivative of the force. There is one exception: the force on a sticking ball is negative but increases at the rate
-    `change` > 0. If released, the ball would rise to the height 2 |force|^3 / (3 change^2). If this height is below
-    rounding, `change` is returned, so that the ball stays stuck.
+    The sign is that of the contact force or, if this is zero within rounding, of its first nonzero derivative. There is
+    one exception. A sticking ball whose force < 0 increases at the rate `change` would rise to the height
+    2 |force|^3 / (3 change^2). If this height is below rounding, the ball stays stuck.
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -187,19 +174,17 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
 
 @inlined
 def _hop(q, motion, i, wall):
-    """Return (u, a): inward speed at which ball i leaves a wall, and acceleration of its box towards the ball."""
+    """Return (u, a): speed at which ball i leaves a wall, and acceleration of its box towards the ball."""
     a = wall * box_accelerations(q, motion.walls, motion.boxes, motion.sine)[i]
     return -wall * (motion.boxes[2 + i] - motion.balls[2 + i]), a
 
 
 @inlined_source
 def _end_of_chatter(flow, motion, i, counters):
-    """Return the time until the chatter of ball i ends, or -1 if the chatter cannot be completed at this instant.
+    """Return the time until the chatter of ball i ends, or -1 if it cannot be completed now.
 
-    With u and a from `_hop`, each hop is shorter than the one before by the factor kappa, so that the chatter ends
-    after T = 2 u / (a (1 - kappa)). Completing the chatter at once conserves the momentum of box and ball. It neglects
-    that ball and wall move apart during the hops, which changes the spring forces. The neglected effect is of the order
-    u^3 / a^2.
+    Hops shorten by the factor kappa. With u and a from `_hop`, the chatter ends after T = 2 u / (a (1 - kappa)).
+    Completing it neglects that hops change the spring forces. The neglected effect is of the order u^3 / a^2.
     """
     q, boxes, balls, wall = flow.coefficients, motion.boxes, motion.balls, motion.touching[i]
     u, a = _hop(q, motion, i, wall)
@@ -238,11 +223,9 @@ def _joined(q, motion, i):
 def resolve(flow, motion, elapsed, remaining, due, log):
     """Return the motion after all events of an instant.
 
-    elapsed: time since the start of the run. remaining: time to the end of the run. due: index (0 or 1) of the module
-    in which an event is due now, or -1.
-
-    Contact forces on balls at rest are checked after all impacts, since an impact in one module can release the ball of
-    the other module. Chatters are completed last, since their ends are later than this instant.
+    remaining: time to the end of the run. due: module (0 or 1) with an event due now, or -1. Contact forces are checked
+    after all impacts, since an impact can release the ball of the other module. Chatters come last, since they end
+    later.
     """
     pulled = due if due >= 0 and motion.walls[due] != 0 else -1
     chatters = (False, False)
@@ -260,10 +243,9 @@ def resolve(flow, motion, elapsed, remaining, due, log):
 
 @inlined_source
 def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
-    """Apply the impact of the flying ball i if the ball has reached a wall; return (motion, soon).
+    """Apply the impact of the flying ball i if it has reached a wall; return (motion, soon).
 
-    due: True if the impact is due now. soon: True if a chatter that begins with this impact would end within half of
-    `remaining` and within half of LOOKAHEAD * flow.unit, the longest time for which one proof can exclude events.
+    soon: True if a chatter would end within half of `remaining` and half of LOOKAHEAD * flow.unit.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
@@ -291,14 +273,10 @@ def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
 
 @inlined
 def _stick_or_release(q, motion, i, pulled, elapsed, log):
-    """Return the motion after deciding whether ball i, at rest on a wall, sticks to it, stays stuck or is released.
-
-    pulled: True if the release of the sticking ball i is due now.
-    """
+    """Return the motion after ball i, at rest on a wall, sticks, stays stuck or is released."""
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
-    # Even for a free ball, use the acceleration that the box would have with the ball stuck to it. The box alone
-    # accelerates 1 + epsilon times as much. If free and stuck balls were checked with different accelerations, a ball
-    # whose contact force is zero within rounding could stick and be released endlessly.
+    # Check free and stuck balls with the same acceleration, that of the box with the ball stuck to it. Otherwise a ball
+    # with almost no contact force could stick and be released endlessly.
     together = mode_of(pair(motion.walls, i, 1))
     jets = jet(q, together, boxes, motion.sine, motion.cosine)
     if wall != 0:
@@ -314,12 +292,7 @@ def _stick_or_release(q, motion, i, pulled, elapsed, log):
 
 @inlined_source
 def _complete_both(flow, motion, chatters, elapsed, log):
-    """Return the motion after completing the chatter of each ball, where possible.
-
-    chatters: for each ball, True if its chatter would end soon (`_apply_impact`).
-
-    The ends of the chatters are recorded last, in order of time and with the states at these times.
-    """
+    """Return the motion after completing the chatters that end soon; record their ends in order of time."""
     boxes, balls = motion.boxes, motion.balls
     ends, inward = (-1.0, -1.0), (abs(boxes[2] - balls[2]), abs(boxes[3] - balls[3]))
     for i in range(2):

@@ -1,13 +1,12 @@
 """Energy balance of a run: work of the forces, dissipation in dampers and impacts, stored energy.
 
-Work and dissipation are integrals of quadratic forms along the flights. Each term is computed independently, so that
-the balance tests all terms. A stick event that completes a chatter replaces the remaining impacts, which are not
-simulated, and dissipates the remaining energy of the relative motion.
+Each term is computed independently, so that the balance tests all terms. The stick that completes a chatter dissipates
+the remaining energy of the relative motion.
 
-In flight, z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. With damping, a quadratic form z G z is the rate of change
-of a potential z S z + c t, where A^T S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation). The integral is then the
-difference of the potential between the ends of a flight. With very little damping, S is so large that rounding makes
-this difference inaccurate. In that case Gauss's rule integrates along the Taylor polynomials.
+In flight, z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. With damping, z G z is the rate of change of a potential
+z S z + c t. S and c solve A^T S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation). The integral of z G z is then the
+difference of this potential between the ends of a flight. With very little damping, rounding spoils the difference,
+because S is large. Gauss's rule then integrates along the Taylor polynomials.
 """
 
 import math
@@ -46,9 +45,7 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 class Squares(NamedTuple):
     """Potentials S (4, k, 6, 6) and drifts c (4, k) for k integrals in each of the 4 contact states.
 
-    The integral over a flight is the difference of z S z + c t between the ends of the flight, where z = [X1, X2, X1',
-    X2', sin, cos] with sine and cosine of the forcing phase. These potentials are not potential energies. k = 0 means
-    that Gauss's rule computes the integrals instead.
+    An integral is the change of z S z + c t, where z = [X1, X2, X1', X2', sin, cos].
     """
 
     potentials: np.ndarray
@@ -70,8 +67,7 @@ the losses in the impacts of both modules, and the change of the stored energy."
 ENERGY = np.dtype(
     [("work", "f8", (2,)), ("ground", "f8", (2,)), ("coupling", "f8"), ("impacts", "f8", (2,)), ("stored", "f8")]
 )
-"""Data type for energies over some time, in units of M L^2 omega_10^2: work of each force, dissipation in each damper
-to ground and in the coupling damper, loss in the impacts of each module, change of the stored energy."""
+"""Data type for energies over some time, in units of M L^2 omega_10^2; the names are those of `Energy`."""
 impact_loss, energy_stored = inlined(energy_lost), inlined(stored)
 
 
@@ -83,14 +79,13 @@ UNITS[np.arange(TRIANGLE), ROWS, COLUMNS] = UNITS[np.arange(TRIANGLE), COLUMNS, 
 def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return potentials S (n, 4, k, 6, 6), drifts c (n, 4, k) and flags (n,) for the integrals of z G z.
 
-    S, c and z are as in `Squares`. The kernels G have shape (k, 6, 6) and the rate matrices (n, 4, 6, 6). A flag is
-    True if differences of z S z + c t keep enough digits for the system.
+    rates: (n, 4, 6, 6). kernels: G (k, 6, 6). A flag is True if differences of z S z + c t keep enough digits.
     """
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
     images = UNITS @ rates[:, :, None]
     images = (images + images.swapaxes(-1, -2))[..., ROWS, COLUMNS]  # A^T S + S A for each S of the basis
     equations[..., :-1, :-1] = images.swapaxes(-1, -2)
-    # The matrix S is defined up to a multiple of the form sin^2 + cos^2, which is constant; these entries select one S.
+    # S is unique up to a multiple of the constant sin^2 + cos^2; these entries select one S.
     equations[..., :-1, -1] = equations[..., -1, :-1] = (ROWS == COLUMNS) & (ROWS >= 4)
     sides = np.zeros((TRIANGLE + 1, len(kernels)))
     sides[:-1] = kernels[:, ROWS, COLUMNS].T
@@ -110,10 +105,7 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @lru_cache(maxsize=64)
 def squares_of(system) -> Squares:
-    """Return the potentials for the integrals of the quadratic forms in `OBSERVED`.
-
-    If differences of these potentials would lose digits, return NO_POTENTIALS.
-    """
+    """Return the potentials for the integrals of `OBSERVED`, or NO_POTENTIALS if differences would lose digits."""
     _, rates = numbers_of([system], 2)
     potentials, drifts, sound = potentials_of(rates[:, 0], OBSERVED)
     return Squares(potentials[0], drifts[0]) if sound[0] else NO_POTENTIALS
@@ -134,12 +126,12 @@ class Energy(Representation):
     coupling : float
         Energy dissipated by the damper between the boxes.
     impacts : ndarray
-        Energy lost in the impacts of each module, including completed chatters, shape (2,).
+        Energy lost in the impacts and completed chatters of each module, shape (2,).
     stored : float
         Change of the energy stored in boxes, balls and springs.
     per_cycle : ndarray
-        Structured array (cycles,) of type ENERGY with these five energies for each forcing period since the start of
-        the run. An event exactly between two periods belongs to the later period.
+        Energies of each forcing period, structured array (cycles,) of type ENERGY. An event between two periods belongs
+        to the later period.
 
     Examples
     --------
@@ -188,9 +180,9 @@ def energies(system, rows) -> np.ndarray:
 
 @compiled
 def accumulate_energy(flow, flights, events, squares, period, rows):
-    """Fill rows (k, ENTRIES), initially 0, with the integrals, losses and change of stored energy along a run.
+    """Add the energies along a run to rows (k, ENTRIES), one row per period.
 
-    Each row covers one period; the last row also covers the rest of the run.
+    The rows are initially 0. The last row also covers the rest of the run.
     """
     q, row, passed = flow.coefficients, 0, 0.0
     boxes, balls, walls = start_of(flights[0])
@@ -225,7 +217,7 @@ def accumulate_energy(flow, flights, events, squares, period, rows):
 
 @inlined_source
 def _follow(flow, squares, motion, t, row):
-    """Return the boxes after a flight of length t <= flow.longest, and add the integrals over the flight to a row."""
+    """Return the boxes after a flight of length t <= flow.longest, and add its integrals to a row."""
     mode = mode_of(motion.walls)
     boxes, sine, cosine = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, t)
     if squares.drifts.shape[1] == 0:
@@ -254,11 +246,7 @@ def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
 
 @inlined
 def _add_quadrature(flow, mode, motion, length, row):
-    """Add to a row the integrals of the quadratic forms in `OBSERVED` over a flight, by Gauss's rule.
-
-    length: duration of the flight, at most `flow.longest`. The forms are X_1^2, X_2^2 and the terms of the energy
-    balance.
-    """
+    """Add the integrals of the forms `OBSERVED` over a flight of length <= flow.longest to a row, by Gauss's rule."""
     for j in range(int(length * flow.density + 0.5) + 1):
         jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
         sine, cosine = rotate_phase(flow, motion.sine, motion.cosine, j)

@@ -1,20 +1,17 @@
 """Integrate (10.2) from event to event: flights, impacts, chatter, sticking and release.
 
-Between events the flow is linear and evaluated in closed form (flow.advance). For each module, exclusion.module_time
-proves that the module has no event over some time (an exclusion), or returns the time at which its next event certainly
-happens. If the first event is certain, Newton's method finds its time, from the Taylor polynomials about the present
-time if the event is near, otherwise from those about the nearest time of the flow table. If no event is certain, the
-flight continues to the end of the proved interval, so that no event is missed. Events (contact.resolve):
+Between events the flow is linear and has a closed form (flow.advance). exclusion.module_time proves that a module has
+no event over some time, or brackets its next event. If the first event is certain, Newton's method finds its time.
+Otherwise the flight continues to the end of the proved interval, so that no event is missed. Events (contact.resolve):
 
-impact    a ball meets a wall with outward relative velocity. Newton's restitution rule determines the rebound, and
-          momentum is conserved;
-stick     a ball comes to rest on a wall, for example after a chatter (infinitely many impacts in a finite time).
-          A chatter is completed at once if the neglected change of the state is below rounding. Box and ball then move
-          as one body of mass 1 + epsilon until the release;
-release   the contact force of a sticking ball falls to zero, or an impact in the other module makes the force negative.
+impact    a ball meets a wall with outward relative velocity. Newton's restitution rule and the conservation of momentum
+          determine the velocities;
+stick     a ball comes to rest on a wall, for example after a chatter (infinitely many impacts in a finite time). Box
+          and ball then move as one body of mass 1 + epsilon;
+release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it negative.
 
-Time is represented by the forcing phase, which is reduced to one turn without loss (flow.reduced), so that long
-runs lose no digits.
+A chatter is completed at once if the neglected change of the state is below rounding. Long runs lose no digits, because
+time is represented by the forcing phase, reduced to one turn.
 """
 
 import math
@@ -46,8 +43,7 @@ STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 def fly(flow, motion, remaining, most_proofs, counters):
     """Fly to the next event, or to the end of the run or of the flow table; return (time, module, boxes, balls).
 
-    module: index of the module in which an event is due; -1 if no event is due; STUCK_IN_TIME if the time does not
-    advance; OUT_OF_PROOFS if the run needs more than `most_proofs` proofs that no event happens.
+    module: -1 without an event, STUCK_IN_TIME if the time does not advance, OUT_OF_PROOFS after `most_proofs` proofs.
     """
     q = flow.coefficients
     mode = mode_of(motion.walls)
@@ -82,19 +78,18 @@ def fly(flow, motion, remaining, most_proofs, counters):
 
 @inlined_source
 def _first_event(q, motion, jets, bound, horizon, short):
-    """Return (module, time, width, safe, doubt) for the first event of the two modules.
+    """Return (module, time, width, safe, doubt) for the first event, which is at `time` +- `width`.
 
-    The event happens in `module` at `time` +- `width`. No event happens in either module before `safe`. The module is
-    -1 if no event is certainly the first. doubt: `undecided` from `module_time` for the first event.
+    No event happens before `safe`. The module is -1 if no event is certainly the first.
     """
-    # first check the module whose ball, at constant relative velocity, would be the first to hit a wall
+    # first check the module whose ball would hit a wall first at constant relative velocity
     (x1, x2, v1, v2), (y1, y2, u1, u2) = motion.boxes, motion.balls
     gap1, gap2 = 1.0 - math.copysign(1.0, v1 - u1) * (x1 - y1), 1.0 - math.copysign(1.0, v2 - u2) * (x2 - y2)
     one = 0 if gap1 * abs(v2 - u2) <= gap2 * abs(v1 - u1) else 1
     two = 1 - one
     t1, w1, doubt1 = module_time(q, motion, one, jets, bound, horizon, short)
     w, s1 = _bounds(t1, w1, short)
-    # check module `two` until slightly after t1, so that none of its events before t1 is missed
+    # check the other module until slightly after t1, so that no earlier event is missed
     t2, w2, doubt2 = module_time(q, motion, two, jets, bound, min(t1 + w + short, horizon), short)
     v, s2 = _bounds(t2, w2, short)
     if w1 < math.inf and t1 + w <= s2:
@@ -113,7 +108,7 @@ def _bounds(t, width, short):
 
 @inlined
 def _refine_impact_time(flow, motion, i, t, low, high):
-    """Find the only impact of module i in [low, high] from the guess t; return (True if found, time, boxes)."""
+    """Refine the guess t of the only impact of module i in [low, high]; return (found, time, boxes)."""
     mode = mode_of(motion.walls)
     for _ in range(TRIES):
         j = int(t * flow.density + 0.5)
@@ -140,28 +135,26 @@ FAILURES = {
 }
 ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096
 """The initial number of rows for events is ROOM + ROOM_PER_CYCLE * cycles, at most MOST_ROOM. Few runs need more."""
-MOST_AT_ONCE = 8  # most events at one instant: for each module an impact, a stick, a release and the end of a chatter
+MOST_AT_ONCE = 8  # for each module an impact, a stick, a release and the end of a chatter
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 need more."""
-INTERRUPT_INTERVAL = 200_000  # number of proofs that no event happens, between two checks for an interrupt; about 20 ms
-PATIENCE = 100_000  # number of successive flights of zero duration after which a run is stopped
+INTERRUPT_INTERVAL = 200_000  # proofs that no event happens, between two checks for an interrupt (20 ms)
+PATIENCE = 100_000  # successive flights of zero duration after which a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run may use MOST_PROOFS proofs that no event happens, plus MOST_PROOFS_PER_EVENT per event and MOST_PROOFS_PER_UNIT
 per time `Flow.unit`."""
 ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages
 EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
-"""Indices in the array of a run, (RUN_LENGTH,). The array contains the state in the order of `contact.pack`, the
-other fields of `Progress`, the number of events in earlier rows (EARLIER_EVENTS), the phase at the start with its
-rounding remainder and the number of forcing cycles (from SPAN on), and the start time of the run, measured from the
-same origin as the sample times (CLOCK)."""
+"""Indices in the array of a run, (RUN_LENGTH,). EARLIER_EVENTS: number of events in earlier rows. SPAN: phase at the
+start, its rounding remainder, number of cycles. CLOCK: start time. The state (`contact.pack`) and the other fields of
+`Progress` come before."""
 
 
 class Progress(NamedTuple):
     """State of an unfinished run.
 
-    due: index of the module with an event at this instant, or -1. phase, tail: forcing phase in [0, 2 pi) and its
-    rounding remainder. revolutions: full turns of the phase. elapsed: time since the start. sampled: number of samples
-    taken. stalled: number of successive flights of zero duration.
+    due: module (0 or 1) with an event at this instant, or -1. phase, tail: forcing phase in [0, 2 pi) and its rounding
+    remainder. stalled: number of successive flights of zero duration.
     """
 
     motion: Motion
@@ -178,16 +171,14 @@ class Progress(NamedTuple):
 def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """Continue a run to its end or to a pause; return the status.
 
-    numbers, series, rotations: from `flow.tables_of`. run, rows, counters: from `memory`; they are updated, and run[:8]
-    is the state reached. times (n,): ascending sample times, measured from the same origin as the start time run[CLOCK]
-    of the run. samples (n, 8): filled with the states at these times; a sample at the time of an event is the state
-    after the event.
+    numbers, series, rotations: from `flow.tables_of`. run, rows, counters: from `memory`; run[:8] becomes the state
+    reached. times (n,): ascending, from the same origin as run[CLOCK]. samples (n, 8): filled with the states at these
+    times.
 
-    The status is PAUSED if `rows` may be too short for the events of the next instant. It is also PAUSED after
-    INTERRUPT_INTERVAL exclusions (proofs that no event happens), so that the interpreter can handle an interrupt. To
-    continue, call the function again. If `rows` may be too short, first add counters[EVENTS] to run[EARLIER_EVENTS],
-    set counters[EVENTS] to 0, and replace `rows` by a new array. Only a number is returned, because an interrupt during
-    the conversion of a tuple would leave the tuple incomplete.
+    The status is PAUSED if `rows` may be too short for the next instant, or to let the interpreter handle an interrupt.
+    Call the function again to continue. If `rows` may be too short, first add counters[EVENTS] to run[EARLIER_EVENTS],
+    set counters[EVENTS] to 0 and pass new rows. An interrupt could leave a returned tuple incomplete, so that only a
+    number is returned.
     """
     boxes, balls = (run[0], run[2], run[4], run[6]), (run[1], run[3], run[5], run[7])
     motion = Motion(boxes, balls, (int(run[8]), int(run[9])), (int(run[10]), int(run[11])), 0.0, 1.0)
@@ -204,10 +195,9 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
 
 
 def memory(state, phase, tail, cycles, clock):
-    """Return new arrays for a run over `cycles` cycles: (array of the run, rows of events, counters).
+    """Return new arrays for `integrate`: (run, rows of events, counters).
 
-    state (8,): initial state in the order of `contact.pack`. phase, tail: initial forcing phase in [0, 2 pi) and its
-    rounding remainder. clock: start time of the run, measured from the same origin as the sample times.
+    phase, tail: initial forcing phase and its rounding remainder. clock: start time.
     """
     run, room = np.zeros(RUN_LENGTH), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     run[:8], run[12:15], run[SPAN:] = state, (-1.0, phase, tail), (phase, tail, cycles, clock)
@@ -218,12 +208,9 @@ def memory(state, phase, tail, cycles, clock):
 def run_until(flow, progress, span, sampling, log, earlier, interval):
     """Continue a run to its end or to a pause; return (progress, status).
 
-    The run pauses if `log.rows` may be too short for the events of the next instant, or after more than `interval`
-    exclusions (proofs that no event happens).
-
-    span: (forcing phase at the start of the run, its rounding remainder, number of forcing cycles). sampling: (start
-    time of the run, ascending sample times (n,) measured from the same origin, array (n, 8) to which the sampled states
-    are written). earlier: number of events that were written to earlier arrays of rows.
+    The run pauses after `interval` proofs, or if `log.rows` may be too short for the next instant. span: (forcing phase
+    at the start, its rounding remainder, number of cycles). sampling: (start time, ascending sample times (n,), array
+    (n, 8) for the samples). earlier: number of events in earlier rows.
     """
     q = flow.coefficients
     (first, first_tail, cycles), (start, sample_times, samples) = span, sampling
@@ -272,7 +259,7 @@ def run_until(flow, progress, span, sampling, log, earlier, interval):
 
 @inlined_source
 def _failure(q, boxes, balls, due, stalled, count, most_events):
-    """Return the reason for stopping a run after a flight, or FINISHED if there is no reason to stop."""
+    """Return the reason to stop a run after a flight, or FINISHED if there is none."""
     for i in range(2):
         beyond = abs(boxes[i] - balls[i]) - 1.0
         if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, boxes, balls, i):

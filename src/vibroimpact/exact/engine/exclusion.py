@@ -1,13 +1,12 @@
 """Prove that the constraints of a flight are satisfied over some time, and bracket the time of the first violation.
 
 A constraint is a smooth function g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. Its Taylor
-polynomial of degree 6 and a bound on its seventh derivative give a lower bound c0 + ... + c7 t^7 with coefficients
-c (8,). This polynomial is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are positive.
-Repeated steps of such lengths T converge to the first zero of g and never pass it (conservative advancement). If the
-rate of g certainly keeps its sign, there is at most one zero, which can be approached from either side.
+polynomial of degree 6 and a bound on its seventh derivative give a lower bound c0 + ... + c7 t^7. This bound is
+positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are positive. Steps of such lengths T converge
+to the first zero of g and never pass it. If the rate of g keeps its sign, there is at most one zero, which can be
+approached from either side.
 
-The proofs use floating-point arithmetic, and callers lower c0 by a margin for the rounding errors of g. In this file,
-"certain" means proved in this way, with the margin.
+Callers lower c0 by a margin for the rounding errors of g. "Certain" means proved with this margin.
 """
 
 import math
@@ -29,7 +28,7 @@ def least(c, t):
     second = c[4] * t4 * (1 / 35), c[5] * (t2 * t3) * (1 / 21), c[6] * (t3 * t3) * (1 / 7), c[7] * (t3 * t4)
     b = first + second
     low = c[0]
-    for _ in range(7):  # coefficient k is the sum of the terms b with row k of Pascal's triangle as weights
+    for _ in range(7):  # coefficient k is the sum of b, weighted by row k of Pascal's triangle
         b = (b[0] + b[1], b[1] + b[2], b[2] + b[3], b[3] + b[4], b[4] + b[5], b[5] + b[6], b[6] + b[7], b[7])
         low = low if low < b[0] else b[0]  # nan if a coefficient is nan
     return low
@@ -37,10 +36,7 @@ def least(c, t):
 
 @inlined
 def positive(c, t):
-    """Return True if the polynomial c (8,) is certainly positive on [0, t].
-
-    In most cases a bound on the terms of degree 4 and above suffices, at half the cost of `least`.
-    """
+    """Return True if the polynomial c (8,) is certainly positive on [0, t], by a cheap bound or by `least`."""
     t2 = t * t
     line, square = c[1] * t * (1 / 3), c[2] * t2 * (1 / 3)
     first, second, last = c[0] + line, c[0] + 2.0 * line + square, c[0] + 3.0 * (line + square) + c[3] * (t * t2)
@@ -50,11 +46,10 @@ def positive(c, t):
 
 @inlined
 def safe_time(c, horizon):
-    """Return a time in [0, horizon] up to which the polynomial c (8,) is certainly positive; 0 if not c[0] > 0.
+    """Return a time in [0, horizon] up to which the polynomial c (8,) is certainly positive.
 
-    The time is close to the first zero if this zero is simple. In every case, the time is at least half of the longest
-    time for which the Bernstein coefficients are positive. These coefficients are positive for a time t if no real or
-    complex zero is in the disc with diameter [0, t].
+    The time is close to a simple first zero. It is at least half of the longest time t with positive Bernstein
+    coefficients. These are positive if no real or complex zero is in the disc with diameter [0, t].
     """
     if not c[0] > 0.0:
         return 0.0
@@ -83,12 +78,10 @@ CONVERGING = 1e-8  # after a Newton step shorter than this, the error is below r
 def crossing(c, remainder, margin, horizon, short):
     """Return (certain, time, width) for the first zero of a decreasing constraint.
 
-    There are three results. The constraint certainly reaches zero at `time` +- `width`: `certain` is True, and a time
-    no longer than `short` is exact to rounding. It certainly does not reach zero up to the horizon: `certain` is True,
-    `time` is the horizon and `width` is inf. Neither is proved: `certain` is False.
+    If `certain` is True, the zero is at `time` +- `width`, or not before the horizon if `width` is inf. A time up to
+    `short` is exact to rounding.
 
-    c: Taylor polynomial (8,) of the constraint, c1 < 0; remainder: bound on |seventh derivative| / 5040; margin:
-    rounding error of c0.
+    c: Taylor polynomial (8,) with c1 < 0. remainder: bound on |seventh derivative| / 5040. margin: error of c0.
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)
@@ -129,14 +122,14 @@ def nearby_zero(c, t):
 
 @inlined
 def return_time(c, remainder, horizon):
-    """Return the time, exact to rounding, at which a very short hop ends, or inf if the time is uncertain.
+    """Return the time, exact to rounding, at which a very short hop ends, or inf if it is uncertain.
 
-    c, remainder: as for `crossing`, for the gap between ball and wall, with c0 = 0 and c1 > 0. The polynomial is
-    divided by t to remove its zero at the start, so that the time keeps its relative accuracy for short hops.
+    c, remainder: as for `crossing`, with c0 = 0 and c1 > 0.
     """
     t = -c[1] / c[2] if c[2] < 0.0 else math.inf
     if t > 0.5 * horizon or 8.0 * t * spread(c, remainder, t) > -c[2]:
         return math.inf
+    # division of the polynomial by t keeps the relative accuracy
     return nearby_zero((c[1], c[2], c[3], c[4], c[5], c[6], c[7], 0.0), t)
 
 
@@ -148,26 +141,22 @@ def spread(c, remainder, t):
 
 
 RESOLUTION = 4.0 * np.finfo(float).eps
-ZERO_FACTOR = 2.0  # a constraint of up to 2 times its rounding error is taken as 0, since proofs would need tiny steps
+ZERO_FACTOR = 2.0  # a constraint of at most 2 rounding errors counts as 0, since proofs would need tiny steps
 DOUBT_FACTOR = 2.0 * ZERO_FACTOR
-"""Distance, in units of the rounding error of a gap (`gap_rounding`), below which rounding decides whether a ball hits
-or misses a wall. If the motion is computed again with other steps, as in a lane of an ensemble, the decision may
-differ."""
+"""Distance, in units of `gap_rounding`, below which rounding decides whether a ball hits or misses a wall. With other
+steps, as in an ensemble, the decision may differ."""
 LOOKAHEAD = 2.5
 ZERO_FORCE_MARGIN = 1e-300  # margin for a force that stays zero
-SHORT = 0.02  # in units of `Flow.unit`; over shorter times the Taylor polynomials of the boxes are exact to rounding
+SHORT = 0.02  # time in `Flow.unit` for which the Taylor polynomials of the boxes are exact to rounding
 
 
 @inlined
 def remainder(q, mode, jets, growth):
     """Return a bound on |X_i^(7)| / 7! that holds for both boxes.
 
-    growth: bound on the time integral of the sixth derivative of the force.
-
-    The sixth time derivatives of the box displacements obey the equations of motion, with the sixth derivative of the
-    force as forcing. In this motion, the velocities are the seventh derivatives. The velocities are bounded by
-    sqrt(2 E), where E is the energy of this motion. Damping only removes energy, so that sqrt(2 E) grows by no more
-    than `growth`.
+    The sixth derivatives of the displacements obey the equations of motion with the sixth derivative of the force as
+    forcing. Their velocities, the seventh derivatives, are at most sqrt(2 E), where E is the energy of this motion.
+    Damping only removes energy. So sqrt(2 E) grows by at most `growth`, a bound on the time integral of this forcing.
     """
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
@@ -178,11 +167,10 @@ def remainder(q, mode, jets, growth):
 
 @inlined
 def own_remainder(q, mode, jets, both, i, force, horizon):
-    """Return a bound like `remainder` for box i alone.
+    """Return a bound like `remainder` for box i alone; with weak coupling, it hardly depends on the other box.
 
-    force: bound on the sixth derivative of the force on box i; both: bound from `remainder` for both boxes. The energy
-    of a box grows by the work of its own force and of the coupling. With weak coupling, this bound hardly depends on
-    the other box.
+    The energy of a box grows by the work of its force and of the coupling. force: bound on the sixth derivative of the
+    force.
     """
     m, k, p = (q.mass if mode & (i + 1) else 1.0), (q.k11 if i == 0 else q.k22), (jets[0] if i == 0 else jets[1])
     passed = (abs(q.k12) / math.sqrt(q.ground if i == 0 else 1.0) + abs(q.c12)) * both
@@ -211,8 +199,7 @@ def gap_rounding(q, boxes, balls, i):
 def gap(p, position, velocity, w):
     """Return the Taylor polynomial (8,) of the gap between a free ball and wall w.
 
-    p (8,): Taylor polynomial of the box displacement. position, velocity: position and velocity of the ball at time 0
-    of this polynomial.
+    p: Taylor polynomial of the box. position, velocity: those of the ball.
     """
     near, approach = 1.0 - w * (p[0] - position), -w * (p[1] - velocity)
     return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
@@ -222,8 +209,7 @@ def gap(p, position, velocity, w):
 def push(q, mode, jets, i, wall, sine, cosine, horizon):
     """Return (Taylor polynomial (8,), bound on its remainder) of the wall's force on a sticking ball, per ball mass.
 
-    Up to the sign of the wall, this force is the acceleration of the box. The accelerations of the boxes obey the
-    equations of motion with the second derivative of the forcing.
+    Box accelerations obey the equations of motion with the second derivative of the forcing.
     """
     one, two = jets
     fall = -wall * q.omega * q.omega
@@ -236,11 +222,7 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
 
 @inlined
 def _safe_time(c, bound, margin, horizon):
-    """Return (time, due): a time over which a constraint is certainly satisfied, and True if an event is due at once.
-
-    An event is due at once if the constraint is zero within rounding and decreases. If the constraint is zero within
-    rounding but does not decrease, the time is that of `_time_from_zero`.
-    """
+    """Return (time, due): a time over which a constraint certainly holds, and True if an event is due at once."""
     if c[0] > ZERO_FACTOR * margin:
         return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
     if c[1] < 0.0:
@@ -253,9 +235,8 @@ def _safe_time(c, bound, margin, horizon):
 def _time_from_zero(c, bound, margin, horizon, rises):
     """Return a time over which a constraint that is initially zero within rounding is certainly satisfied.
 
-    If the constraint rises, its polynomial is divided by t to remove the zero at the start. If the constraint
-    does not rise, it is only proved to stay above -margin over the returned time. The same holds if the remainder bound
-    more than halves the time that follows from the divided polynomial.
+    If the constraint rises, division by t removes its initial zero. If it does not rise, or if the remainder bound
+    makes the time short, it is only proved to stay above -margin.
     """
     time = 0.0
     if rises:
@@ -269,8 +250,7 @@ def _time_from_zero(c, bound, margin, horizon, rises):
 def _hop_time(c, bound, margin, horizon, short):
     """Return (time, back) for a hop of a ball from the wall that it touches now.
 
-    If the hop ends within `short`, `time` is the end of the hop and `back` is True. Otherwise the hop certainly does
-    not end before `time`, and `back` is False. c[1] >= 0 is the initial relative velocity away from the wall.
+    If `back` is True, the hop ends at `time`. Otherwise the hop certainly does not end before `time`.
     """
     if c[1] == 0.0:
         rise = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
@@ -285,13 +265,10 @@ def _hop_time(c, bound, margin, horizon, short):
 def module_time(q, motion, i, jets, bound, horizon, short):
     """Return (time, width, undecided) for the next event in module i.
 
-    If `width` is finite, the next event is certainly at `time` +- `width`; a width of 0 means that the time is exact to
-    rounding. If `width` is inf, the module certainly has no event before `time`. `time` is slightly negative if the
-    event has just been passed. `undecided` is True if rounding decides whether the constraint reaches zero (tangential
-    contact).
+    The event is certainly at `time` +- `width`. If `width` is inf, there is certainly no event before `time`. `time` is
+    slightly negative just after an event. `undecided` is True if rounding decides whether the event happens.
 
-    jets: Taylor polynomials of both boxes. bound: from `remainder`, valid up to the horizon. short: longest time over
-    which the Taylor polynomials are exact to rounding.
+    jets: Taylor polynomials of both boxes. short: time up to which they are exact to rounding. bound: from `remainder`.
     """
     if motion.walls[i] != 0:
         return _sticking_time(q, motion, i, jets, horizon, short)
@@ -307,10 +284,9 @@ def module_time(q, motion, i, jets, bound, horizon, short):
 
 @inlined_source
 def _sticking_time(q, motion, i, jets, horizon, short):
-    """Return the result of `module_time` for a sticking ball; the constraint is that the wall pushes the ball."""
+    """Return the result of `module_time` for a sticking ball, from its contact force."""
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
-    # The second term bounds the rounding error of the change of the force up to the horizon. Without this term, the
-    # margin could be almost zero for boxes at rest.
+    # The second term bounds the rounding error of the change of the force. Without it, the margin could be almost zero.
     margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + ZERO_FORCE_MARGIN
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)
@@ -322,10 +298,7 @@ def _sticking_time(q, motion, i, jets, horizon, short):
 
 @inlined_source
 def _turning_time(q, motion, i, jets, bound, horizon, short):
-    """Return the result of `module_time` for a flying ball whose relative velocity may change sign.
-
-    The constraints are the gaps to both walls.
-    """
+    """Return the result of `module_time` for a flying ball that may turn around in its box."""
     boxes, balls = motion.boxes, motion.balls
     margin = gap_rounding(q, boxes, balls, i)
     force = abs(q.f1 if i == 0 else q.f2) * q.omega**6
