@@ -1,12 +1,24 @@
 """Impact law: Newton's restitution rule with conservation of momentum (section 10.2).
 
-The engine, the ensembles, other integrators, interval arithmetic and the browser implement the law themselves. Tests
-compare them.
+These modules implement the law again and must change with it:
+
+- `exact.engine.contact`, `exact.lanes.steps`, `exact.lanes.statistics`: runs and ensembles,
+- `exact.orbits.symmetric`, `exact.orbits.asymmetric`, `exact.orbits.proof.conditions`: equations of orbits,
+- `rigid_contact`, `heyoka_taylor`, `moreau_jean`, `ivanov` and `contact_laws` in `integrators`,
+- `accuracy.reference.trajectory`: arbitrary precision,
+- `studies.completeness.orbits`: completeness proof,
+- `report/live/exact.js`: browser.
+
+The saltation matrix depends on the law. It is implemented in `exact.engine.variation`, `exact.orbits.floquet` and
+`exact.orbits.proof.passage`. Tests compare the implementations.
 """
 
 
 def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocity: float):
-    """Return the velocities (X', Y') just after an impact, from the velocities just before it, (10.2)."""
+    """Return the velocities (X', Y') just after an impact, from the velocities just before it, (10.2).
+
+    W' = X' - Y' is multiplied by -kappa, and X' + epsilon Y' is conserved. The arguments are floats or arrays.
+    """
     impulse = (1.0 + kappa) / (1.0 + epsilon) * (box_velocity - ball_velocity)
     return box_velocity - epsilon * impulse, ball_velocity + impulse
 
