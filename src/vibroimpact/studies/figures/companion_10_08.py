@@ -50,6 +50,11 @@ def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.Data
         Simulated states, evenly spaced from the start of a forcing period; columns tau, X1, Y1, X2, Y2.
     events : DataFrame
         Simulated events; columns tau, module, wall, kind, X2, Y2.
+
+    Returns
+    -------
+    DataFrame
+        The table in SPEC.
     """
     start, period = samples["tau"].iloc[0], system.period
     hits = events[(events["module"] == 2) & (events["kind"] == "impact")]

@@ -114,8 +114,15 @@ def compute(system, response, clearance, design, band: dict, seed: int, cycles: 
         Tables of the peaks along `band`, over the pair of forces; `design` also varies kappa.
     band : dict
         Arguments of `sweeps.grid.axis`, along sigma_e_hat.
+    seed : int
+        Seed of the starts in the sweeps.
     cycles, settle : int
         Length of each run and of its omitted transient, in forcing periods.
+
+    Returns
+    -------
+    dict
+        The tables in SPEC.
     """
     linear = linear_systems(system, (1.0, 1.0), band)
     peaks = {name: one.peak(frequencies(system, band)) / system.epsilon for name, one in linear.items()}

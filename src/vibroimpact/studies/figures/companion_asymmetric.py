@@ -119,6 +119,8 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_
 
     Parameters
     ----------
+    systems : dict
+        Case -> system.
     orbits : DataFrame
         Rows of `verdict_table.orbit_rows` for all cases.
     kappa

@@ -58,6 +58,7 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
     """Return the regimes of starts that differ only in the positions of the balls.
 
     Boxes and all velocities start as on the stable asymmetric orbit, or at 0 without such an orbit.
+
     points: number of starts along each axis W_i = X_i - Y_i. observation: arguments of `Observation`.
     """
     orbit = stable_response(system)

@@ -148,6 +148,11 @@ def compute(
         Arguments of `Observation`.
     systems : dict
         Case -> system. Cases on a path are marked.
+
+    Returns
+    -------
+    dict
+        The tables in SPEC.
     """
     nodes, attracting, cases, onsets = [], [], [], []
     begun = spread_starts(attractors["starts"], attractors["seed"])

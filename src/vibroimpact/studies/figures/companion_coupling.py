@@ -70,6 +70,11 @@ def compute(systems: dict) -> dict:
     ----------
     systems : dict
         Case -> system. The case "equal" is required; the cases in STRONG and WEAK are used.
+
+    Returns
+    -------
+    dict
+        The tables in SPEC.
     """
     rows = [
         {"case": case, "coupling": value} | row

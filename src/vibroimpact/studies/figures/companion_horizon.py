@@ -39,6 +39,11 @@ def compute(system: System, initial_state, strobe: pd.DataFrame) -> pd.DataFrame
     ----------
     strobe : DataFrame
         True states at the starts of the cycles; columns `NAMES`.
+
+    Returns
+    -------
+    DataFrame
+        The table in SPEC.
     """
     difference, expected, horizon = departure(system, initial_state, strobe[list(NAMES)].to_numpy(float))
     cycles = np.arange(len(difference))

@@ -91,6 +91,11 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
         Case -> system. Cases that differ from `system` only in the forcing amplitudes are marked.
     starts : int
         Number of starts at each point, the first at rest.
+
+    Returns
+    -------
+    dict
+        The tables in SPEC.
     """
     cells = table.rename(columns={FROM_REST: "label"})
     cells["regime"], cells[COEXISTING] = _dominant(cells, starts)

@@ -92,6 +92,11 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
         Table of a sweep over the amplitude of two equal forces, with regimes and amplitudes.
     band : dict
         Arguments of `sweeps.grid.axis`: the values of sigma_e_hat for which the best absorbers are tuned.
+
+    Returns
+    -------
+    dict
+        The tables in SPEC.
     """
     sweeps = {"frequency": frequency, "force": force.assign(sigma_e_hat=system.sigma_e_hat)}
     balls = pd.concat([per_force(system, table).assign(panel=name)[OF_BALLS] for name, table in sweeps.items()])

@@ -97,6 +97,11 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
         Length of each run and of its omitted transient, in forcing periods.
     shown : dict
         `L` [m], `frequency` [Hz] and `cycles` of the motion.
+
+    Returns
+    -------
+    dict
+        The tables in SPEC.
     """
     hertz = np.linspace(*frequencies["range"], frequencies["values"])
     curves = [*_linear(_machines(plant, clearances[0], hertz[0]), hertz[[0, -1]])]
