@@ -28,7 +28,10 @@ SHORT = 10
 
 
 def methods_table(seconds: float) -> list[dict]:
-    """Return one row per method and setting: time per impact [us], and errors, for the motion PROBLEM."""
+    """Return one row per method and setting: time per impact [us], and errors, for the motion PROBLEM.
+
+    seconds: time [s] for which the run with each setting is repeated.
+    """
     run = simulate(PROBLEM.system, PROBLEM.state, PROBLEM.cycles)
     per_cycle = _impacts(run) / PROBLEM.cycles
     errors = "error_state", "error_time", "missed", "spurious", "reason"
@@ -59,7 +62,10 @@ def scenes() -> dict[str, tuple]:
 
 
 def scenes_table(seconds: float) -> list[dict]:
-    """Return the time per impact [us] on one core for `ensemble` and for single runs, two rows per scene."""
+    """Return the time per impact [us] on one core for `ensemble` and for single runs, two rows per scene.
+
+    The row of `ensemble` also contains the median error. seconds: time [s] for which runs are repeated.
+    """
     with at_most(1):
         return [row for name, scene in scenes().items() for row in _compared(name, *scene, seconds)]
 

@@ -16,8 +16,8 @@ WINDOW = 0.05
 class Errors(NamedTuple):
     """Errors of a run against a reference run.
 
-    error_state: largest error of a final coordinate, or inf without a final state. error_time: largest time error [tau]
-    of a matched impact. missed, spurious: numbers of unmatched impacts of the reference and of the run.
+    error_state: largest error of a final coordinate. error_time: largest time error [tau] of a matched impact. Both are
+    inf without a final state. missed, spurious: numbers of unmatched impacts of the reference and of the run.
     """
 
     error_state: float

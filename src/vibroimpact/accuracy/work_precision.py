@@ -29,7 +29,7 @@ class Problem:
 def measure(problem: Problem, methods: list[Method], seconds: float, short: bool = False) -> list[dict]:
     """Return one row per method and setting: errors, time per cycle [s] and fitted order.
 
-    short: True to skip every second setting.
+    seconds: time [s] for which the run with each setting is repeated. short: True to skip every second setting.
     """
     reference = proven_run(problem.system, problem.state, problem.cycles, exact_floats=False).run
     settings = [

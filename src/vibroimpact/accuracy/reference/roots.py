@@ -10,6 +10,8 @@ class Undecidable(ArithmeticError):
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
     """Return an interval with the first root of a series in (0, end] and no other root, or None if there is no root.
 
+    Mean-value enclosures of the series prove the result.
+
     series: arb_poly, positive at 0. hint: point at which (0, end] is split first.
 
     Raises
@@ -46,7 +48,7 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
 
 
 def refine(series, ball: arb) -> arb:
-    """Return the root of a series that decreases in the interval `ball`, to working precision."""
+    """Return the only root of a series that decreases in the interval `ball`, to working precision."""
     slope = series.derivative()
     while True:
         middle = ball.mid()

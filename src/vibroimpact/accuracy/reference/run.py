@@ -25,8 +25,9 @@ ACCURACY, MAX_DIGITS = 1e-15, 5000
 class ReferenceRun:
     """Dimensionless run in arbitrary precision; a state is [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
 
-    events: array of type EVENT. event_taus (n,), event_states (n, 8), final_exact (8,): the same times and states, and
-    the final state, as flint.arb. samples (n, 8), final (8,): float64. chatters: number of completed chatters.
+    digits: decimal digits of each flight. events: array of type EVENT. event_taus (n,), event_states (n, 8),
+    final_exact (8,): the same times and states, and the final state, as flint.arb. samples (n, 8), final (8,): float64.
+    chatters: number of completed chatters.
     """
 
     digits: int
@@ -57,7 +58,8 @@ def reference_run(
     """Simulate (10.1) over `cycles` forcing periods from the time tau0.
 
     At the start, a ball at rest on a wall w sticks if the wall pushes it. The wall pushes if the first nonzero number
-    among w X'' and its time derivatives is positive. The ball also sticks if all these numbers are 0.
+    among w X'' and its time derivatives is positive. The ball also sticks if all these numbers are 0. Numbers below the
+    accuracy of a flight count as 0.
 
     Parameters
     ----------
@@ -65,6 +67,8 @@ def reference_run(
         The ten parameters. All numbers may be decimal strings, Fractions or floats.
     state : sequence
         [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
+    cycles, tau0
+        Number of forcing periods, at least 0, and start time tau.
     digits : int
         Decimal digits of each flight, at least 20.
     sample_times : sequence, optional

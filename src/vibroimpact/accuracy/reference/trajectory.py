@@ -205,7 +205,10 @@ class Trajectory:
         return found
 
     def _distance(self, key, series):
-        """Return the distance to a wall, or the force on a stuck ball, as a power series without leading zeros."""
+        """Return the distance to a wall, or the force on a stuck ball, as a power series without leading zeros.
+
+        It is positive until the event.
+        """
         module, wall = key
         ball = self.balls[module]
         if ball.stuck:
@@ -251,6 +254,9 @@ class Trajectory:
 
     def _settle(self, *modules, started=False):
         """Release each stuck ball whose contact force w X'' is negative just after this instant.
+
+        The sign of the force is that of its first nonzero Taylor coefficient; coefficients up to `tolerance` count as
+        0.
 
         started: True at the start of a run, where a release is not recorded.
         """

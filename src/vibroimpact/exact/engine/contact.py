@@ -156,8 +156,8 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
     """Return a number > 0 if the wall pushes ball i, at rest on it, and < 0 if the wall would have to pull the ball.
 
     The sign is that of the contact force or, if this is zero within rounding, of its first nonzero derivative. There is
-    one exception. A sticking ball whose force < 0 increases at the rate `change` would rise to the height
-    2 |force|^3 / (3 change^2). If this height is below rounding, the ball stays stuck.
+    one exception: the force on a sticking ball is negative but increases at the rate `change` > 0. If released, the
+    ball would rise to the height 2 |force|^3 / (3 change^2). If this height is below rounding, the ball stays stuck.
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -184,7 +184,8 @@ def _end_of_chatter(flow, motion, i, counters):
     """Return the time until the chatter of ball i ends, or -1 if it cannot be completed now.
 
     Hops shorten by the factor kappa. With u and a from `_hop`, the chatter ends after T = 2 u / (a (1 - kappa)).
-    Completing it neglects that hops change the spring forces. The neglected effect is of the order u^3 / a^2.
+    Completing it conserves the momentum of box and ball. It neglects that hops change the spring forces. The neglected
+    effect is of the order u^3 / a^2.
     """
     q, boxes, balls, wall = flow.coefficients, motion.boxes, motion.balls, motion.touching[i]
     u, a = _hop(q, motion, i, wall)

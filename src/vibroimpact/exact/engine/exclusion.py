@@ -6,7 +6,8 @@ positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are posi
 to the first zero of g and never pass it. If the rate of g keeps its sign, there is at most one zero, which can be
 approached from either side.
 
-Callers lower c0 by a margin for the rounding errors of g. "Certain" means proved with this margin.
+The proofs use floating-point arithmetic. Callers lower c0 by a margin for the rounding errors of g. "Certain" means
+proved with this margin.
 """
 
 import math
@@ -46,7 +47,7 @@ def positive(c, t):
 
 @inlined
 def safe_time(c, horizon):
-    """Return a time in [0, horizon] up to which the polynomial c (8,) is certainly positive.
+    """Return a time in [0, horizon] up to which the polynomial c (8,) is certainly positive; 0 unless c[0] > 0.
 
     The time is close to a simple first zero. It is at least half of the longest time t with positive Bernstein
     coefficients. These are positive if no real or complex zero is in the disc with diameter [0, t].
@@ -222,7 +223,10 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
 
 @inlined
 def _safe_time(c, bound, margin, horizon):
-    """Return (time, due): a time over which a constraint certainly holds, and True if an event is due at once."""
+    """Return (time, due): a time over which a constraint certainly holds, and True if an event is due at once.
+
+    An event is due if the constraint is zero within rounding and decreases.
+    """
     if c[0] > ZERO_FACTOR * margin:
         return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
     if c[1] < 0.0:

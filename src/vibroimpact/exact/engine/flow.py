@@ -35,7 +35,8 @@ _GUARD_BITS = 192
 class Coefficients(NamedTuple):
     """Scalars of (10.2) for the compiled loops.
 
-    ground: stiffness between box 2 and the ground. drive: force amplitude |(f1, f2)|. growth: drive omega^6.
+    ground: stiffness between box 2 and the ground. drive: force amplitude |(f1, f2)|. growth: drive omega^6, the
+    amplitude of the sixth derivative of the force.
     shift: bound on the displacement that the force causes in a period.
     mass: mass of box and ball. impulse, impulse_rest: (1 + kappa) / (1 + epsilon) as a float and its remainder.
     """

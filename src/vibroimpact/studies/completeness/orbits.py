@@ -59,6 +59,8 @@ class Proof:
 def certify(system) -> Proof:
     """Prove how many symmetric 1:1 responses a system has, including those that are not admissible.
 
+    A system without forcing has none.
+
     Raises
     ------
     ValueError

@@ -144,7 +144,7 @@ def fixed_points(system: System) -> list[AsymmetricPoint]:
     Raises
     ------
     ValueError
-        If the fixed points need not be isolated.
+        If system is not a System, or if its fixed points need not be isolated.
     """
     return [point for point in search(system) if not (point.C < 0).any()]
 
