@@ -67,13 +67,14 @@ def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dat
     rows : list of dict or pandas.DataFrame
         Rows of `vibroimpact.sweep`, or the table `results/sweeps/NAME.csv`.
     along : sequence of str or tuple of str
-        Parameters that vary, one per dimension. Parameters that vary together form a tuple.
+        Parameters that vary, in the order of the dimensions. Parameters that vary together form a tuple.
 
     Returns
     -------
     xarray.Dataset
-        A tuple gives one dimension, with the name of its first parameter. Each other column is a variable. All numbers
-        are dimensionless; their attribute `units` is "1". `.to_netcdf(path, engine="scipy")` saves the dataset.
+        Each entry of `along` is a dimension; a tuple has the name of its first parameter. Each other column is a
+        variable. All numbers are dimensionless; their attribute `units` is "1". `.to_netcdf(path, engine="scipy")`
+        saves the dataset.
 
     Raises
     ------
@@ -139,7 +140,7 @@ def _rows(one, number):
 def _columns(table):
     """Return the columns of a structured array (n,), keyed by name.
 
-    A field of 8 numbers gives one column per component of a state.
+    A field of 8 numbers gives one column per component of a state. The columns of other fields are numbered from 1.
     """
     columns = {}
     for name in table.dtype.names:

@@ -127,7 +127,7 @@ class PeriodicOrbit(Representation):
 def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> PeriodicOrbit:
     """Find a periodic motion of any period, with any impacts, chatter and sticking, from a state near it.
 
-    Newton's method also finds unstable motions. It may miss the nearest motion.
+    Newton's method also finds unstable motions. From a distant start, it may miss the nearest motion.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
     Returns
     -------
     PeriodicOrbit
-        The periodic motion.
+        The motion, with .state, .period, .multipliers, .stability, .impacts, .symmetric, .amplitudes and .residual.
 
     Raises
     ------

@@ -65,7 +65,10 @@ class Penalty(Method):
 
 
 class PowerLaw(Penalty):
-    """Integration with a spring force K W^(2n - 1) instead of walls; the setting is n."""
+    """Integration with a spring force K W^(2n - 1) instead of walls; the setting is n.
+
+    A ball with speed 1 at W = 0 turns at W = 1.
+    """
 
     knob = "exponent"
     settings = (10, 30, 100, 300, 1_000, 3_000, 10_000)

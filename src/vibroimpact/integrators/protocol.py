@@ -19,8 +19,9 @@ in an endless chatter."""
 class MethodRun:
     """Result of a run of one method.
 
-    final: state (8,) at the end, or None after a failure. noted: impacts (tau, module, wall, speed) in order of time,
-    or a function that returns them. evaluations: evaluations of the right-hand side, 0 if they are not counted.
+    final: state (8,) at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure. noted: impacts (tau,
+    module, wall, speed) in order of time, or a function that returns them. steps: number of integration steps.
+    evaluations: evaluations of the right-hand side, 0 if they are not counted.
     outcome: FINISHED, REFUSED or UNFINISHED. reason: why the run has no result, or "". doubt: function that returns
     what the method reports as undecided, or "".
 
@@ -70,7 +71,7 @@ class Method(ABC):
     def run(self, system, state, cycles: int, tau0: float, setting) -> MethodRun:
         """Integrate from a state (8,) at tau0 over `cycles` forcing periods in at most `limit` steps.
 
-        A run that cannot continue returns the result of `failed`.
+        setting: one of `settings`. A run that cannot continue returns the result of `failed`.
         """
 
     def scale(self, setting, run: MethodRun) -> float:

@@ -85,7 +85,7 @@ class Design:
         One row per frequency_Hz. The displacements are without_m (without ball), absorber_m (with the absorber),
         settling_m (in the transient from rest) and with_m (largest in the window). The motion of with_m also has
         impacts_per_s, the mean impact_speed_m_s, the mean impulse_Ns, and later_m (its displacement in the next 1000
-        periods).
+        periods, smaller than with_m if this is a transient).
 
     Examples
     --------
@@ -185,6 +185,8 @@ def design(
     progress: bool = True,
 ) -> Design:
     """Find the clearance and the restitution coefficient of a ball with the lowest peak over a band of frequencies.
+
+    The sign of the force has no effect.
 
     Parameters
     ----------

@@ -79,7 +79,10 @@ def errors_of(flow, flights, events, limit):
 
 @compiled
 def errors_at(flow, flights, events, times, limit):
-    """Return the estimated errors (n,) of the states at ascending `times`, or inf above `limit`."""
+    """Return the estimated errors (n,) of the states at ascending times since the start of a run.
+
+    They include the rounding of these times. Errors above `limit` are inf.
+    """
     q = flow.coefficients
     estimates, largest, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
     errors = Errors(np.zeros((8, 8)), np.zeros((8, 6)))
@@ -114,6 +117,7 @@ def errors_at(flow, flights, events, times, limit):
 def _begin(q, flight, errors):
     """Add the rounding errors of the initial state to `errors`."""
     state = flight[BEFORE:AFTER]
+    # the velocity of a ball has a rounding error only if the ball is at a wall
     touching = abs(state[0] - state[4]) >= 1.0, abs(state[1] - state[5]) >= 1.0
     _add_rounding(q, errors, flight[:AFTER], state, touching)
 
@@ -253,7 +257,8 @@ class Certificate(Representation):
     Attributes
     ----------
     flights, exclusions : int
-        Number of flights, and number of proofs that an interval has no event.
+        Number of flights, and number of proofs that an interval has no event. The proofs cover the whole run;
+        otherwise `simulate` raises ArithmeticError.
     chatters : int
         Number of completed chatters (infinite sequences of impacts).
     neglected : float
@@ -265,14 +270,16 @@ class Certificate(Representation):
     shallowest_hit : float
         Smallest depth beyond a wall that a ball would have reached without an impact.
     clearance : float
-        Smallest margin divided by the estimated error. A margin is the error that would change the sequence of events.
+        Smallest margin divided by the estimated error of the state at this time. A margin is the error that would
+        change the sequence of events.
     undecided : int
-        Number of times at which rounding decides whether an event happens.
+        Number of times at which rounding decides whether an event happens, such as a grazing impact.
     error : float
-        Estimated error of the final state (root mean square); inf if the run ends beyond `horizon`.
+        Estimated error of the final state (root mean square); inf if the run ends beyond `horizon`. The estimate
+        includes a rounding error at every event.
     horizon : float
-        Time tau at which the estimated error first exceeds 1e-3, or inf. Beyond it, the run is a possible motion, but
-        not the one from the given initial state.
+        Time tau at which the estimated error first exceeds 1e-3, or inf if it never does. Beyond it, the run is a
+        possible motion, but not the one from the given initial state.
 
     Notes
     -----

@@ -45,7 +45,8 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 class Squares(NamedTuple):
     """Potentials S (4, k, 6, 6) and drifts c (4, k) for k integrals in each of the 4 contact states.
 
-    An integral is the change of z S z + c t, where z = [X1, X2, X1', X2', sin, cos].
+    An integral is the change of z S z + c t, where z = [X1, X2, X1', X2', sin, cos]. If k = 0, Gauss's rule computes
+    the integrals instead.
     """
 
     potentials: np.ndarray

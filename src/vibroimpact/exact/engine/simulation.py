@@ -163,8 +163,8 @@ class Run(Representation):
     def events(self) -> np.ndarray:
         """Events in order of time, a structured array (m,) of type EVENT.
 
-        tau: time. module: 1 or 2. wall: X_i - Y_i, +1 or -1. state: (8,), just after the event.
-        kind: 0 impact, 1 stick (the ball comes to rest on the wall), 2 release (the ball leaves the wall).
+        tau: time. module: 1 or 2. wall: X_i - Y_i, +1 or -1. state: (8,), just after the event. kind, a key of KINDS:
+        0 impact, 1 stick (the ball comes to rest on the wall), 2 release (the ball leaves the wall).
         """
         rows = self.rows
         if continues(self.begin):  # omit sticks of balls that already stuck in the previous run
@@ -275,7 +275,8 @@ def simulate(
 ) -> Run:
     """Simulate the exact system over a number of forcing cycles.
 
-    The run includes impacts, chatter, sticking and release.
+    The run includes impacts, chatter, sticking and release. Between events, the motion is computed in closed form,
+    without time steps.
 
     Parameters
     ----------
@@ -284,7 +285,7 @@ def simulate(
     state : array_like
         Initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), dimensionless.
     cycles : int
-        Number of forcing periods, from 0 to ten million.
+        Number of forcing periods, from 0 to ten million. A run stores all its events.
     tau0 : float, Fraction or Instant, default 0.0
         Dimensionless start time, used without rounding; |tau| must stay below 2**43.
         To continue a run, start from `run.final` with tau0=run.end. A ball at rest on a wall then already sticks.
@@ -294,15 +295,15 @@ def simulate(
     Returns
     -------
     Run
-        Events, samples and final state.
+        Events, samples and final state. `certificate`, `energy` and `jacobian` are computed on first access.
 
     Raises
     ------
     ValueError
         If an argument is malformed, or if a ball starts beyond a wall (|X_i - Y_i| > 1).
     ArithmeticError
-        If a ball passes through a wall, time does not advance, or there are too many events (a million plus ten
-        thousand per cycle) or too many proofs that no event happens (docs/engine.md).
+        If a ball passes through a wall, or if time does not advance. Also if there are too many events (a million plus
+        ten thousand per cycle), or too many proofs that no event happens (docs/engine.md).
 
     Notes
     -----
@@ -350,7 +351,7 @@ def simulate_many(
     Raises
     ------
     ValueError
-        If an argument is malformed or an initial state is invalid.
+        If an argument is malformed or an initial state is invalid. The message gives the row of the state.
     ArithmeticError
         As for `simulate`, if one of the runs fails.
 

@@ -75,7 +75,7 @@ def ensemble(
     cycles, tau0
         As for `simulate`.
     settle : int, default 0
-        Number of cycles before the observation. With settle=cycles, only final states are computed.
+        Number of cycles before the observation, at most `cycles`. With settle=cycles, only final states are computed.
     progress : bool, default False
         Show the number of finished runs on standard error.
     energy : bool, default False
@@ -87,9 +87,9 @@ def ensemble(
     -------
     ndarray
         Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status is not 0
-        (STATUSES), its numbers are nan and its counts 0. Without observed cycles, statistics are also nan and counts 0.
-        The averages and the largest |X_i| are exact to rounding. The largest |X_i| is less exact for a box almost at
-        rest near a turning point.
+        (STATUSES), its numbers are nan and its counts 0; other runs are not affected. Without observed cycles,
+        statistics are also nan and counts 0. The averages and the largest |X_i| are exact to rounding. The largest
+        |X_i| is less exact for a box almost at rest near a turning point.
 
     Raises
     ------
@@ -100,7 +100,8 @@ def ensemble(
     -----
     The numbers of impacts are those of `simulate`. They may differ in grazing contacts that the certificate of a run
     counts as undecided, and in hops of a ball below four units of rounding. Without undecided contacts, the error of
-    the final state is at most 2.6 times the estimate in the certificate (docs/engine.md).
+    the final state is at most 2.6 times the estimate in the certificate (docs/engine.md). Use `simulate` for events,
+    samples or a certificate.
 
     Examples
     --------

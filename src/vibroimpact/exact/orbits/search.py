@@ -35,8 +35,8 @@ COLUMNS = (
 class Orbit(Representation):
     """A periodic response with two impacts per forcing cycle and module, in dimensionless quantities.
 
-    Arrays (2, 2) have the indices [module, wall +1 / wall -1]. For a single machine, values of the second module are 0
-    in the state and NaN elsewhere.
+    Arrays (2, 2) have the indices [module, wall +1 / wall -1]. For a single machine (`PhysicalSystem.single`), values
+    of the second module are 0 in the state and NaN elsewhere.
 
     Attributes
     ----------
@@ -52,13 +52,13 @@ class Orbit(Representation):
         Complex Floquet multipliers by descending modulus, (8,), or (4,) for a single machine. If both modules impact at
         the same instant and gamma12 is not 0, they hold for perturbed motions in which module 1 impacts first.
     state : ndarray
-        State at tau = 0, just after an impact at this time, (8,).
+        State at tau = 0, (8,); if there is an impact at this time, the state just after it.
     passage : Passage
         Motion over one period from `state`.
     excursion : float
         Largest |W_i| at extrema of W_i between impacts (the walls are at 1); 0 without extrema.
     admissible : bool
-        True if all ball speeds are positive and |W_i| <= 1 at all times.
+        True if the orbit is a motion of the system: all ball speeds are positive, and |W_i| <= 1 at all times.
     residual : float
         Largest error of |W_i| = 1 at the impacts and of state(T) = state(0).
     proof : OrbitProof, optional
@@ -152,7 +152,7 @@ class OrbitSearch:
     orbits : list of Orbit
         Orbits; the symmetric orbits are complete up to rounding.
     starts : int
-        Number of Newton starts for asymmetric orbits.
+        Number of Newton starts for asymmetric orbits, some of which may be missed.
     fewest_hits : int
         Smallest number of starts that led to the same asymmetric orbit or its mirror image; 0 if none was found. A
         small number suggests that orbits were missed.
@@ -166,7 +166,7 @@ class OrbitSearch:
 def orbits(system: System) -> list[Orbit]:
     """Return all 1:1 responses of (10.2) with one impact per cycle at each wall of each module.
 
-    The orbits are exact at any epsilon. Asymmetric orbits may be missed.
+    The orbits are exact at any epsilon. Newton's method from many starts finds the asymmetric orbits and may miss some.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ def prove(orbit: Orbit):
     Returns
     -------
     OrbitProof
-        Verdicts, error bounds, and the half-width of intervals with exactly one root.
+        Verdicts, error bounds, and the half-width of intervals, around the numbers of the orbit, with exactly one root.
 
     Raises
     ------
@@ -238,7 +238,8 @@ def prove(orbit: Orbit):
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:
     """Return the eigenvalues of the derivative of -state(T/2) by state(0) on a symmetric orbit.
 
-    Their squares are the multipliers. A fold has the eigenvalue +1, symmetry breaking -1.
+    Their squares are the multipliers. A fold has the eigenvalue +1, symmetry breaking -1. An asymmetric orbit raises
+    ValueError.
     """
     if not orbit.symmetric:
         raise ValueError("orbit: the orbit is not symmetric, so half a period does not map it to its mirror image")

@@ -30,8 +30,12 @@ def branches(
 
     Pseudo-arclength continuation (Keller 1977) also follows branches that emanate from other branches. Special points
     are folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf and grazing. If a branch ends
-    inside `between`, the kind of its last special point gives the reason: "speed zero" (of a ball), "symmetry
-    breaking", "branch point", or "lost" if no further point is found.
+    inside `between`, the kind of the special point there gives the reason:
+
+    - "speed zero": the speed of a ball vanishes;
+    - "symmetry breaking": a branch of asymmetric orbits meets its mirror image;
+    - "branch point": the continuation cannot pass it;
+    - "lost": no further point is found.
 
     Parameters
     ----------
@@ -44,16 +48,22 @@ def branches(
     of : str, default 'both'
         "theory" (fixed points of the slow flow), "exact" (1:1 orbits) or "both".
     seeds : int, default 5
-        Number of values at which to search for motions. A branch that passes none of these values may be missed.
+        Number of values in `between` at which to search for motions. A branch that passes none of these values may be
+        missed.
     progress : bool, default True
         Show the progress on standard error, if it is a terminal. "exact" takes about ten seconds.
 
     Returns
     -------
     list of Branch
-        A branch has .family, .nodes, .special (nodes that are special points) and .closed. The end nodes may lie one
-        step beyond `between`. A node has .p (the parameter), .amplitudes (C_1 and C_2), .kind (of special point, or
-        ""), .stable and .admissible (False for an orbit that is not a motion). `to_frame` returns a table.
+        A branch has .family, .nodes (in order), .special (nodes that are special points) and .closed (True if the last
+        node is also the first). The end nodes may lie one step beyond `between`.
+
+        A node has .p (the parameter), .amplitudes (C_1 and C_2), .kind (of special point, or ""), .stable and
+        .admissible (False for an orbit that is not a motion); the last two are None at a special point.
+
+        `to_frame` divides branches into pieces at their special points, and returns one row per node of a piece. A
+        special point has a row in both pieces that it joins.
 
     Raises
     ------

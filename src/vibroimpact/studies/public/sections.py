@@ -14,10 +14,13 @@ _STEP = 100  # number of transient cycles in a step of the progress display
 def sections(systems, states, cycles: int, settle: int = 0, progress: bool = True) -> np.ndarray:
     """Return stroboscopic Poincare sections of many runs: the state at the end of every cycle after the transient.
 
+    For a list of systems with one varied parameter, this is a bifurcation diagram.
+
     Parameters
     ----------
     systems, states : System or array_like, array_like
-        One System or an array of Systems, and initial states (..., 8) at tau = 0; combined as by `ensemble`.
+        One System or an array of Systems, and initial states (..., 8) at tau = 0; combined as by `ensemble`. An
+        inactive module (`System.modules`) is put at rest.
     cycles : int
         Forcing periods of each run.
     settle : int, default 0
@@ -29,7 +32,7 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
     -------
     ndarray
         States (..., cycles - settle, 8), dimensionless, in the common shape of `systems` and `states`; nan after a run
-        has failed.
+        has failed (`ensemble` gives the reason).
 
     Raises
     ------

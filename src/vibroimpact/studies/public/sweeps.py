@@ -32,7 +32,8 @@ def sweep(
 ) -> list[dict]:
     """Return observations at all points of a grid of one or two parameters.
 
-    If an observation fails at a point, the row of this point has the reason under "failed".
+    If an observation fails at a point, the row of this point has the reason under "failed". Other rows are not
+    affected.
 
     Parameters
     ----------
@@ -41,15 +42,15 @@ def sweep(
     axes : mapping
         Values of one or two parameters, by name.
     observe : sequence of str
-        Names of observations. All except "fixed_points" are simulated.
+        Names of observations. All except "fixed_points" simulate the motions from all initial states.
 
         - "amplitudes": largest |X_i|, root mean square of X_i, and mean ball speeds.
         - "energy": energy that impacts dissipate, divided by the work of the forces.
         - "peaks": highest peak along `band`. A peak is the displacement that one cycle in a hundred exceeds.
-        - "regimes": share of each regime, and the regime from rest.
+        - "regimes": share of the initial states that end in each regime, and the regime from rest.
         - "fixed_points": number of fixed points of the theory, and of stable ones.
     starts : int, default 5
-        Number of initial states, the first at rest. A ball may stay idle in the run from rest.
+        Number of initial states, evenly spread, the first at rest. A ball may stay idle in the run from rest.
     seed : int, default 0
         Seed of the initial states.
     cycles : int, default 1000
@@ -58,7 +59,7 @@ def sweep(
         Forcing periods of the omitted transient. Transients may be long: 210 of 225 motions with equal forces still
         change by more than 1e-6 per period after 400 periods, but none after 2000.
     band : mapping, optional
-        For "peaks": name and values of one more parameter.
+        For "peaks": name and values of the parameter along which the highest peak is sought.
     observation : Observation, optional
         For "regimes": lengths of the runs.
     progress : bool, default True
@@ -67,7 +68,7 @@ def sweep(
     Returns
     -------
     list of dict
-        One row per point; `to_frame` returns a table.
+        One row per point, with the varied parameters and the observations; `to_frame` returns a table.
 
     Raises
     ------

@@ -58,7 +58,7 @@ class Node:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch(Representation):
-    """A part of a solution curve. If the curve is closed, the last node is also the first.
+    """A part of a solution curve, with its nodes in order. If the curve is closed, the last node is also the first.
 
     places: points with tangents at the nodes that are not special points. The list may have one more at each end.
     """

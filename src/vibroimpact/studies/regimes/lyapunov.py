@@ -67,11 +67,12 @@ def largest_lyapunov(
     cycles : int, default 2000
         Forcing periods to average over, a multiple of `blocks`.
     settle : int, default 1000
-        Forcing periods of the transient.
+        Forcing periods of the transient. With several attractors, the initial state selects one (`basins`).
     blocks : int, default 20
         Number of blocks for the standard error, at least 2.
     discarded : int, default 10
-        Number of discarded blocks, in which the perturbation turns to the direction of largest growth.
+        Number of discarded blocks after the transient, in which the perturbation turns to the direction of largest
+        growth.
 
     Returns
     -------
@@ -185,9 +186,10 @@ class Spectrum:
 def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000, discarded: int = 100) -> Spectrum:
     """Return all Lyapunov exponents of the motion reached from an initial state, in nats per period.
 
-    The exponents are those of the map from one forcing period to the next. If a ball sticks, two exponents are -inf, or
-    four if both balls stick at the same time. The computed exponent of a perturbation that grows in proportion to
-    the time t is about ln(t) / t instead of 0. The errors do not include this deviation.
+    The exponents are those of the map from one forcing period to the next, without the exponent 0 along the flow. If a
+    ball sticks, two exponents are -inf, or four if both balls stick at the same time. The computed exponent of a
+    perturbation that grows in proportion to the time t is about ln(t) / t instead of 0. The errors do not include this
+    deviation.
 
     Parameters
     ----------
@@ -196,12 +198,14 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     state, cycles, settle
         As for `largest_lyapunov`.
     discarded : int, default 100
-        Discarded forcing periods, in which each perturbation turns to the direction of its exponent.
+        Discarded forcing periods after the transient, in which each perturbation turns to the direction of its
+        exponent.
 
     Returns
     -------
     Spectrum
-        .exponents, largest first, (8,), or (4,) if one module is active; .errors(block); .dimension (Kaplan-Yorke).
+        .exponents, largest first, (8,), or (4,) if one module is active; .errors(block), their standard errors;
+        .dimension (Kaplan-Yorke); .without_double_sticks().
 
     Raises
     ------

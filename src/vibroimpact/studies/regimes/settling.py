@@ -33,9 +33,9 @@ class Observation:
     Parameters
     ----------
     cycles, rounds : int
-        Forcing periods per round, and largest number of rounds.
+        Each initial state runs in up to `rounds` rounds of `cycles` forcing periods, until the motion repeats.
     window : int
-        Forcing periods that are searched for a repetition of the motion.
+        Forcing periods after each round that are searched for a repetition of the motion.
     nearness : float
         Largest difference of displacements that counts as a repetition, dimensionless.
     blocks, block : int

@@ -36,7 +36,7 @@ COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
 class FixedPoint(Representation):
     """A fixed point of the slow flow, (10.23): a periodic response with two impacts per cycle and module.
 
-    For a single machine, C, B and psi of the second module are NaN.
+    For a single machine (`PhysicalSystem.single`), C, B and psi of the second module are NaN.
 
     Attributes
     ----------
@@ -45,10 +45,10 @@ class FixedPoint(Representation):
     C, B : ndarray
         Amplitudes of the saw-tooth and of U_i0, each shape (2,), dimensionless.
     psi : ndarray
-        Phases [rad] in U_i0 = B_i sin(Omega tau - psi_i), in (-pi, pi], shape (2,).
+        Phase lags [rad] in U_i0 = B_i sin(Omega tau - psi_i), in (-pi, pi], shape (2,).
     slow_eigenvalues : ndarray
-        Complex eigenvalues of the slow flow, per unit of tau_1, two per active module. At a fold of the manifold one
-        is infinite.
+        Complex eigenvalues of the slow flow, per unit of tau_1, shape (4,), or (2,) for a single machine. At a fold of
+        the manifold one is infinite.
     multiple : bool
         True if several fixed points may coincide within rounding, as at a fold. The relative errors of C and psi are
         then about the square root of the rounding error.
@@ -111,7 +111,8 @@ def fixed_points(system: System) -> list[FixedPoint]:
     Raises
     ------
     ValueError
-        If system is not a System, or if its fixed points need not be isolated at an undamped resonance.
+        If system is not a System, or if its fixed points need not be isolated. This can happen at an undamped resonance
+        that the forces do not excite.
 
     Examples
     --------

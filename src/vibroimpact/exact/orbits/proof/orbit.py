@@ -37,13 +37,14 @@ class OrbitProof:
     ----------
     radius : float
         Half-width of intervals around the impact times and changes of ball velocity of the Orbit; 0 if nothing is
-        proved. Exactly one root lies in these intervals. It is symmetric or not as `Orbit.symmetric` states.
+        proved. Exactly one orbit lies in these intervals. It is proved to be symmetric if `Orbit.symmetric` is True,
+        and asymmetric otherwise.
     error : float
         Bound on the error of the impact phases and speeds of the Orbit; inf if nothing is proved.
     motion : str
         "legal" if every ball meets its walls from inside and |W_i| < 1 in between; else "not legal" or "not proved".
     multipliers : tuple of acb
-        Enclosures of the multipliers by descending modulus; empty if none were found.
+        Enclosures of the 8 multipliers (4 for a single machine), by descending modulus; empty if none were found.
     moduli_error : float
         Bound on the error of the moduli of the multipliers of the Orbit; inf without enclosures.
     """
