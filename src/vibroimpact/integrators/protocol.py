@@ -21,9 +21,9 @@ class MethodRun:
 
     final: state (8,) at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure. noted: impacts (tau,
     module, wall, speed) in order of time, or a function that returns them. steps: number of integration steps.
-    evaluations: evaluations of the right-hand side, 0 if they are not counted.
-    outcome: FINISHED, REFUSED or UNFINISHED. reason: why the run has no result, or "". doubt: function that returns
-    what the method reports as undecided, or "".
+    evaluations: evaluations of the right-hand side, 0 if they are not counted. outcome: FINISHED, REFUSED or
+    UNFINISHED. reason: why the run has no result, or "". doubt: function that returns what the method reports as
+    undecided, or "".
 
     The measured run time does not include the evaluation of `impacts` and `doubt`.
     """

@@ -52,7 +52,7 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     """Return the rates D_1 (B_1, psi_1, B_2, psi_2) on the manifold, and their Jacobian.
 
     The Jacobian contains derivatives with respect to (C_1, psi_1, C_2, psi_2). With one active module, the shapes are
-    (2,) and (2, 2), else (4,) and (4, 4).
+    (2,) and (2, 2), else (4,) and (4, 4). psi [rad] and the saw-tooth amplitudes C have the shape (2,).
     """
     psi, C = (np.where(_active(system)[::2], of, 0.0) for of in (psi, C))
     rest = np.column_stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C)).ravel()
@@ -62,8 +62,8 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
     """Return J and M, each (..., 4, 4): perturbations x of (C_1, psi_1, C_2, psi_2) satisfy M dx/dtau_1 = J x.
 
-    At the fold, M is singular, whereas the Jacobian in (B, psi) is infinite. With one active module, J and M are
-    (..., 2, 2).
+    At the fold, M is singular, whereas the Jacobian in (B, psi) is infinite. psi [rad] and C have the shape (..., 2).
+    With one active module, J and M are (..., 2, 2).
     """
     r = rho(system.kappa)
     psi, C = (np.where(_active(system)[::2], of, 0.0) for of in (psi, C))
@@ -108,7 +108,7 @@ def _active(system):
 def slow_eigenvalues(system, psi, C) -> np.ndarray:
     """Return the eigenvalues of the slow flow per unit of tau_1, two per active module, by descending real part.
 
-    At the fold of the manifold one is infinite.
+    At the fold of the manifold one is infinite. psi [rad] and the saw-tooth amplitudes C have the shape (2,).
     """
     return descending(eigvals(*linearisation(system, psi, C)))
 

@@ -114,7 +114,7 @@ def proven_run(system_parameters, state, cycles, digits=None, sample_times=None,
     """Repeat `reference_run` with doubled digits until two successive runs differ by at most ACCURACY.
 
     digits: digits of the first run, by default 40 plus 0.33 per period. A modulated motion was measured to lose 0.33
-    digits per period.
+    digits per period. The other arguments are those of `reference_run`, with tau0 = 0.
 
     Raises
     ------

@@ -101,6 +101,11 @@ class Orbit(Representation):
     def with_proof(self) -> "Orbit":
         """Return a copy of the orbit with the attribute `proof` from `prove`.
 
+        Returns
+        -------
+        Orbit
+            The copy, whose `stability` is the proved verdict if there is one.
+
         Raises
         ------
         ModuleNotFoundError

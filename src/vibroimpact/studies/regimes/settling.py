@@ -32,15 +32,15 @@ class Observation:
 
     Parameters
     ----------
-    cycles, rounds : int
+    cycles, rounds : int, default 250 and 3
         Each initial state runs in up to `rounds` rounds of `cycles` forcing periods, until the motion repeats.
-    window : int
+    window : int, default 24
         Forcing periods after each round that are searched for a repetition of the motion.
-    nearness : float
+    nearness : float, default 0.02
         Largest difference of displacements that counts as a repetition, dimensionless.
-    blocks, block : int
+    blocks, block : int, default 6 and 20
         Number of blocks for the Lyapunov exponent, and forcing periods per block.
-    retest : int
+    retest : int, default 10000
         Forcing periods of the run that tests the regime of a motion without repetition.
 
     Raises
