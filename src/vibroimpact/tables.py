@@ -1,7 +1,7 @@
 """Build tidy tables of plotted numbers, and write and read them as CSV without loss.
 
-Every table has the columns `panel` and `series`, and a column for each plotted quantity. The column `label` names
-single points. A field without a value is blank.
+Every table has the columns `panel` and `series`, and one column for each plotted quantity. The column `label`, if
+present, contains the names of single points. If a row has no value of a quantity, the field in the CSV file is blank.
 """
 
 import numpy as np
@@ -18,14 +18,21 @@ BLANK_TEXT = (*TEXT, "failed")
 
 
 def curve(panel: str, series: str, **quantities) -> pd.DataFrame:
-    """Return the rows of one curve or point set; `quantities` are arrays (n,), or scalars for all rows."""
+    """Return the n rows of one curve or point set.
+
+    The keyword arguments are the columns. The values of a column are an array of shape (n,), or a scalar that holds for
+    all rows.
+    """
     values = np.broadcast_arrays(*(np.atleast_1d(quantity) for quantity in quantities.values()))
     columns = dict(zip(quantities, values, strict=True))
     return pd.DataFrame({"panel": panel, "series": series, **columns})
 
 
 def join(curves) -> pd.DataFrame:
-    """Return one tidy table of several curves: the union of their columns, text columns first."""
+    """Return one tidy table of several curves.
+
+    The table has every column that a curve has. Text columns come first.
+    """
     table = pd.concat(list(curves), ignore_index=True)
     text = [name for name in TEXT if name in table]
     table[text] = table[text].fillna("")

@@ -2,13 +2,14 @@
 
 
 def sawtooth_amplitude(epsilon: float, path):
-    """Return the saw-tooth amplitude C from the change `path` of Y on a flight; C has the sign of `path`.
+    """Return the saw-tooth amplitude C of a ball that flies from one wall to the other.
 
-    C is half the distance that Z = -(1 + epsilon) Y covers. Both flights of a cycle have the same C.
+    `path` is the change of the ball displacement Y during the flight. C has the sign of `path`. Its magnitude is half
+    the distance that Z = -(1 + epsilon) Y covers during the flight. Both flights of a cycle have the same C.
     """
     return (1 + epsilon) * path / 2
 
 
 def path_of(epsilon: float, C):
-    """Return the change of the ball displacement Y on a flight from wall to wall, from the amplitude C."""
+    """Return the change of the ball displacement Y on a flight from wall to wall; C is the saw-tooth amplitude."""
     return 2 * C / (1 + epsilon)

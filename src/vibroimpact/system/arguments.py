@@ -7,7 +7,7 @@ import numpy as np
 
 MOST_SEED = 2**32 - 1
 """Largest seed accepted for random numbers."""
-_LONGEST = 60  # largest number of characters of a value in an error message
+_LONGEST = 60  # Error messages shorten values that have more characters.
 
 
 def instance(name: str, value, kind: type):
@@ -75,7 +75,7 @@ def pair(name: str, values) -> tuple[float, float]:
 
 
 def whole(name: str, value, least: int, most: int) -> int:
-    """Return a whole number from `least` to `most` as an int; the float 2.0 is whole.
+    """Return a whole number from `least` to `most` as an int; floats such as 2.0 are accepted.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def reals(name: str, values) -> np.ndarray:
     except (TypeError, ValueError):  # the rows have different lengths
         array = None
     if array is not None and array.dtype == object and all(map(_is_real, array.flat)):
-        array = np.array(array.tolist())  # from dtype object, such as part of a table row
+        array = np.array(array.tolist())  # Part of a table row can have dtype object.
     if array is None or array.dtype.kind not in "iuf":
         raise ValueError(f"{name}: {short_repr(values)} is not an array of real numbers")
     if np.ma.isMaskedArray(values) or (array.ndim > 1 and any(map(np.ma.isMaskedArray, values))):

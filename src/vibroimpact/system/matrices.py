@@ -1,6 +1,6 @@
 """Compute the mass, damping and stiffness matrices of the boxes in (10.2).
 
-`stuck` contains True for each module whose ball sticks to a wall.
+The argument `stuck` contains one truth value per module: True if the ball of the module sticks to a wall.
 """
 
 import numpy as np
@@ -19,12 +19,18 @@ def stiffness_matrix(system) -> np.ndarray:
 
 
 def masses(system, stuck=(False, False)) -> np.ndarray:
-    """Return the moving mass of each module, shape (2,): 1, or 1 + epsilon while its ball sticks."""
+    """Return the moving mass of each module in units of M, shape (2,).
+
+    The mass is 1, or 1 + epsilon if the ball sticks to a wall of the box.
+    """
     return np.array([1.0 + system.epsilon if sticks else 1.0 for sticks in stuck])
 
 
 def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
-    """Return the dynamic stiffness K - Omega^2 M + i Omega C of the boxes, complex, shape (2, 2)."""
+    """Return the complex dynamic stiffness K - Omega^2 M + i Omega C of the boxes, shape (2, 2).
+
+    M, C and K are the matrices of mass, damping and stiffness.
+    """
     omega = system.Omega
     dynamic = stiffness_matrix(system) + 1j * omega * damping_matrix(system)
     dynamic[[0, 1], [0, 1]] -= omega**2 * masses(system, stuck)
@@ -32,9 +38,10 @@ def dynamic_stiffness(system, stuck=(False, False)) -> np.ndarray:
 
 
 def rate_matrix(system, stuck=(False, False)) -> np.ndarray:
-    """Return the rate matrix A of the boxes and the forcing in (10.2), shape (6, 6): dz/dtau = A z.
+    """Return the matrix A in dz/dtau = A z, which describes the boxes and the forcing in (10.2), shape (6, 6).
 
-    z = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]. The flow is exp(A tau), also at resonance.
+    z is the vector [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]. The solution is z(tau) = exp(A tau) z(0).
+    This solution also holds at a resonance.
     """
     mass = masses(system, stuck)[:, None]
     omega = system.Omega

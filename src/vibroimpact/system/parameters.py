@@ -1,4 +1,4 @@
-"""Dimensionless parameters of the system with two modules, (10.2), with the scaling (10.4)-(10.6)."""
+"""Dimensionless parameters of the system (10.2) with two modules, scaled as in (10.4)-(10.6)."""
 
 import math
 from dataclasses import dataclass, fields, replace
@@ -16,7 +16,8 @@ LARGEST = 1e15
 class System:
     """Parameters of two coupled vibro-impact modules under forcing f_i sin(Omega tau).
 
-    All parameters are dimensionless. A coefficient in (10.2) is epsilon times the value with the hat, (10.4)-(10.6).
+    All parameters are dimensionless. The suffix _hat stands for the hat in (10.4)-(10.6). A coefficient in (10.2)
+    is epsilon times the parameter with the hat, such as gamma1 = epsilon gamma1_hat.
 
     Parameters
     ----------
@@ -40,8 +41,8 @@ class System:
     Raises
     ------
     ValueError
-        If a parameter is not a finite number, is out of its range or exceeds 1e15 in magnitude. Also if the forces
-        excite an undamped resonance of the boxes.
+        If a parameter is not a finite number, is out of its range or exceeds 1e15 in magnitude, or if the forces excite
+        an undamped resonance of the boxes.
 
     Examples
     --------
@@ -121,7 +122,7 @@ class System:
 
     @property
     def forcing(self) -> np.ndarray:
-        """Forcing amplitudes (f_10, f_20), shape (2,), (10.4)."""
+        """Forcing amplitudes f_10 and f_20 of (10.4), as an array of shape (2,)."""
         return self.epsilon * np.array([self.f10_hat, self.f20_hat])
 
     @property
@@ -136,9 +137,10 @@ class System:
         return (1, 2) if coupled and forced else tuple(forced)
 
     def with_inactive_damped(self) -> "System":
-        """Return a copy of the system in which the inactive box is damped: its gamma1_hat or gamma2_hat is 1.
+        """Return a copy of the system with a damped inactive box, which then has no undamped resonance.
 
-        The damping removes resonances of this box, which is at rest in any case.
+        In the copy, gamma1_hat or gamma2_hat of the inactive box is 1. The results do not depend on this value, since
+        the inactive box is at rest.
 
         Returns
         -------
@@ -155,7 +157,7 @@ class System:
         Parameters
         ----------
         **changes : float
-            New values by name.
+            New value of each parameter to change, with the name of the parameter as keyword.
 
         Returns
         -------
@@ -167,7 +169,7 @@ class System:
         ValueError
             As for System.
         TypeError
-            If a name is not a parameter.
+            If a keyword is not the name of a parameter.
 
         Examples
         --------
@@ -179,7 +181,8 @@ class System:
     def _resonates(self) -> bool:
         """Return True if a force drives the undamped boxes at a resonance."""
         stiffness = dynamic_stiffness(self)
-        # The sum of all terms bounds the rounding errors. The entries do not, since their terms can cancel.
+        # Rounding errors are proportional to the sum of the moduli of all terms. The entries of the matrix can be much
+        # smaller, since terms with opposite signs cancel.
         springs = 1.0 + self.stiffness2 + 2.0 * self.alpha12
         dampers = self.gamma1 + self.gamma2 + 2.0 * self.gamma12
         rounding = 1e-12 * (springs + self.Omega * (dampers + 2.0 * self.Omega))

@@ -18,9 +18,9 @@ class PhysicalSystem:
     M, m : float
         Mass of a box and of a ball, above 0.
     k1, k2, k12 : float
-        Stiffness of box 1 and of box 2 to ground (above 0), and of the coupling (at least 0).
+        Stiffness of box 1 to ground, of box 2 to ground, and of the coupling. k1 and k2 are above 0, k12 is at least 0.
     c1, c2, c12 : float
-        Damping of box 1 and of box 2 to ground, and of the coupling, at least 0.
+        Damping of box 1 to ground, of box 2 to ground, and of the coupling. All are at least 0.
     F10, F20 : float
         Force amplitudes.
     omega1, omega2 : float
@@ -30,7 +30,8 @@ class PhysicalSystem:
     kappa : float
         Restitution coefficient.
     base, unbalance : float, default 0.0
-        Excitation of box 1 as in `single`, at least 0. It replaces F10 by the force amplitude at omega1.
+        Amplitude of a ground motion, and unbalance of a rotor, as in `single`. Both are at least 0, and at most one of
+        them is above 0. If one is above 0, the amplitude of the resulting force at omega1 replaces F10.
 
     Raises
     ------
@@ -101,8 +102,9 @@ class PhysicalSystem:
         """Return the parameters of one machine with a ball in its box.
 
         The machine is module 1. Module 2 is a copy without coupling and force, and is therefore inactive
-        (`System.modules`). Results describe module 1, with 4 multipliers, 4 exponents and 2 slow eigenvalues. In arrays
-        with one entry per module, the entry of module 2 is NaN. In states, the components of module 2 are 0.
+        (`System.modules`). Results describe module 1, so that there are only 4 multipliers, 4 exponents and 2 slow
+        eigenvalues. In arrays with one entry per module, the entry of module 2 is NaN. In states, the components of
+        module 2 are 0.
 
         Parameters
         ----------
@@ -119,7 +121,7 @@ class PhysicalSystem:
         kappa : float, default 0.65
             Restitution coefficient.
         omega : float, optional
-            Circular frequency of the force [rad/s]; the natural frequency by default.
+            Circular frequency of the force [rad/s]. The default is the natural frequency of the machine.
         base : float, default 0.0
             Amplitude G of a ground motion [m], in place of F. The force amplitude is G sqrt(k^2 + c^2 omega^2); the
             ground lags behind the force by arctan(c omega / k). Displacements are absolute.

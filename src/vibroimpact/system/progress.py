@@ -5,7 +5,10 @@ from collections.abc import Iterator, Sequence
 
 
 def track(things: Sequence, words: str, progress: bool = True) -> Iterator:
-    """Yield `things` one by one; if `progress`, show `words` and the number of things done on a terminal."""
+    """Yield `things` one by one, and show how many of them are done.
+
+    If `progress` is True and standard error is a terminal, a line shows the text `words` and the number.
+    """
     for number, one in enumerate(things, start=1):
         yield one
         if progress and sys.stderr.isatty():

@@ -9,7 +9,7 @@ class Representation:
     """Base class of results; its `repr` shows the texts returned by `_shown`."""
 
     def _shown(self) -> dict[str, str]:
-        """Return a short text for each attribute to show, by attribute name."""
+        """Return a dictionary from the names of the displayed attributes to short texts of their values."""
         raise NotImplementedError
 
     def __repr__(self) -> str:
@@ -17,7 +17,7 @@ class Representation:
 
 
 class Found(list):
-    """List of results with the column names of their table, so that an empty list also gives columns."""
+    """List of results that knows the column names of its table, so that an empty list gives a table with columns."""
 
     def __init__(self, results: Iterable, columns: Iterable[str]):
         super().__init__(results)
@@ -25,7 +25,7 @@ class Found(list):
 
 
 def brief(numbers) -> str:
-    """Return a number or an array (n,) as text, with four significant digits per number."""
+    """Return a number or an array of shape (n,) as text, with four significant digits per number."""
     if np.ndim(numbers) == 0:
         return f"{numbers:.4g}"
     return f"({', '.join(f'{number:.4g}' for number in numbers)})"

@@ -1,13 +1,13 @@
 """Impact law: Newton's restitution rule with conservation of momentum (section 10.2).
 
-These modules implement the law again and must change with it:
+The following files contain their own implementation of the law. A change of the law must include them:
 
-- `exact.engine.contact`, `exact.lanes.steps`, `exact.lanes.statistics`: runs and ensembles,
+- `exact.engine.contact`, `exact.lanes.steps`, `exact.lanes.statistics`: simulations,
 - `exact.orbits.symmetric`, `exact.orbits.asymmetric`, `exact.orbits.proof.conditions`: equations of orbits,
 - `rigid_contact`, `heyoka_taylor`, `moreau_jean`, `ivanov` and `contact_laws` in `integrators`,
 - `accuracy.reference.trajectory`: arbitrary precision,
 - `studies.completeness.orbits`: completeness proof,
-- `report/live/exact.js`: browser.
+- `report/live/exact.js`: simulation in the browser.
 
 The saltation matrix depends on the law. It is implemented in `exact.engine.variation`, `exact.orbits.floquet` and
 `exact.orbits.proof.passage`. Tests compare the implementations.

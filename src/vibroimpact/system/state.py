@@ -31,7 +31,8 @@ def states_array(name: str, values) -> np.ndarray:
     Raises
     ------
     ValueError
-        If `values` is not an array of real numbers, or has labels.
+        If `values` is not an array of real numbers, or if it has labels, such as the columns of a table. Labelled
+        components may be in another order.
     """
     _refuse_labels(name, values)
     return reals(name, values)
@@ -48,10 +49,13 @@ def _refuse_labels(name, values):
 
 
 def active_mask(system) -> np.ndarray:
-    """Return a mask (8,) of the state components of active modules; if no module is active, all are True."""
+    """Return a mask of the state components that belong to active modules, shape (8,).
+
+    If no module is active, all entries are True.
+    """
     return np.isin(MODULES, system.modules or (1, 2))
 
 
 def inactive_at_rest(system, states) -> np.ndarray:
-    """Return states (..., 8) with the components of an inactive module set to 0."""
+    """Return a copy of states, shape (..., 8), in which all components of an inactive module are 0."""
     return np.where(active_mask(system), states, 0.0)

@@ -2,7 +2,10 @@
 
 
 def stored(stiffness2, alpha12, epsilon, boxes, balls):
-    """Return the kinetic energy plus that of the springs, from (X1, X2, X1', X2') and (Y1, Y2, Y1', Y2')."""
+    """Return the sum of the kinetic energy and the energy of the springs.
+
+    `boxes` contains X1, X2, X1', X2', and `balls` contains Y1, Y2, Y1', Y2'.
+    """
     x1, x2, v1, v2 = boxes
     kinetic = v1 * v1 + v2 * v2 + epsilon * (balls[2] * balls[2] + balls[3] * balls[3])
     return 0.5 * (kinetic + x1 * x1 + stiffness2 * x2 * x2 + alpha12 * (x1 - x2) * (x1 - x2))

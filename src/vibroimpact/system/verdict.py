@@ -1,4 +1,4 @@
-"""Verdicts on stability, "stable", "unstable" or "undecided", from numbers with error bounds."""
+"""Decide whether a motion is "stable", "unstable" or "undecided" from numbers with known error bounds."""
 
 STABLE, UNSTABLE, UNDECIDED = "stable", "unstable", "undecided"
 
@@ -6,7 +6,8 @@ STABLE, UNSTABLE, UNDECIDED = "stable", "unstable", "undecided"
 def verdict(margin: float, error: float) -> str:
     """Return "stable" if margin > error, "unstable" if margin < -error, and otherwise "undecided".
 
-    `error` bounds the error of the margin. Nan as an argument gives "undecided".
+    `margin` is a number that is positive for a stable motion. `error` is an upper bound on the error of `margin`. If
+    one of them is nan, the verdict is "undecided".
     """
     if margin > error:
         return STABLE
