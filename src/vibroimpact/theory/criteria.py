@@ -1,8 +1,13 @@
 """Apply stability criteria to a motion with two impacts per cycle.
 
-A motion is stable if all active modules are stable; C of an inactive module is NaN. The verdict printed_10_26
-is by (10.26) as printed. The verdict fast is by Masri's analysis (docs/stability.md), slow by the slow flow, and theory
-by both together. The verdict exact is by the Floquet multipliers of the exact orbit.
+A motion is stable if all active modules are stable. The saw-tooth amplitude C of an inactive module is NaN. Each
+criterion gives a verdict, which has the name of the criterion:
+
+- printed_10_26: verdict of the condition (10.26) as printed,
+- fast: verdict of Masri's analysis (docs/stability.md),
+- slow: verdict of the eigenvalues of the slow flow,
+- theory: verdict that combines `fast` and `slow`,
+- exact: verdict of the Floquet multipliers of the exact orbit.
 """
 
 from typing import NamedTuple
@@ -24,14 +29,21 @@ _STEP = 1e-6
 
 
 class Stability(NamedTuple):
-    """Verdicts on a motion, by Masri's analysis at constant B and phi (`fast`) and by the slow flow (`slow`)."""
+    """Verdicts of the theory on a motion, each "stable", "unstable" or "undecided".
+
+    fast: verdict of Masri's analysis, in which the amplitude B and the phase phi of U are constant.
+    slow: verdict of the slow flow.
+    """
 
     fast: str
     slow: str
 
     @property
     def theory(self) -> str:
-        """Verdict of the theory: "stable" if `fast` and `slow` are, "unstable" if one of them is, else "undecided"."""
+        """Verdict that combines `fast` and `slow`.
+
+        The verdict is "stable" if both are "stable", "unstable" if one of them is "unstable", and else "undecided".
+        """
         return all_stable(self)
 
     def __str__(self) -> str:
@@ -46,7 +58,7 @@ def of_fixed_point(system, point) -> dict[str, str]:
 def of_orbit(orbit) -> dict[str, str]:
     """Return, by name, the verdict of each criterion in CRITERIA on an exact orbit.
 
-    The criteria assume a symmetric motion.
+    The criteria assume a symmetric motion. For an asymmetric orbit, they use psi and C from `slow_variables`.
     """
     psi, C = slow_variables(orbit)
     error = (orbit.residual + ROUNDING) / np.min(np.abs(orbit.multipliers - 1))
@@ -54,9 +66,10 @@ def of_orbit(orbit) -> dict[str, str]:
 
 
 def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
-    """Return (psi, C) of an exact orbit, each (2,), with psi from the impact phase by (10.17).
+    """Return the phases psi [rad] and the saw-tooth amplitudes C of an exact orbit, each of shape (2,).
 
-    An asymmetric orbit has two impact phases, of which the mean is used.
+    psi follows from the impact phase of each module by (10.17). If the orbit is asymmetric, the impacts at wall +1 and
+    at wall -1 have different phases. The function then uses the mean of both phases.
     """
     around = np.exp(2j * np.pi * orbit.impact_phases)
     phase = impact_phase(orbit.C, rho(orbit.system.kappa))
@@ -64,7 +77,11 @@ def slow_variables(orbit) -> tuple[np.ndarray, np.ndarray]:
 
 
 def fixed_point_error(system, point) -> float:
-    """Estimate the largest error of psi and C at a fixed point by a Newton step plus rounding; inf if multiple."""
+    """Return an estimate of the largest error of psi and C at a fixed point.
+
+    The estimate is the size of a Newton step plus the effect of rounding errors. It is infinite if `point.multiple` is
+    True, that is if several fixed points may coincide.
+    """
     if point.multiple:
         return np.inf
     residual, J = equations(system, point.psi, point.C)
@@ -75,7 +92,10 @@ def fixed_point_error(system, point) -> float:
 
 
 def _of(system, psi, C, error):
-    """Return the verdicts in CRITERIA from psi and C, each (2,), with errors up to `error`."""
+    """Return, by name, the verdict of each criterion in CRITERIA on a motion with the phases psi and amplitudes C.
+
+    psi [rad] and C have the shape (2,). `error` is an upper bound on the errors of their entries.
+    """
     limit, active = printed_limit(rho(system.kappa)), C[~np.isnan(C)]
     printed = all_stable(verdict(c - limit, error + ROUNDING * max(1.0, abs(c))) for c in active)
     fast = all_stable(masri.stable(c, system.kappa, error) for c in active)
@@ -85,7 +105,11 @@ def _of(system, psi, C, error):
 
 
 def _eigenvalues(system, psi, C, error):
-    """Return the eigenvalues of the slow flow and first-order estimates of their errors, infinite at a fold."""
+    """Return the eigenvalues of the slow flow, and first-order estimates of their errors.
+
+    The errors result from rounding and from errors of psi and C up to `error`. At a fold, one eigenvalue and all
+    estimates are infinite.
+    """
     J, M = linearisation(system, psi, C)
     values, left, right = eig(J, M, left=True, right=True)
     if not np.isfinite(values).all() or not np.isfinite(error):

@@ -1,12 +1,13 @@
 """Slow invariant manifold (SIM) of a module in 1:1 resonance, (10.15)-(10.17) and (10.25), and its saw-tooth.
 
-B is the amplitude of U, C is the amplitude of the saw-tooth, and rho measures dissipation, (10.15). They are
-dimensionless numbers or arrays that broadcast. Angles are in radians.
+B is the amplitude of U, C is the amplitude of the saw-tooth, and rho measures dissipation, (10.15). The arguments B, C
+and rho are dimensionless numbers, or arrays with shapes that broadcast. Angles are in radians.
 
-C is admissible if the ball stays between the walls, |W_0| <= 1 for the relative displacement W_0 of (10.10). At a time
-t <= pi after the impact at W = +1, W_0 = cos t + C h(t) with h(t) = 1 - 2 t / pi - cos t + rho sin t
-(docs/stability.md). W_0 is linear in C, so that the admissible C form one interval. It begins at C = 0. At its upper
-end, the ball leaves the wall W = +1 and grazes this wall once, before it flies to the wall W = -1.
+C is admissible if the ball stays between the walls. Its relative displacement W_0 of (10.10) then satisfies
+|W_0| <= 1. At a time t <= pi after the impact at W = +1, W_0 = cos t + C h(t), where
+h(t) = 1 - 2 t / pi - cos t + rho sin t (docs/stability.md). Since W_0 is linear in C, the admissible values of C form
+one interval, which begins at C = 0. At the upper end of the interval, the ball leaves the wall W = +1 and grazes the
+same wall once. After that, the ball flies to the wall W = -1.
 """
 
 import numpy as np
@@ -15,13 +16,13 @@ from scipy.optimize import brentq
 
 def sawtooth(tau0, C, theta):
     """Return Z = (2 C / pi) arcsin cos(tau0 - theta), (10.11)."""
-    # arcsin would lose half of the digits at the peaks, where the impacts are.
+    # Impacts are at the peaks, where arcsin would lose half of the digits. The distance from the peak loses none.
     from_peak = np.abs(np.remainder(np.asarray(tau0) - theta + np.pi, 2 * np.pi) - np.pi)
     return C * (1 - 2 * from_peak / np.pi)
 
 
 def rho(kappa):
-    """Return rho = 2 (1 - kappa) / (pi (1 + kappa)), (10.15), which measures dissipation; 0 for elastic impacts."""
+    """Return rho = 2 (1 - kappa) / (pi (1 + kappa)), (10.15); rho measures dissipation and is 0 for elastic impacts."""
     return 2 * (1 - kappa) / (np.pi * (1 + kappa))
 
 
@@ -36,7 +37,9 @@ def slope(C, rho):
 
 
 def C_of_B(B, rho):
-    """Return C on the lower arm (C <= C_min) and on the upper arm of the manifold at B, (10.15).
+    """Return the two amplitudes C that the manifold (10.15) has at the amplitude B.
+
+    The first C is on the lower arm, with C <= C_min. The second C is on the upper arm.
 
     Raises
     ------
@@ -47,7 +50,7 @@ def C_of_B(B, rho):
     above = B - B_min(rho)
     if not np.all(above >= 0):
         raise ValueError(f"B: {np.min(B)} is below B_min = {B_min(rho)} for rho = {rho}")
-    # Products in place of differences of squares avoid cancellation at the fold and near C = 0.
+    # Differences of squares would lose digits at the fold and near C = 0, so that products are used instead.
     root = np.sqrt((1 + rho**2) * above * (B + B_min(rho)))
     return (1 - B) * (1 + B) / (1 + root), (1 + root) / (1 + rho**2)
 
@@ -68,7 +71,10 @@ def impact_phase(C, rho):
 
 
 def overshoot(C, rho):
-    """Return the largest |W_0| - 1, (10.10), in a cycle, or 0 if the ball stays between the walls."""
+    """Return the distance by which the ball passes a wall: the largest |W_0| - 1 in a cycle, or 0.
+
+    W_0 is the relative displacement of (10.10). The result is 0 if the ball stays between the walls.
+    """
     C = np.asarray(C, dtype=float)
     B = B_of_C(C, rho)
     # After the impact at W = +1, W_0 is stationary where B cos(tau_0 + phi) = 2 C / pi.
@@ -79,9 +85,10 @@ def overshoot(C, rho):
 
 
 def grazing_time(kappa: float) -> float:
-    """Return the time t [rad] from an impact until the ball grazes the same wall again, for C = largest_C(kappa).
+    """Return the time t [rad] from an impact until the ball grazes the same wall, if C is largest_C(kappa).
 
-    p = t / 2 solves p cot p = 1 / (1 + kappa). The root is unique, since p cot p falls from 1 to 0 on (0, pi/2).
+    The half p = t / 2 solves p cot p = 1 / (1 + kappa). The solution is unique, since p cot p falls from 1 to 0 on
+    (0, pi/2).
 
     Raises
     ------
@@ -90,20 +97,26 @@ def grazing_time(kappa: float) -> float:
     """
     if not 0 < kappa < 1:
         raise ValueError(f"kappa: {kappa} is not between 0 and 1 (both excluded)")
-    # tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3, so that p <= sqrt(3 kappa). Also p <= 1.17, since kappa < 1.
+    # The unknown of the root search is x = p / sqrt(3 kappa). Since tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3,
+    # x is at most 1. Since kappa < 1, p is at most 1.17. Both bounds give the upper end of the search interval.
     unit = np.sqrt(3 * kappa)
     return 2 * unit * brentq(lambda x: _tangent_excess(unit * x) - kappa, 0.6, min(1.1, 1.2 / unit), xtol=1e-15)
 
 
 def _tangent_excess(p):
-    """Return tan(p) / p - 1; for small p use the power series, since the subtraction of 1 would lose digits."""
+    """Return tan(p) / p - 1.
+
+    If p is small, the function uses the power series, since the subtraction of 1 would lose digits.
+    """
     return p**2 / 3 + 2 * p**4 / 15 + 17 * p**6 / 315 if p < 0.01 else np.tan(p) / p - 1
 
 
 def largest_C(kappa: float) -> float:
-    """Return the largest C at which the ball stays between the walls, that is |W_0| <= 1 with W_0 of (10.10).
+    """Return the largest saw-tooth amplitude C at which the ball stays between the walls.
 
-    1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time(kappa) / 2. As kappa grows from 0, C grows from 1.
+    The relative displacement W_0 of (10.10) then satisfies |W_0| <= 1. The formula is
+    1 / C = 1 - (2 p / pi) (1 + kappa cot^2 p) with p = grazing_time(kappa) / 2. As kappa grows from 0, the largest C
+    grows from 1.
 
     Raises
     ------

@@ -1,10 +1,12 @@
 """Masri's stability analysis of motions with two impacts per cycle, at constant amplitude B and phase phi of U.
 
-A linear map leads from perturbations of impact time and ball speed at one impact to those at the next
-(docs/stability.md). Its determinant is kappa^2. Its trace is 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), where C is
-the saw-tooth amplitude. A multiplier leaves the unit circle through +1 at C_min, where the arms of the manifold merge.
-It leaves through -1 at C = pi^2 / (pi^2 - 4), where two asymmetric motions branch off. Complex multipliers stay inside,
-since the determinant is below 1. The printed condition (10.26) differs from this result.
+The perturbations are small changes of the impact time and of the ball speed. A linear map gives the perturbations at
+the next impact from the perturbations at one impact (docs/stability.md). The determinant of the map is kappa^2. The
+trace of the map is 2 kappa + pi^2 (1 + kappa)^2 (1 - C) / (4 C), where C is the saw-tooth amplitude. The eigenvalues of
+the map are called multipliers. At C_min, where the arms of the manifold merge, a multiplier leaves the unit circle
+through +1. At C = pi^2 / (pi^2 - 4), where two asymmetric motions branch off, a multiplier leaves the unit circle
+through -1. Complex multipliers are always inside the unit circle, since the determinant is below 1. The printed
+condition (10.26) differs from this result.
 """
 
 import numpy as np
@@ -13,14 +15,14 @@ from vibroimpact.system.verdict import verdict
 from vibroimpact.theory.manifold import C_min, rho
 
 ROUNDING = 16 * np.finfo(float).eps
-# At this C asymmetric motions branch off. The symmetric motion is unstable at larger C.
+# At this value of C, two asymmetric motions branch off. At larger C, the symmetric motion is unstable.
 SYMMETRY_BREAKING_C = np.pi**2 / (np.pi**2 - 4)
 
 
 def impact_multipliers(C, kappa) -> np.ndarray:
-    """Return the multipliers (2,) of perturbations from one impact to the next, at constant B and phi.
+    """Return the multipliers of perturbations from one impact to the next, at constant B and phi, shape (2,).
 
-    Both are below 1 in modulus for C_min < C < SYMMETRY_BREAKING_C, where the motion is stable.
+    If C_min < C < SYMMETRY_BREAKING_C, both multipliers are below 1 in modulus, and the motion is stable.
 
     Raises
     ------
@@ -37,7 +39,9 @@ def impact_multipliers(C, kappa) -> np.ndarray:
 
 
 def multipliers(C: float, kappa: float) -> np.ndarray:
-    """Return the multipliers (2,) of perturbations over one cycle, the squares of `impact_multipliers`.
+    """Return the multipliers of perturbations over one cycle, shape (2,).
+
+    These multipliers are the squares of `impact_multipliers`, since a cycle has two impacts.
 
     Raises
     ------
@@ -48,21 +52,31 @@ def multipliers(C: float, kappa: float) -> np.ndarray:
 
 
 def lower_limit(kappa):
-    """Return C_min of the fold of the manifold, (10.25); for 0 < C < C_min a multiplier is above +1."""
+    """Return the amplitude C_min at the fold of the manifold, (10.25).
+
+    If 0 < C < C_min, a multiplier is above +1, so that the motion is unstable.
+    """
     return C_min(rho(kappa))
 
 
 def upper_limit(kappa):
-    """Return pi^2 / (pi^2 - 4) in the shape of kappa; at larger C a multiplier is below -1."""
+    """Return pi^2 / (pi^2 - 4), repeated in an array with the shape of kappa.
+
+    If C is larger, a multiplier is below -1, so that the motion is unstable.
+    """
     return np.full(np.shape(kappa), SYMMETRY_BREAKING_C)[()]
 
 
 def stable(C: float, kappa: float, error: float = 0.0) -> str:
-    """Return "stable" if C is between both limits, "unstable" outside, or "undecided" within `error` of a limit."""
+    """Return the verdict of Masri's analysis at the saw-tooth amplitude C.
+
+    The verdict is "stable" if C is between `lower_limit` and `upper_limit`, and else "unstable". If the distance of C
+    to a limit is at most `error` plus rounding, the verdict is "undecided".
+    """
     margin = min(C - lower_limit(kappa), upper_limit(kappa) - C)
     return verdict(margin, error + ROUNDING * max(1.0, abs(C)))
 
 
 def printed_limit(rho):
-    """Return 4 / (4 + pi rho), the C above which a module is stable according to (10.26) as printed."""
+    """Return 4 / (4 + pi rho); a module with a larger C is stable according to (10.26) as printed."""
     return 4 / (4 + np.pi * rho)

@@ -9,9 +9,9 @@ from vibroimpact.theory.manifold import impact_phase, rho, sawtooth
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """Coordinates of both modules at n times, each (n, 2), dimensionless.
+    """Dimensionless coordinates of both modules at n times; each array has the shape (n, 2).
 
-    X is the displacement of the box and Y that of the ball; U = X + epsilon Y and W = X - Y.
+    X: displacement of the box. Y: displacement of the ball. U: sum X + epsilon Y. W: difference X - Y.
     """
 
     U: np.ndarray
@@ -21,9 +21,10 @@ class Response:
 
 
 def leading_order(system, point, tau) -> Response:
-    """Return U_i0 and W_i0 of (10.9), (10.10) at a fixed point, with X_i and Y_i, at times `tau`, (n,).
+    """Return the leading-order motion that belongs to a fixed point, at the times `tau` of shape (n,).
 
-    The forcing is f_i sin(Omega tau). All coordinates of an inactive module are 0.
+    U_i0 and W_i0 follow from (10.9) and (10.10), and X_i and Y_i follow from U_i0 and W_i0. The forcing is
+    f_i sin(Omega tau). All coordinates of an inactive module are 0.
     """
     phase = system.Omega * np.asarray(tau, dtype=float)[:, None] - point.psi
     U = point.B * np.sin(phase)

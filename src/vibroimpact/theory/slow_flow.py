@@ -13,10 +13,11 @@ _ONE = np.eye(2)
 
 
 def impedances(system) -> tuple[np.ndarray, complex]:
-    """Return the slow impedances: (e_1, e_2) of the two boxes without balls and coupling, and K of the coupling.
+    """Return the slow impedances of the boxes, shape (2,), and the slow impedance K of the coupling.
 
-    With b_n = B_n exp(-i psi_n), the slow flow is 2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m). Here m is the
-    other module, N is the describing function of the ball, and D_1 = d / dtau_1.
+    The impedance e_n describes box n alone, without ball and coupling. With b_n = B_n exp(-i psi_n), the slow flow is
+    2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m). Here m is the module other than n, N is the describing
+    function of the ball, and D_1 = d / dtau_1.
     """
     detuning = np.array([0, system.sigma20_hat]) - 2 * system.sigma_e_hat
     damping = np.array([system.gamma1_hat, system.gamma2_hat])
@@ -24,15 +25,19 @@ def impedances(system) -> tuple[np.ndarray, complex]:
 
 
 def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return the rates D_1 B_i and D_1 psi_i, each (2,), by (10.22); both vanish at a fixed point, (10.23).
+    """Return the rates D_1 B_i and D_1 psi_i of (10.22), each of shape (2,).
 
-    B, psi [rad] and the saw-tooth amplitudes C have the shape (2,).
+    All rates vanish at a fixed point, (10.23). The amplitudes B, the phases psi [rad] and the saw-tooth amplitudes C
+    have the shape (2,).
     """
     return rates_from_phasors(system, np.asarray(B), np.cos(psi), np.sin(psi), np.asarray(C))
 
 
 def rates_from_phasors(system, B, cosine, sine, C):
-    """Return `rates` from B, cos psi, sin psi and C, as rational functions for computer algebra."""
+    """Return the values of `rates` from B, cos psi, sin psi and C, each of shape (2,).
+
+    The rates are rational functions of these arguments, so that computer algebra can use the function.
+    """
     forcing = np.array([system.f10_hat, system.f20_hat])
     damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat
     stiffness = np.array([0, system.sigma20_hat]) + system.alpha12_hat - 2 * system.sigma_e_hat
@@ -49,10 +54,10 @@ def rates_from_phasors(system, B, cosine, sine, C):
 
 
 def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return the rates D_1 (B_1, psi_1, B_2, psi_2) on the manifold, and their Jacobian.
+    """Return the rates D_1 of B_1, psi_1, B_2, psi_2 on the manifold, shape (4,), and their Jacobian, shape (4, 4).
 
-    The Jacobian contains derivatives with respect to (C_1, psi_1, C_2, psi_2). With one active module, the shapes are
-    (2,) and (2, 2), else (4,) and (4, 4). psi [rad] and the saw-tooth amplitudes C have the shape (2,).
+    The Jacobian contains the derivatives of the rates with respect to C_1, psi_1, C_2, psi_2. If exactly one module is
+    active, the shapes are (2,) and (2, 2). The phases psi [rad] and the saw-tooth amplitudes C have the shape (2,).
     """
     psi, C = (np.where(_active(system)[::2], of, 0.0) for of in (psi, C))
     rest = np.column_stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C)).ravel()
@@ -60,10 +65,11 @@ def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return J and M, each (..., 4, 4): perturbations x of (C_1, psi_1, C_2, psi_2) satisfy M dx/dtau_1 = J x.
+    """Return the matrices J and M of the linearised slow flow M dx/dtau_1 = J x, each of shape (..., 4, 4).
 
-    At the fold, M is singular, whereas the Jacobian in (B, psi) is infinite. psi [rad] and C have the shape (..., 2).
-    With one active module, J and M are (..., 2, 2).
+    x contains the perturbations of C_1, psi_1, C_2, psi_2. At the fold of the manifold, J and M are finite and M is
+    singular, whereas a Jacobian with respect to B and psi would be infinite. The phases psi [rad] and the saw-tooth
+    amplitudes C have the shape (..., 2). If exactly one module is active, J and M have the shape (..., 2, 2).
     """
     r = rho(system.kappa)
     psi, C = (np.where(_active(system)[::2], of, 0.0) for of in (psi, C))
@@ -74,15 +80,19 @@ def linearisation(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
-    """Return J and M as in `linearisation`, for any curve on which B_i and N_i B_i are functions of a parameter x_i.
+    """Return the matrices J and M as in `linearisation`, for any curve instead of the manifold.
 
-    `ball` is N_i B_i, with the describing function N_i. `B_x` and `ball_x` are derivatives with respect to x_i. All
-    arrays have the shape (..., 2).
+    The amplitude B_i and the product N_i B_i are functions of a parameter x_i, where N_i is the describing function of
+    ball i. J and M apply to perturbations of x_1, psi_1, x_2, psi_2. The arguments are arrays of shape (..., 2):
+
+    - psi: phases [rad],
+    - B, ball: values of B_i and of N_i B_i,
+    - B_x, ball_x: derivatives of B_i and of N_i B_i with respect to x_i.
     """
     e, K = impedances(system)
     forcing = np.array([system.f10_hat, system.f20_hat])
     ahead = np.exp(1j * np.asarray(psi))
-    # D_1 B_i = Im(drive_i) / 2 and D_1 psi_i = Re(drive_i) / (2 B_i), the complex form of (10.22).
+    # The complex form of (10.22) is D_1 B_i = Im(drive_i) / 2 and D_1 psi_i = Re(drive_i) / (2 B_i).
     from_other = K * ahead * (B / ahead)[..., ::-1]
     drive = forcing * ahead - (e + K) * B - ball + from_other
     drive_own_x = -(e + K) * B_x - ball_x
@@ -101,18 +111,22 @@ def pencil(system, psi, B, ball, B_x, ball_x) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _active(system):
-    """Return a mask (4,) of the slow variables of active modules; if no module is active, all are True."""
+    """Return a mask of the slow variables that belong to active modules, shape (4,).
+
+    If no module is active, all entries are True.
+    """
     return np.isin(MODULES, system.modules or (1, 2))
 
 
 def slow_eigenvalues(system, psi, C) -> np.ndarray:
-    """Return the eigenvalues of the slow flow per unit of tau_1, two per active module, by descending real part.
+    """Return the complex eigenvalues of the slow flow per unit of tau_1, sorted by descending real part.
 
-    At the fold of the manifold one is infinite. psi [rad] and the saw-tooth amplitudes C have the shape (2,).
+    There are two eigenvalues per active module. At the fold of the manifold, one eigenvalue is infinite. The phases
+    psi [rad] and the saw-tooth amplitudes C have the shape (2,).
     """
     return descending(eigvals(*linearisation(system, psi, C)))
 
 
 def descending(values) -> np.ndarray:
-    """Return the values (n,) sorted by descending real part."""
+    """Return the complex values, shape (n,), sorted by descending real part."""
     return values[np.argsort(-values.real, kind="stable")]

@@ -1,10 +1,11 @@
 """Write the fixed-point conditions (10.23) as two polynomials in the saw-tooth amplitudes C_1 and C_2.
 
-The polynomials have the roots of (10.24), but not its poles. On the manifold, b_i = B_i exp(-i psi_i) = z_i u_i with
-z_i = 1 - (1 + i rho) C_i and |u_i| = 1. So (10.23) is linear in the phasors u_i (docs/derivation.md, section 5):
+The polynomials have the same roots as (10.24), but no poles. On the manifold, the complex amplitude of module i is
+b_i = B_i exp(-i psi_i) = z_i u_i, with z_i = 1 - (1 + i rho) C_i and |u_i| = 1. Therefore the conditions (10.23) are
+linear in the phasors u_i (docs/derivation.md, section 5):
     q_i u_i + K (z_i u_i - z_j u_j) = f_i,    q_i = e_i z_i + mu C_i,    mu = 8 / pi^2.
-Here f_i is the forcing amplitude of module i, and j is the other module. The impedances are e_i of box i and K of the
-coupling (`slow_flow.impedances`).
+Here j is the module other than i, and f_i is the forcing amplitude of module i. The impedance of box i is e_i, and the
+impedance of the coupling is K (`slow_flow.impedances`).
 """
 
 from dataclasses import dataclass
@@ -21,7 +22,10 @@ _ROUNDING = 100 * np.finfo(float).eps
 class Balance:
     """Coefficients of the balance q_i u_i + K (z_i u_i - z_j u_j) = f_i of module i, where j is the other module.
 
-    `z` and `q` give z_i = z[0] + z[1] C_i and q_i = q[i, 0] + q[i, 1] C_i. `forcing` is (f_1, f_2).
+    z: coefficients of z_i = z[0] + z[1] C_i, shape (2,), for both modules.
+    q: coefficients of q_i = q[i - 1, 0] + q[i - 1, 1] C_i for module i = 1 or 2, shape (2, 2).
+    K: complex impedance of the coupling.
+    forcing: forcing amplitudes f_1 and f_2, shape (2,).
     """
 
     z: np.ndarray
@@ -38,24 +42,35 @@ class Balance:
         return cls(z=z, q=q, K=K, forcing=np.array([system.f10_hat, system.f20_hat]))
 
     def at(self, C) -> tuple[np.ndarray, np.ndarray]:
-        """Return z_i and q_i of the balance, each shape (2,), at the saw-tooth amplitudes C (2,)."""
+        """Return z_i and q_i of the balance at the saw-tooth amplitudes C; all three arrays have the shape (2,)."""
         C = np.asarray(C, dtype=float)
         return self.z[0] + self.z[1] * C, self.q[:, 0] + self.q[:, 1] * C
 
     def solve(self, C) -> tuple[np.ndarray, complex]:
-        """Return the numerators n_i, (2,), and the denominator Delta of u_i = n_i / Delta at C (2,)."""
+        """Solve the balance for the phasors u_i = n_i / Delta at the saw-tooth amplitudes C, shape (2,).
+
+        Return the numerators n_1 and n_2 as an array of shape (2,), and the denominator Delta.
+        """
         z, q = self.at(C)
         numerators = self.forcing * q[::-1] + self.forcing.sum() * self.K * z[::-1]
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
 
     def phases(self, C) -> np.ndarray:
-        """Return the phases psi (2,) of the fixed point with amplitudes C (2,), a common zero of the `polynomials`."""
+        """Return the phases psi [rad] of the fixed point with the saw-tooth amplitudes C, each of shape (2,).
+
+        C must be a common zero of the two `polynomials`.
+        """
         numerators, denominator = self.solve(C)
         return -np.angle(self.at(C)[0] * numerators / denominator)
 
     def of_module(self, i) -> tuple[np.ndarray, np.ndarray, bool]:
-        """Return C and psi of the fixed points of the uncoupled module i (0 or 1), and True if two points coincide."""
-        # |q_i|^2 = f_i^2: the line of all q_i in the complex plane meets the circle of radius |f_i|.
+        """Return the arrays C and psi [rad] of the fixed points of the uncoupled module i (0 or 1), and a flag.
+
+        Both arrays have the shape (n,) with n = 0, 1 or 2. The flag is True if two fixed points coincide within
+        rounding. Both arrays then have a single entry.
+        """
+        # Without coupling, |q_i| = |f_i|. The values of q_i for all C_i form a line in the complex plane. The fixed
+        # points are the intersections of this line with the circle of radius |f_i|.
         (q0, q1), f = self.q[i], self.forcing[i]
         along = q0 * q1.conjugate() / abs(q1)
         nearest, force, noise = abs(along.imag), abs(f), _ROUNDING * (abs(q0) + abs(f))
@@ -67,10 +82,12 @@ class Balance:
         return C, -np.angle((self.z[0] + self.z[1] * C) * f / (q0 + q1 * C)), bool(multiple)
 
     def polynomials(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the coefficients of two polynomials equivalent to (10.24), and scales of the rounding errors.
+        """Return the coefficients of two polynomials equivalent to (10.24), and the magnitudes of the coefficients.
 
-        Both arrays are (2, 3, 3), and entry [:, j, k] belongs to C_1^j C_2^k. The polynomials |n_2|^2 - |n_1|^2 and
-        |Delta|^2 - |n_1|^2 vanish where |u_1| = |u_2| = 1. A scale is the sum of the moduli of a coefficient's terms.
+        Both arrays have the shape (2, 3, 3), and entry [:, j, k] belongs to C_1^j C_2^k. The polynomials are
+        |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2, with n_i and Delta of `solve`. They vanish where |u_1| = |u_2| = 1.
+        Each coefficient is a sum of terms. Its magnitude is the sum of the moduli of these terms, to which the
+        rounding error is proportional.
         """
         # Squares of tiny forces would underflow. Scaling by a power of 2 causes no rounding error.
         unit = np.ldexp(1.0, np.frexp(np.abs(self.forcing).max())[1])
@@ -81,16 +98,19 @@ class Balance:
 
 
 def _solution(z, q, K, forcing):
-    """Return Delta, n_1 and n_2 of `Balance.solve` as coefficients of powers of C_1 (axis 0) and C_2 (axis 1)."""
+    """Return the coefficients of the polynomials Delta, n_1 and n_2 of `Balance.solve`.
+
+    Axis 0 of each array belongs to the powers of C_1, and axis 1 to the powers of C_2.
+    """
     delta = np.outer(q[0], q[1]) + K * (np.outer(z, q[1]) + np.outer(q[0], z))
     total = forcing.sum() * K * z
     return delta, (forcing[0] * q[1] + total)[None, :], (forcing[1] * q[0] + total)[:, None]
 
 
 def _modulus_squared(polynomial):
-    """Return the coefficients (3, 3) of |polynomial|^2 for a polynomial of degree 0 or 1 in each variable.
+    """Return the coefficients of the squared modulus of a polynomial in two real variables, shape (3, 3).
 
-    The variables are real.
+    The polynomial has complex coefficients, and degree 0 or 1 in each variable.
     """
     square = np.zeros((3, 3))
     for (j, k), value in np.ndenumerate(polynomial):
@@ -99,10 +119,11 @@ def _modulus_squared(polynomial):
 
 
 def determinant(system, C) -> float:
-    """Return the denominator Im(p_1 p_2 conj(z_1 z_2 K^2)) of (10.24), with p_i = q_i + K z_i of `Balance`.
+    """Return the denominator of (10.24) without constant factors and powers of B_i, at the amplitudes C, shape (2,).
 
-    It lacks constant factors and powers of B_i (docs/derivation.md, section 8). For coupled modules, this polynomial in
-    C_1 is identically 0 only if p_2 = 0. Since impacts dissipate energy, C_2 is then 0.
+    The value is Im(p_1 p_2 conj(z_1 z_2 K^2)) with p_i = q_i + K z_i, where z_i, q_i and K are the terms of `Balance`
+    (docs/derivation.md, section 8). At a given C_2, the value is a polynomial in C_1. If the modules are coupled, this
+    polynomial is 0 for all C_1 only if p_2 = 0. Since impacts dissipate energy, C_2 is then 0.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)
@@ -110,9 +131,10 @@ def determinant(system, C) -> float:
 
 
 def singular_points(system, point, module) -> np.ndarray:
-    """Return (C, B) of the isolated singular points of (10.24) on the manifold of one module, shape (n, 2).
+    """Return the isolated singular points of (10.24) on the manifold of one module, shape (n, 2).
 
-    The points ascend in C. `point` gives C of the other module. Uncoupled modules have no isolated singular points.
+    A row contains the amplitudes C >= 0 and B of a singular point. The rows are sorted by C. The other module keeps
+    the C of the fixed point `point`. If the modules are uncoupled, there is no isolated singular point, and n is 0.
 
     Raises
     ------
@@ -140,6 +162,6 @@ def _real_roots(coefficients):
         discriminant = 0.0
     if discriminant < 0:
         return np.empty(0)
-    # The root has the sign of b, so that no digits cancel.
+    # The square root gets the sign of b, so that the sum of both loses no digits by cancellation.
     q = -(b + np.copysign(np.sqrt(discriminant), b)) / 2
     return np.array([top / bottom for top, bottom in ((q, a), (c, q)) if bottom != 0])

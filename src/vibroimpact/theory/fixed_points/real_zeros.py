@@ -1,8 +1,9 @@
 """Find all real common zeros, in a square, of two polynomials of degree 2 in each of the variables x and y.
 
-The resultant eliminates y and has degree 8 in x. Its roots only start Newton's method, so that their rounding errors do
-not matter. Zeros that are equal within rounding are returned as one multiple zero. (Resultants: Cox, Little and
-O'Shea 2015, Ideals, Varieties, and Algorithms, section 3.6.)
+The resultant of the polynomials is a polynomial in x alone, of degree 8. The roots of the resultant are only used as
+starts of Newton's method, so that rounding errors of these roots do not matter. Zeros that are equal within rounding
+are returned as one multiple zero. (Resultants: Cox, Little and O'Shea 2015, Ideals, Varieties, and Algorithms,
+section 3.6.)
 """
 
 import numpy as np
@@ -24,9 +25,11 @@ _SAME = 1e-5
 
 
 def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray]:
-    """Return the common zeros (n, 2) in [-radius, radius]^2, sorted by x, and a mask (n,) of multiple zeros.
+    """Return the common zeros of two polynomials in the square [-radius, radius]^2, and a mask of multiple zeros.
 
-    `magnitudes` are the sums of the moduli of the terms of each coefficient.
+    The zeros have the shape (n, 2) and are sorted by x. The mask has the shape (n,). `coefficients` has the shape
+    (2, 3, 3), and entry [:, j, k] belongs to x^j y^k. Each coefficient is a sum of terms. `magnitudes` has the same
+    shape and contains the sums of the moduli of these terms.
 
     Raises
     ------
@@ -34,7 +37,8 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
         If the zeros are not isolated.
     """
     radius = max(radius, _SMALLEST_RADIUS)
-    scale = np.multiply.outer(radius ** np.arange(3.0), radius ** np.arange(3.0))  # maps the square to [-1, 1]^2
+    # The scaled coefficients belong to powers of x / radius and y / radius, so that the square becomes [-1, 1]^2.
+    scale = np.multiply.outer(radius ** np.arange(3.0), radius ** np.arange(3.0))
     scaled, size = coefficients * scale, magnitudes * scale
     heights = size.max(axis=(1, 2), keepdims=True)
     scaled, size = scaled / heights, size / heights
@@ -50,12 +54,14 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 
 
 def _starts(pair, size):
-    """Return starts for Newton's method, shape (n, 2), at least one near every real zero.
+    """Return points from which Newton's method starts, shape (n, 2); at least one is near every real zero.
+
+    `size` contains the sum of the moduli of the terms of each coefficient.
 
     Raises
     ------
     ArithmeticError
-        If the resultant vanishes.
+        If all coefficients of the resultant vanish within rounding.
     """
     resultant, bound = _resultant(*pair.transpose(0, 2, 1)), _resultant(*np.abs(pair).transpose(0, 2, 1), sign=1)
     if (np.abs(resultant) <= _ROUNDING * bound).all():
@@ -63,7 +69,7 @@ def _starts(pair, size):
     nonzero = np.flatnonzero(np.abs(resultant) > np.finfo(float).tiny)
     roots = poly.polyroots(resultant[: nonzero[-1] + 1])
     roots = roots[np.abs(roots.imag) <= _NEARLY_REAL * np.abs(roots) + _RESOLUTION]
-    x = roots.real + roots.imag  # a + b and a - b for a nearly real pair a +- b i
+    x = roots.real + roots.imag  # A nearly real pair of roots a +- b i gives the real starts a + b and a - b.
     y = np.concatenate([_quadratic(one, x) for one in pair])
     points = np.column_stack([np.tile(x, 4), y])
     points = points[(np.abs(points) < 2).all(axis=1)]
@@ -72,9 +78,11 @@ def _starts(pair, size):
 
 
 def _resultant(one, other, sign=-1):
-    """Return the coefficients (9,) of the resultant, a polynomial in x, from coefficients [power of y, power of x].
+    """Return the coefficients of the resultant of two polynomials, shape (9,); the resultant is a polynomial in x.
 
-    Moduli with sign = 1 give the sums of the moduli of all terms.
+    Entry [k, j] of `one` and of `other` is the coefficient of y^k x^j. Each coefficient of the resultant is a sum of
+    terms. If `one` and `other` contain moduli and `sign` is 1, the function returns the sums of the moduli of these
+    terms.
     """
 
     def minor(j, k):
@@ -84,7 +92,10 @@ def _resultant(one, other, sign=-1):
 
 
 def _quadratic(polynomial, x):
-    """Return both roots y of a polynomial at each x (n,), shape (2 n,); for complex roots, real numbers near them."""
+    """Return both roots y of a polynomial at each entry of x, which has the shape (n,), as an array of shape (2 n,).
+
+    If the roots are complex, a negative discriminant is replaced by 0, which gives real numbers.
+    """
     c, b, a = (poly.polyval(x, column) for column in polynomial.T)
     root = np.sqrt(np.maximum(b * b - 4 * a * c, 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -93,14 +104,18 @@ def _quadratic(polynomial, x):
 
 
 def _newton(pair, size, points):
-    """Return the zeros that Newton's method reaches from the starts `points`, (n, 2), with repetitions."""
+    """Return the zeros that Newton's method reaches from the starts `points`, which have the shape (n, 2).
+
+    A zero appears once for each start that leads to the zero.
+    """
     found = [np.empty((0, 2))]
     for _ in range(_STEPS):
         value, gradient, noise = _expanded(pair, size, points)
         with np.errstate(all="ignore"):
             step = (_adjugate(gradient) @ value[..., None])[..., 0] / np.linalg.det(gradient)[:, None]
         there, later = (np.abs(value) <= noise).all(axis=1), points - np.nan_to_num(step)
-        last = np.abs(step).max(axis=1) < np.sqrt(_ROUNDING)  # for a simple zero, one more step gives the last digits
+        # The step is this small close to a simple zero. One more step then gives the last digits.
+        last = np.abs(step).max(axis=1) < np.sqrt(_ROUNDING)
         found.append(np.where(last[:, None], later, points)[there])
         points = later[~there & (np.abs(later) < 2).all(axis=1)]
         if not len(points):
@@ -109,13 +124,20 @@ def _newton(pair, size, points):
 
 
 def _expanded(pair, size, points):
-    """Return values (n, 2), Jacobians (n, 2, 2) and bounds (n, 2) on the errors of the values of both polynomials."""
+    """Return the values of both polynomials at `points`, the Jacobians, and bounds on the errors of the values.
+
+    `points`, values and bounds have the shape (n, 2). The Jacobians have the shape (n, 2, 2). `size` contains the sum
+    of the moduli of the terms of each coefficient.
+    """
     value, by_x, by_y = (_at(points, one) for one in (pair, *_derivatives(pair)))
     return value, np.stack([by_x, by_y], -1), _ROUNDING * _at(np.abs(points), size)
 
 
 def _at(points, polynomials):
-    """Return the values (n, 2) of two polynomials with coefficients (2, j, k) at points (n, 2)."""
+    """Return the values of two polynomials at `points`; values and points have the shape (n, 2).
+
+    Entry [:, j, k] of `polynomials` contains the coefficients of x^j y^k.
+    """
     return poly.polyval2d(*points.T, polynomials.transpose(1, 2, 0)).T
 
 
@@ -130,9 +152,11 @@ def _adjugate(matrix):
 
 
 def _contract(pair, size, points):
-    """Return a mask (n,) of the simple zeros, at which Newton's method contracts in a square (Kantorovich's theorem).
+    """Return a mask of the points that are simple zeros, shape (n,).
 
-    The half-width exceeds the shift by rounding plus the change of the Newton step.
+    A zero is simple if Newton's method contracts in a square around the zero (Kantorovich's theorem). The test adds two
+    bounds: on the shift of the zero by rounding, and on the change of the Newton step within the square. The method
+    contracts if the sum is below the half-width of the square.
     """
     _, gradient, noise = _expanded(pair, size, points)
     by_x, by_y = _derivatives(pair)
@@ -146,7 +170,10 @@ def _contract(pair, size, points):
 
 
 def _distinct(points, apart):
-    """Return the points except those within the relative distance `apart` of a point that is already in the result."""
+    """Return the list of the points without repetitions.
+
+    A point is a repetition if its relative distance to an earlier point of the list is at most `apart`.
+    """
     found = []
     for point in points:
         if not any(_near(point, known, apart) for known in found):

@@ -1,9 +1,10 @@
 """Find all fixed points of the slow flow, the real solutions of (10.16) and (10.23).
 
-Newton's method for amplitudes and phases refines the zeros of the polynomials in C_1 and C_2. The polynomials lose
-digits, since they are differences of squares. Without dissipation, each fixed point has a partner with the same C and
-mirrored phases, and Delta of `Balance.solve` vanishes at both. With very little dissipation, the amplitudes of both
-points are equal within rounding; only their phases differ.
+The amplitudes C_1 and C_2 are common zeros of two polynomials (`Balance.polynomials`). These zeros lose digits, since
+the polynomials are differences of squares. Newton's method for amplitudes and phases restores the digits. Without
+dissipation, each fixed point has a partner with the same amplitudes and mirrored phases. The denominator Delta of
+`Balance.solve` vanishes at both fixed points. With very little dissipation, the amplitudes of both fixed points are
+equal within rounding, and only the phases differ.
 """
 
 from dataclasses import dataclass, replace
@@ -22,11 +23,11 @@ from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, equations, slow_eigenvalues
 
 _STEPS = 30
-_SETTLED = 1e-12  # largest relative Newton step after which the fixed point is exact within rounding
+_SETTLED = 1e-12  # After a smaller relative Newton step, the fixed point is exact within rounding.
 _SAME = 1e-9
-_NEAR = 1e-3  # largest relative change of C in `_refined`; a larger one leads to another point
-_TRIANGLE_GAP = 1e-3  # tolerance of the triangle inequality in `_may_close`, relative to the perimeter
-_REGULAR = 1e5  # largest condition number of the Jacobian at a fixed point that counts as simple
+_NEAR = 1e-3  # If C changes more (relatively) in `_refined`, Newton's method moves to another fixed point.
+_TRIANGLE_GAP = 1e-3  # This is the tolerance of the triangle inequality in `_may_close`, relative to the perimeter.
+_REGULAR = 1e5  # A fixed point counts as simple if the condition number of its Jacobian is smaller.
 _AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
 COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
 """Columns of the table of fixed points."""
@@ -43,17 +44,18 @@ class FixedPoint(Representation):
     system : System
         System of the fixed point.
     C, B : ndarray
-        Amplitudes of the saw-tooth and of U_i0, each shape (2,), dimensionless.
+        C: amplitude of the saw-tooth in each module. B: amplitude of U_i0 in each module. Both are dimensionless and
+        have the shape (2,).
     psi : ndarray
-        Phase lags [rad] in U_i0 = B_i sin(Omega tau - psi_i), in (-pi, pi], shape (2,).
+        Phase lag in U_i0 = B_i sin(Omega tau - psi_i) of each module [rad], between -pi and pi, shape (2,).
     slow_eigenvalues : ndarray
-        Complex eigenvalues of the slow flow, per unit of tau_1, shape (4,), or (2,) for a single machine. At a fold of
-        the manifold one is infinite.
+        Complex eigenvalues of the slow flow, per unit of tau_1. The shape is (4,), or (2,) for a single machine. At a
+        fold of the manifold, one eigenvalue is infinite.
     multiple : bool
         True if several fixed points may coincide within rounding, as at a fold. The relative errors of C and psi are
         then about the square root of the rounding error.
     label : str
-        "a", "b", ... as in the figures; "" for a point that does not come from `fixed_points`.
+        "a", "b", ... as in the figures of the chapter. If the point does not come from `fixed_points`, the label is "".
 
     Examples
     --------
@@ -82,7 +84,7 @@ class FixedPoint(Representation):
         return Stability(verdicts[FAST], verdicts[SLOW])
 
     def row(self) -> dict:
-        """Return the row of `to_frame` for this fixed point, as numbers and verdicts by column name."""
+        """Return the row of this fixed point in the table that `to_frame` makes, as a dictionary by column name."""
         numbers = np.ravel([self.C, self.B, self.psi]).tolist()
         fast, slow = stability = self.stability
         growth = float(self.slow_eigenvalues.real.max())
@@ -106,13 +108,14 @@ def fixed_points(system: System) -> list[FixedPoint]:
     Returns
     -------
     list of FixedPoint
-        Fixed points in ascending order of C of the first active module. The labels follow another order.
+        Fixed points in ascending order of C of the first active module. The order of the labels differs: "a" is the
+        least stable point.
 
     Raises
     ------
     ValueError
-        If system is not a System, or if its fixed points need not be isolated. This can happen at an undamped resonance
-        that the forces do not excite.
+        If system is not a System, or if the slow flow has an undamped resonance that the forces do not excite. The
+        fixed points may then form a continuum.
 
     Examples
     --------
@@ -124,20 +127,22 @@ def fixed_points(system: System) -> list[FixedPoint]:
 
 
 def search(system: System) -> list[FixedPoint]:
-    """Return all fixed points, also with negative C_i, in ascending order of C_1 and without labels.
+    """Return all fixed points, including points with a negative C_i, without labels.
+
+    The points are sorted by C_1, or by C_2 if only module 2 is active.
 
     Raises
     ------
     ValueError
-        If the boxes have an undamped resonance in the slow flow that the forces do not excite. Fixed points then need
-        not be isolated.
+        If system is not a System, or if the slow flow has an undamped resonance that the forces do not excite. The
+        fixed points may then form a continuum.
     """
     refuse_free_motion(instance("system", system, System))
     balance = Balance.of(system)
     if system.modules == (1, 2):
         zeros, multiple = real_zeros(*balance.polynomials(), search_radius(system))
         solutions = _solutions(system, balance, zeros, multiple)
-    else:  # without an active module no fixed point exists, since impacts dissipate energy
+    else:  # If no module is active, there is no fixed point, since impacts dissipate energy.
         solutions = [solution for module in system.modules for solution in _of_one_module(balance, module - 1)]
     points = [FixedPoint.of(system, *solution) for solution in solutions]
     return sorted(points, key=lambda point: tuple(np.nan_to_num(point.C)))
@@ -155,8 +160,9 @@ def search_radius(system) -> float:
 def labels(system, points) -> list[str]:
     """Return the label "a", "b", ... of each fixed point; "a" is the least stable point.
 
-    Points that are unstable by (10.26) come first. Within both groups the growth rate descends. The chapter gives no
-    rule; this order fits section 10.4 best (docs/errata.md).
+    Points that are unstable by (10.26) come first, then the points that are stable by (10.26). Each group is sorted by
+    descending growth rate, which is the largest real part of the slow eigenvalues. The chapter gives no rule for its
+    labels. Of the plausible orders, this order agrees with most sentences of section 10.4 (docs/errata.md).
     """
     limit = printed_limit(rho(system.kappa))
     keys = [(bool(np.nanmin(point.C) > limit), -point.slow_eigenvalues.real.max()) for point in points]
@@ -165,8 +171,8 @@ def labels(system, points) -> list[str]:
 
 
 def refuse_free_motion(system) -> None:
-    """Raise ValueError for a system whose fixed points need not be isolated (see `search`)."""
-    if len(system.modules) == 1:  # the force excites every resonance of the active box
+    """Raise ValueError for a system whose fixed points may form a continuum (see `search`)."""
+    if len(system.modules) == 1:  # The force acts on the active box and therefore excites its resonance.
         return
     balance = Balance.of(system)
     numerators, denominator = balance.solve((0.0, 0.0))
@@ -180,30 +186,39 @@ def refuse_free_motion(system) -> None:
 
 
 def _of_one_module(balance, i):
-    """Return (C, psi, multiple) for the fixed points of module i (0 or 1) alone, with NaN for the other module."""
+    """Return the list of the fixed points of the uncoupled module i (0 or 1).
+
+    Each entry contains the amplitudes C, the phases psi and the flag `multiple`. C and psi have the shape (2,), with
+    NaN for the other module.
+    """
     C, psi, multiple = balance.of_module(i)
     alone = np.where(np.arange(2) == i, 1.0, np.nan)
     return [(alone * one, alone * phase, multiple) for one, phase in zip(C, psi, strict=True)]
 
 
 def _solutions(system, balance, zeros, multiple):
-    """Return (C, psi, multiple) for each fixed point, from the zeros of the polynomials and their flags `multiple`."""
+    """Return the list of the fixed points that belong to the common zeros of the polynomials.
+
+    Each entry contains the amplitudes C, the phases psi and the flag `multiple` of a fixed point. The argument
+    `multiple` is the mask of the multiple zeros.
+    """
     simple = [(C, balance.phases(C)) for C in zeros[~multiple]]
     simple = [_refined(system, *solution) or solution for solution in simple]
     unresolved = []
     for C in zeros[multiple]:
         pair = _mirrored_pair(system, balance, C)
-        # Two zeros that are equal within rounding can lead to the same pair of fixed points.
+        # Two neighbouring zeros can lead to the same pair of fixed points, which is then added only once.
         simple += [solution for solution in pair if not any(_same(solution, known) for known in simple)]
         unresolved += [(C, balance.phases(C))] if not pair and _may_close(balance, C) else []
     return [(*solution, False) for solution in simple] + [(*solution, True) for solution in unresolved]
 
 
 def _mirrored_pair(system, balance, C):
-    """Return (C, psi) of two fixed points near the multiple zero C of the polynomials, or [] unless there are two.
+    """Return the two fixed points near a multiple zero C of the polynomials, each as a pair of C and psi.
 
-    p_1 u_1 - K z_2 u_2 = f_1 with p_1 = q_1 + K z_1 is a triangle in the complex plane. Its sides determine two
-    mirrored triangles, from which Newton's method starts.
+    If there are not exactly two such fixed points, the list is empty. In the complex plane, the terms of the balance
+    p_1 u_1 - K z_2 u_2 = f_1 with p_1 = q_1 + K z_1 form a triangle. The lengths of the sides determine two triangles,
+    which are mirror images. Newton's method starts once from the phases of each triangle.
     """
     z, q = balance.at(C)
     p, k, f = q[0] + balance.K * z[0], balance.K * z[1], balance.forcing[0]
@@ -220,8 +235,9 @@ def _mirrored_pair(system, balance, C):
 def _may_close(balance, C):
     """Return False if no phases balance the forces near a zero C of `Balance.polynomials`.
 
-    Without dissipation, Delta, n_1 and n_2 can vanish at such a C. At a fixed point, the terms of the balance
-    f_i = p_i u_i - K z_j u_j with p_i = q_i + K z_i form a triangle.
+    Without dissipation, Delta, n_1 and n_2 of `Balance.solve` can all vanish at a zero C without a fixed point. At a
+    fixed point, the terms of the balance f_i = p_i u_i - K z_j u_j form a triangle, where p_i = q_i + K z_i. Therefore
+    the lengths |f_i|, |p_i| and |K z_j| must satisfy the triangle inequality.
     """
     z, q = balance.at(C)
     sides = np.abs([balance.forcing, q + balance.K * z, balance.K * z[::-1]])
@@ -229,7 +245,10 @@ def _may_close(balance, C):
 
 
 def _refined(system, C, psi):
-    """Refine (C, psi) by Newton's method; return None unless the method converges to a simple fixed point near C."""
+    """Return the amplitudes C and phases psi of a fixed point, refined by Newton's method.
+
+    If the method does not converge to a simple fixed point near C, the result is None.
+    """
     state = np.column_stack([C, psi])
     for _ in range(_STEPS):
         residual, J = equations(system, state[:, 1], state[:, 0])

@@ -1,4 +1,4 @@
-"""Write fixed points to tables, one row per point (columns COLUMNS), and read them from tables."""
+"""Write fixed points to tables with one row per point and the columns COLUMNS, and read fixed points from tables."""
 
 from dataclasses import dataclass
 
@@ -65,8 +65,12 @@ def labelled_point(table: pd.DataFrame, label: str) -> LabelledPoint:
 def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
     """Return the position of each fixed point on the manifold, one row per point and active module.
 
-    The arm is "left" or "right" of C_min, (10.25). The branch is "stable" or "unstable" by (10.26). The overshoot
-    is the largest |W_0| - 1, or 0 if the ball stays between the walls.
+    The columns have the following contents:
+
+    - C, B: amplitudes of the saw-tooth and of U,
+    - arm: "left" if C is at most C_min, (10.25), else "right",
+    - branch: "stable" if C is above the limit of (10.26), else "unstable",
+    - overshoot: largest |W_0| - 1 in a cycle, or 0 if the ball stays between the walls.
     """
     r = rho(system.kappa)
     rows = [
@@ -87,5 +91,9 @@ def place_on_manifold(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def verdicts(places: pd.DataFrame) -> pd.Series:
-    """Return the verdict on each fixed point by label: "stable" if all its branches in `places` are "stable"."""
+    """Return the verdict on each fixed point, indexed by the labels of the points.
+
+    `places` is a table from `place_on_manifold`. The verdict is "stable" if the branch is "stable" in every row of the
+    point, and else "unstable".
+    """
     return places.groupby("label")["branch"].agg(all_stable).rename("verdict")
