@@ -45,7 +45,7 @@ def _job(record):
 def differences(one, other, place: str = "") -> Iterator[tuple]:
     """Yield (key path, value in `one`, value in `other`) for each difference between nested mappings.
 
-    A missing value is None.
+    If a mapping lacks a key, its value is None.
     """
     if isinstance(one, dict) and isinstance(other, dict):
         for name in one | other:
@@ -57,7 +57,7 @@ def differences(one, other, place: str = "") -> Iterator[tuple]:
 def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None:
     """Write the .tar.gz archive of a checkout; raise ValueError if the checkout is not clean.
 
-    `titles` contains the title of each figure by name.
+    `titles` is a mapping from the names of the figures to their titles.
     """
     commit = committed(root)
     cited = yaml.safe_load((root / "CITATION.cff").read_text(encoding="utf-8"))
@@ -66,7 +66,8 @@ def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None
         staged = Path(folder, f"vibroimpact-{cited['version']}-{commit[:12]}")
         staged.mkdir()
         with tarfile.open(fileobj=io.BytesIO(output("archive", commit, root=root))) as sources:
-            sources.extraction_filter = getattr(tarfile, "data_filter", None)  # available since Python 3.11.4
+            # Python before 3.11.4 has no data_filter.
+            sources.extraction_filter = getattr(tarfile, "data_filter", None)
             sources.extractall(staged)
         for result in results:
             (staged / result).parent.mkdir(parents=True, exist_ok=True)

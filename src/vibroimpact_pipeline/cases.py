@@ -9,11 +9,11 @@ COLLECTIONS = ("accuracy.problems", "sweeps")
 
 
 def with_cases(config: dict) -> dict:
-    """Return a copy of a config with the default case filled in.
+    """Return a copy of a config in which entries without a case get the default case.
 
-    The chapter's figures (fig10_...) must name their case. If the config omits a case of the chapter, entries of
-    `figures` and `regimes.epsilon` that name this case are removed. Other entries that name this case get the default
-    case.
+    The chapter's figures (fig10_...) are an exception: they must name their case. The config may omit a case of the
+    chapter. If so, entries of `figures` and `regimes.epsilon` that name the omitted case are removed. Entries in other
+    parts of the config that name the omitted case get the default case.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")
@@ -42,7 +42,10 @@ def case_overrides(config: dict, case: str) -> dict:
 
 
 def title_of(config: dict, case: str) -> str:
-    """Return the title of a case, by default its name and its overrides of `system`."""
+    """Return the title of a case.
+
+    The default title is the name of the case, followed by the parameters that override the values of `system`.
+    """
     overrides = [
         f"{name} = {value}" for name, value in case_overrides(config, case).items() if name in config["system"]
     ]
@@ -50,7 +53,7 @@ def title_of(config: dict, case: str) -> str:
 
 
 def _at(config, path):
-    """Return the mapping at "section.key", or an empty mapping if it does not exist."""
+    """Return the mapping at a key path such as "regimes.branches"; return an empty mapping if there is none."""
     for key in path.split("."):
         config = config.get(key) if isinstance(config, dict) else None
     return config if isinstance(config, dict) else {}

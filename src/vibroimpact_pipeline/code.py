@@ -1,7 +1,7 @@
 """Compute the fingerprint of the code of a job: its script, the imported modules, and their data files.
 
-If the fingerprint in `params` changes, Snakemake reruns the job. Comments and docstrings of modules affect only the
-report.
+If the fingerprint in `params` changes, Snakemake reruns the job. A change of comments and docstrings of modules changes
+only the fingerprint of the report.
 """
 
 import ast
@@ -20,9 +20,10 @@ DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
 
 
 def code_files(*roots: str) -> list[Path]:
-    """Return the files on which a job depends, sorted.
+    """Return the sorted list of the files on which a job depends.
 
-    `roots` name modules, files or folders. Imported modules are included, and data files next to modules.
+    Each root is the name of a module, or the path of a file or folder in the checkout. The list includes all modules
+    that these files import, and all data files in the folders of the modules.
     """
     found, pending = set(), [path for root in roots for path in _paths(root)]
     while pending:
@@ -39,7 +40,8 @@ def code_files(*roots: str) -> list[Path]:
 def fingerprint(*roots: str) -> str:
     """Return the fingerprint of the files that `code_files` returns.
 
-    Comments and docstrings of a Python file have no effect, unless a root is a folder with the file.
+    Comments and docstrings of a Python file have no effect on the fingerprint. If a root is a folder, the fingerprint
+    depends on the full text of each file in this folder.
     """
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
     for path in code_files(*roots):
@@ -52,9 +54,9 @@ def fingerprint(*roots: str) -> str:
 
 
 def change_times(*roots: str) -> dict[Path, int]:
-    """Return the ctime [ns] of each file of `code_files`.
+    """Return the time of the last change (ctime) of each file of `code_files` [ns].
 
-    Unlike the mtime, the ctime changes if a file is restored.
+    If an older version of a file is restored with its modification time (mtime), the ctime still changes.
     """
     return {path: path.stat().st_ctime_ns for path in code_files(*roots)}
 
@@ -71,7 +73,10 @@ def _paths(root: str) -> list[Path]:
 
 
 def is_source(path: Path) -> bool:
-    """Return True unless a part of `path`, relative to a source folder, starts with a dot or is __pycache__."""
+    """Return False if a part of `path` starts with a dot or is __pycache__, and else True.
+
+    `path` is relative to a folder with source files.
+    """
     return not any(name.startswith(".") or name == "__pycache__" for name in path.parts)
 
 
@@ -89,7 +94,7 @@ def modules() -> dict[str, Path]:
 
 @cache
 def module_files(name: str) -> list[Path]:
-    """Return the files of a module and its parent packages, and data files next to the module."""
+    """Return the files of a module and of its parent packages, and the data files in the folder of the module."""
     if name not in modules():
         return []
     parts = name.split(".")
@@ -102,7 +107,7 @@ def module_files(name: str) -> list[Path]:
 def _parsed(path: Path, time: int) -> tuple[str, set[str]]:
     """Return the code of a file without comments and docstrings, and the project's modules that it imports.
 
-    The cache key contains `time`, the ctime.
+    `time` is the ctime of the file. If it differs from the ctime of an earlier call, the file is parsed again.
     """
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".ipynb":

@@ -1,4 +1,4 @@
-"""Types of config values, with limits, that several sections of the config use."""
+"""Types of config values that several sections of the config use; the types include limits of the values."""
 
 from typing import Annotated
 
@@ -24,7 +24,10 @@ def needs(fits, what: str) -> AfterValidator:
 
 
 def _known(case: str, info: ValidationInfo):
-    """Return a case; raise ValueError if the validation context lists cases and this case is not among them."""
+    """Return the name of a case; raise ValueError if the config has no such case.
+
+    The validation context lists the names of the cases. If the context is empty, every name is accepted.
+    """
     if case not in (info.context or [case]):
         raise ValueError(f"should be one of the cases {', '.join(map(repr, info.context))}")
     return case
@@ -43,7 +46,7 @@ WITHIN_WALLS = needs(
 def items(kind, least: int, most: int, about: str | None = None, check: AfterValidator | None = DIFFERENT):
     """Return the type of a list of `least` to `most` values.
 
-    By default, `check` requires different values.
+    The validator `check` applies to the list. By default, the list must not contain a value twice.
     """
     return Annotated[list[kind], Field(min_length=least, max_length=most, description=about), check]
 
@@ -56,7 +59,7 @@ def span(kind, about: str = "Lower and upper end"):
 def named(kind, least: int, most: int, name: str = NAME):
     """Return the type of a mapping whose keys match the pattern `name`.
 
-    A null removes the entry of an earlier config file.
+    A value may be null. If several config files are combined, null removes an entry that an earlier file sets.
     """
     free = Annotated[str, Field(pattern=name)]
     return Annotated[dict[free, kind | None], Field(min_length=least, max_length=most)]

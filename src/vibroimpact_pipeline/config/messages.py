@@ -12,7 +12,8 @@ from vibroimpact_pipeline.config.section import Place, Section
 def problems_of(error: ValidationError) -> dict[Place, dict]:
     """Return Pydantic's errors by key path.
 
-    If a mapping has an unknown key, errors about missing keys of the mapping are omitted.
+    If a mapping has an unknown key, errors about missing keys of this mapping are omitted. The unknown key may be a
+    misspelt name of a missing key.
     """
     errors = error.errors(include_url=False)
     misspelt = {details["loc"][:-1] for details in errors if details["type"] == "extra_forbidden"}
@@ -52,7 +53,7 @@ def _keys(part) -> set[str]:
 
 
 def hint(name, known: Iterable[str]) -> str:
-    """Return "did you mean ...?" with the most similar known name, or an empty text."""
+    """Return ", did you mean ...?" with the most similar known name; return an empty text if no name is similar."""
     meant = difflib.get_close_matches(str(name), list(known), n=1)
     return f", did you mean {meant[0]!r}?" if meant else ""
 

@@ -28,7 +28,7 @@ Detuning = Annotated[float, Field(ge=-10_000, le=10_000)]
 
 
 class SystemSection(Section):
-    """Default parameters of all cases, dimensionless; the suffix _hat stands for the hat in (10.4) and (10.6)."""
+    """Dimensionless default parameters of all cases; the suffix _hat stands for the hat in (10.4) and (10.6)."""
 
     epsilon: fields.Epsilon
     kappa: float = Field(gt=0, lt=1, description="Restitution coefficient")
@@ -67,7 +67,8 @@ def _refuse_resonance(system):
     """Raise ValueError for an undamped system whose periodic responses are not isolated or not bounded."""
     if system.gamma1 > 0 and system.gamma2 > 0:
         return
-    # Import these only here, since loading SciPy takes longer than a build without jobs.
+    # These modules load SciPy, which takes longer than a run of Snakemake that has nothing to do. Therefore they are
+    # only imported here, for systems with an undamped box.
     from vibroimpact.exact.orbits.impulse_response import impulse_response
     from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
@@ -77,7 +78,7 @@ def _refuse_resonance(system):
 
 
 class Simulation(Section):
-    """Direct integration of a case: a transient, which is discarded, and a window."""
+    """Settings of the direct integration of a case: a transient is discarded, and a time window after it is kept."""
 
     initial_state: fields.State
     transient_cycles: fields.count("Length of the transient before the window [forcing periods]", 0)
@@ -124,7 +125,7 @@ class Accuracy(Section):
 
 
 class Config(Section):
-    """Config of the chapter: system, cases, figures, accuracy. Values are dimensionless, times in forcing periods."""
+    """Config of the chapter. Parameters are dimensionless. Times are in forcing periods unless a key says otherwise."""
 
     system: SystemSection
     # At most twelve cases, since companion figures have a panel for each case.
@@ -142,11 +143,11 @@ class Config(Section):
         yield from self.parameter_errors()
 
     def named_rules(self) -> Iterator[Place]:
-        """Yield the key path of each config entry that becomes a Snakemake rule with the name of the entry."""
+        """Yield the key path of each config entry whose name becomes the name of a Snakemake rule."""
         yield from (("figures", name) for name in self.figures.model_extra)
 
     def taken_names(self):
-        """Yield an error for each entry with a name that is already in use."""
+        """Yield an error for each entry whose name is already in use or begins with a reserved prefix."""
         places = [*self.named_rules()]
         for place in places:
             name = place[-1]
@@ -156,7 +157,10 @@ class Config(Section):
                 yield place, what
 
     def parameter_errors(self):
-        """Yield errors for invalid parameters of cases or, if all cases are valid, for invalid `varied_parameters`."""
+        """Yield an error for each invalid parameter of a case.
+
+        If all cases are valid, yield an error for each invalid value in `varied_parameters`.
+        """
         systems, found = {}, False
         for name, case in self.cases.items():
             overrides = case.model_dump(exclude={"title", "simulation"}, exclude_none=True)
@@ -171,15 +175,19 @@ class Config(Section):
                     yield place, f"at {at}: {': '.join([*key, what])}"
 
     def varied_parameters(self) -> Iterable[tuple[Place, str | None, dict[str, float]]]:
-        """Return further parameter values that must be valid.
+        """Return parameter values that entries of the config use in place of the values of a case.
 
-        An item is (key path, case or None for all cases, values by parameter).
+        Each item contains the key path of the entry, the name of a case, and a mapping from parameters to values. If
+        the values apply to all cases, the name is None.
         """
         return ()
 
 
 def rejected(parameters):
-    """Return why System rejects parameters, as pairs (key path, message); an empty list if they are valid."""
+    """Return the errors in the parameters of a system, as a list of pairs of key path and message.
+
+    If the parameters are valid, the list is empty.
+    """
     try:
         Parameters.model_validate(parameters)
     except ValidationError as error:
