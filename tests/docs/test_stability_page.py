@@ -73,7 +73,7 @@ def test_largest_C_without_penetration():
 
 
 def test_shift_of_the_symmetry_breaking_limit_with_epsilon():
-    assert SYMMETRY_BREAKING - float(cells("$\\varepsilon$")[1][1]) == stated(r"the limit has moved by ([\d.]+)\. Within")
+    assert SYMMETRY_BREAKING - float(cells("$\\varepsilon$")[1][1]) == stated(r"limit has moved by ([\d.]+)\. Within")
 
 
 def test_table_of_variants_of_the_printed_limit():
