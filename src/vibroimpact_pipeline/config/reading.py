@@ -19,11 +19,17 @@ MAX_LINES = 30
 
 
 class ConfigError(ValueError):
-    """Invalid config; the message has one line "file: key: problem" for each problem."""
+    """Raised if a config cannot be read or is invalid.
+
+    The message lists up to MAX_LINES invalid entries, each on a line "file: key: problem".
+    """
 
 
 class _Loader(yaml.SafeLoader):
-    """A YAML loader that keeps keys as text and rejects duplicate keys and numbers in octal (017) or base 60 (1:30)."""
+    """A YAML loader that keeps all keys as text.
+
+    The loader rejects duplicate keys, octal numbers such as 017, and numbers in base 60 such as 1:30.
+    """
 
     def construct_mapping(self, node, deep=False):
         seen = set()
@@ -34,7 +40,7 @@ class _Loader(yaml.SafeLoader):
                 )
             seen.add(key.value)
             if key.tag != MERGE:
-                key.tag = self.DEFAULT_SCALAR_TAG  # otherwise the key `no` becomes False
+                key.tag = self.DEFAULT_SCALAR_TAG  # with its own tag, the key `no` would become False
         return super().construct_mapping(node, deep)
 
     def construct_number(self, node):
@@ -52,7 +58,9 @@ for kind in ("int", "float"):
 
 
 def read(path) -> dict:
-    """Return the entries of a config file; a null marks an entry to remove.
+    """Return the entries of a config file.
+
+    The result contains null values; each of them tells `merged` to remove the entry of an earlier source.
 
     Raises
     ------
@@ -78,9 +86,10 @@ def read(path) -> dict:
 
 
 def merged(sources) -> dict:
-    """Merge config sources (name, content); later sources override earlier ones.
+    """Merge config sources, given as pairs (name, content); later sources override earlier ones.
 
-    A null, or the text "null" that Snakemake makes of a null in `--config`, removes an entry.
+    The value null removes the entry of an earlier source. The text "null" has the same effect, because Snakemake
+    converts a null in `--config` to this text.
 
     Raises
     ------
@@ -99,7 +108,7 @@ def merged(sources) -> dict:
 def checked(config: dict, sources=()) -> dict:
     """Validate a config; return its values with defaults filled in.
 
-    Error messages name the source of an entry if `sources` are given as for `merged`.
+    If `sources` are given, as pairs (name, content), error messages name the source of each invalid entry.
 
     Raises
     ------
@@ -124,9 +133,10 @@ def model():
 
 
 def _update(whole, content, above):
-    """Update `whole`, at the key path `above`, with `content`; a null removes an entry.
+    """Update the mapping `whole` in place with the entries of `content`; the value null removes an entry of `whole`.
 
-    Return (key path, message) for each null without an entry.
+    `above` is the key path of `whole` in the config. Return a list of pairs (key path, message), one for each null
+    that has no entry to remove.
     """
     problems = []
     for key, value in content.items():
@@ -158,7 +168,7 @@ def _refusal(error, sources):
 def _source(place, sources):
     """Return the name of the last source that contains a key path.
 
-    Otherwise, return the first source with the longest beginning of the path.
+    If no source contains the whole path, return the name of the source that contains the most leading keys of the path.
     """
 
     def depth(source):
@@ -180,7 +190,7 @@ def _with_text_keys(config):
     Raises
     ------
     ValidationError
-        If the config has unsupported values, or too many.
+        If the config has values of an unsupported type, or more than MAX_VALUES values.
     """
     found, values = [], count()
 

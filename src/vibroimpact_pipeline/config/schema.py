@@ -1,4 +1,4 @@
-"""Write the JSON Schema of each config file, for editors.
+"""Write the JSON Schema of each config file, with which text editors check the file.
 
 Run as `python -m vibroimpact_pipeline.config.schema`.
 """
@@ -19,16 +19,16 @@ NUMERALS = {"number": r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$", "integer": r"^
 
 
 def schema(model) -> str:
-    """Return the JSON Schema of a model as text, with one line for each section."""
+    """Return the JSON Schema of a Pydantic model as text, with one line for each section of the config."""
     whole = {"$schema": "https://json-schema.org/draft/2020-12/schema"} | _plain(model.model_json_schema())
     sections = ",\n".join(f"{json.dumps(name)}: {json.dumps(part)}" for name, part in whole.pop("$defs").items())
     return f'{{"$defs": {{\n{sections}\n}},\n{json.dumps(whole)[1:]}\n'
 
 
 def _plain(node):
-    """Return a node of a JSON Schema without titles and null defaults.
+    """Return a copy of a node of a JSON Schema, in which titles and defaults that are null are removed.
 
-    The schema accepts texts as numbers, and sections without `case`.
+    The copy accepts a number that is written as text. In a section with the key `case`, this key may be missing.
     """
     if not isinstance(node, dict):
         return [_plain(item) for item in node] if isinstance(node, list) else node
@@ -38,7 +38,7 @@ def _plain(node):
     if plain.get("type") in ("number", "integer"):
         plain |= {"type": [plain["type"], "string"], "pattern": NUMERALS[plain["type"]]}
     if "case" in plain.get("required", ()):
-        plain["required"] = [name for name in plain["required"] if name != "case"]  # it defaults to default_case
+        plain["required"] = [name for name in plain["required"] if name != "case"]  # the default is default_case
     return plain | ({"additionalProperties": False} if "patternProperties" in plain else {})
 
 

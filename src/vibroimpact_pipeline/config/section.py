@@ -1,4 +1,4 @@
-"""Base class of config sections; the class rejects unknown keys and checks conditions across fields."""
+"""Base class of config sections; the class rejects unknown keys and checks conditions that involve several fields."""
 
 from collections.abc import Iterable
 
@@ -10,12 +10,18 @@ Place = tuple[str | int, ...]
 
 
 class Section(BaseModel):
-    """A mapping in the config. Numbers may be texts, since Snakemake passes some numbers of `--config` as text."""
+    """A section of the config, which is a mapping.
+
+    A number may be written as text, since Snakemake passes some numbers of `--config` as text.
+    """
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     def conditions(self) -> Iterable[tuple[Place, str]]:
-        """Return the violated conditions across fields as (key path, message); called only if all fields are valid."""
+        """Return a pair (key path, message) for each violated condition that involves several fields.
+
+        The method is called only if each single field is valid.
+        """
         return ()
 
     @model_validator(mode="after")
@@ -25,7 +31,7 @@ class Section(BaseModel):
 
 
 def refuse(problems: Iterable[tuple[Place, str]]) -> None:
-    """Raise Pydantic's ValidationError if `problems`, an iterable of (key path, message), is not empty."""
+    """Raise Pydantic's ValidationError if `problems`, an iterable of pairs (key path, message), is not empty."""
     kinds = [(place, PydanticCustomError("condition", "{what}", {"what": what})) for place, what in problems]
     if errors := [InitErrorDetails(type=kind, loc=place, input=None) for place, kind in kinds]:
         raise ValidationError.from_exception_data("config", errors)
