@@ -22,14 +22,15 @@ HEADING = "# Changes of the reference set\n\nWritten by `make accept`, newest fi
 
 
 def accept(verdicts: list[dict], build, reference, reason: str, date: datetime.date, pictures_only=False) -> None:
-    """Copy figures from `build` to the reference set, and record the reason.
+    """Copy tables from `build` to the reference set, draw their pictures, and record the reason for the change.
 
-    Figures that are no longer built are removed. If `pictures_only` is True, the reference tables are kept.
+    Figures that are no longer built are removed from the reference set. If `pictures_only` is True, no table is
+    copied, and the pictures are drawn from the present reference tables.
 
     Raises
     ------
     ValueError
-        If the reason is empty, or if `pictures_only` is True for a figure without reference.
+        If the reason is empty, or if `pictures_only` is True and a figure is not yet in the reference set.
     """
     reason, reference, build = " ".join(reason.split()), Path(reference), Path(build)
     if not reason:

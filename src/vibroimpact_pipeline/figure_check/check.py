@@ -1,7 +1,7 @@
 """Compare the tables and pictures of each figure with the reference set.
 
-The present code draws the reference tables, and this picture is compared with the reference picture. If other library
-versions drew the reference, a different picture is not comparable.
+The present code draws a picture from the reference tables. This picture is compared with the reference picture. If the
+two pictures differ, but the reference picture was drawn with other library versions, the figure is not comparable.
 """
 
 import json
@@ -25,7 +25,7 @@ SUMS = "pictures.json"
 
 
 def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
-    """Return (file in the reference set, path in a build) for each compared table of a figure."""
+    """Return, for each compared table of a figure, a pair (file in the reference set, path in a build)."""
     return {
         name: (f"{figure}.csv" if name == "csv" else f"{figure}.{name}.csv", table["file"])
         for name, table in spec["tables"].items()
@@ -34,13 +34,20 @@ def compared_files(figure: str, spec: dict) -> dict[str, tuple[str, str]]:
 
 
 def reference_sums(reference) -> dict[str, dict]:
-    """Return checksums of PDF and SVG and the library versions that drew them, for each figure."""
+    """Return the checksums of the pictures in a reference set, by figure.
+
+    The entry of a figure contains the checksums of its PDF and of its SVG. It also contains the library versions that
+    drew the two files.
+    """
     path = Path(reference) / SUMS
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
 
 
 def check_all(figures: dict, reference, build, processes: int = 1) -> list[dict]:
-    """Return the verdict on each figure of the build or the reference set."""
+    """Return the verdicts on all figures in `figures` and in the reference set, sorted by the name of the figure.
+
+    `figures` contains the SPEC (description) of each figure of the build by name.
+    """
     known = [*Path(reference).glob("*.png"), *Path(reference).glob("published/*.csv")]
     figures = sorted(({path.stem: None for path in known} | figures).items())
     with ProcessPoolExecutor(processes) as pool:
@@ -55,15 +62,16 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
     Returns
     -------
     dict
-        The verdict, with these keys and the name of the figure:
+        The verdict, with these keys:
 
+        - figure: name of the figure.
         - stem: path of the pictures in the build, without suffix.
-        - module: name of the drawing module.
-        - files: (file in the reference set, path in the build) for each compared table.
+        - module: name of the drawing module, or None if the figure is no longer built.
+        - files: for each compared table, a pair (file in the reference set, path in the build).
         - status: "passed", "failed" or "not comparable".
-        - reasons: reasons for failure, one line each.
-        - tables: distances of columns from their reference.
-        - distance: largest distance, in units of its limit.
+        - reasons: reasons for failure, each on one line.
+        - tables: distances of the table columns from the reference, in units of the allowed distance.
+        - distance: largest distance in `tables`.
     """
     verdict = {"figure": figure, "stem": f"results/figures/{figure}", "module": None, "files": {}}
     verdict |= {"status": FAILED, "reasons": [], "distance": 0.0, "tables": []}
@@ -85,7 +93,7 @@ def check(figure: str, spec: dict | None, reference, build) -> dict:
         with _errors_as_reasons(reasons, f"{file}: unreadable"):
             old[name], new[name] = read(reference / file), read(build / path)
             _add(verdict, file, table_differences(old[name], new[name], each(spec["tables"][name]["columns"])))
-    printed = f"published/{figure}.csv"  # points that were read from the printed figure
+    printed = f"published/{figure}.csv"  # this table contains points that were read from the printed figure
     if (reference / printed).is_file():
         with _errors_as_reasons(reasons, f"{printed}: unreadable"):
             _add(verdict, printed, printed_distances(read(reference / printed), new["csv"]))
@@ -103,9 +111,10 @@ def _add(verdict, file, differences):
 
 
 def _other_pictures(verdict, reference, built, old, new) -> list[str]:
-    """Return which of PNG, PDF and SVG differ from the reference; add failures to the verdict.
+    """Return the formats (png, pdf, svg) in which the picture differs from the reference.
 
-    A difference is a failure only if the installed library versions drew the reference.
+    Reasons for failure are added to the verdict. A blank picture is such a reason. A difference is such a reason only
+    if the reference was drawn with the installed library versions.
     """
     # If the tables are equal, the picture in the build already shows the reference tables.
     equal = all(name in new and old[name].equals(new[name]) for name in verdict["files"])

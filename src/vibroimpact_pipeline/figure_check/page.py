@@ -17,13 +17,19 @@ SPREAD = 7
 
 
 def page(verdicts: list[dict], reference, build) -> str:
-    """Return the page for the verdicts; `reference` and `build` are folders as in `check.check`."""
+    """Return the page for the verdicts.
+
+    `reference` is the folder of the reference set, and `build` is the folder that contains results/.
+    """
     shown = {verdict["figure"]: _pictures(verdict, reference, build) for verdict in verdicts}
     return rendered(TEMPLATE, verdicts=check.ordered(verdicts), shown=shown, check=check, kinds=KINDS)
 
 
 def _pictures(verdict, reference, build):
-    """Return reference picture, new picture and difference as data URLs; only the reference if the figure passed."""
+    """Return the reference picture, the new picture and their difference as data URLs, by name.
+
+    If the figure passed, return only the reference picture.
+    """
     files, shown = {}, []
     for name, folder in (("Reference", Path(reference)), ("New", (Path(build) / verdict["stem"]).parent)):
         with suppress(Exception):  # the verdict reports unreadable files
@@ -38,7 +44,10 @@ def _pictures(verdict, reference, build):
 
 
 def difference(old, new) -> bytes:
-    """Return a PNG of the common area of two pictures, dark where they differ."""
+    """Return a PNG of the area that two pictures have in common.
+
+    The PNG is dark where the pictures differ, and white where they agree.
+    """
     changed = ImageChops.difference(old.convert("RGB"), new.convert("RGB"))
     content = io.BytesIO()
     ImageChops.invert(changed).filter(ImageFilter.MinFilter(SPREAD)).save(content, "PNG")

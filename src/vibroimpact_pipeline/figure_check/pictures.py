@@ -1,4 +1,7 @@
-"""Draw pictures from tables, and compute checksums of PNG pixels and of SVG and PDF without metadata."""
+"""Draw pictures from tables, and compute checksums of picture files.
+
+The checksum of a PNG covers its pixels. The checksum of an SVG or a PDF covers its content without metadata.
+"""
 
 import base64
 import hashlib
@@ -41,7 +44,10 @@ def load_png(content: bytes) -> Image.Image:
 
 
 def small(content: bytes) -> bytes:
-    """Return a PNG file without metadata, unused alpha channel and unused colours."""
+    """Return a PNG file with the same pixels and without metadata.
+
+    If the picture is opaque, the file has no alpha channel. If the picture is also grey, the file has grey levels only.
+    """
     shown, smaller = load_png(content), io.BytesIO()
     modes = (shown.convert(mode) for mode in ("L", "RGB"))
     fits = (one for one in modes if one.convert("RGBA").tobytes() == shown.tobytes())
@@ -52,7 +58,7 @@ def small(content: bytes) -> bytes:
 def sums(files: dict[str, Path]) -> dict[str, str]:
     """Return the SHA-256 of each file by kind.
 
-    Metadata, compression and the last digits of numbers have no effect.
+    Metadata, compression and the last digits of numbers have no effect on the SHA-256.
     """
     return {kind: hashlib.sha256(COMPARED_CONTENT[kind](path.read_bytes())).hexdigest() for kind, path in files.items()}
 
@@ -63,7 +69,10 @@ def _png(content):
 
 
 def _svg(content):
-    """Return the text of an SVG without metadata, with pixels in place of embedded PNGs, and with rounded numbers."""
+    """Return the text of an SVG without metadata and with rounded numbers.
+
+    Each embedded PNG is replaced by its pixels.
+    """
     content = re.sub(rb"<metadata>.*?</metadata>", b"", content, flags=re.DOTALL)
     embedded = re.compile(rb"data:image/png;base64,\s*([^\"]+)")
     return _rounded(embedded.sub(lambda found: _png(base64.b64decode(found[1])).hex().encode(), content))

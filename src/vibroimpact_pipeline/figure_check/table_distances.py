@@ -29,13 +29,18 @@ MOVED_BY = 1e-3
 def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
     """Return the reasons why a table fails, and the distance of each column from its reference.
 
-    Rows with the same text in the first two text columns form a series, which is compared row by row. Text columns with
-    the entry `compared` form no series. Other text columns must equal the reference.
+    Rows with the same text in the first two text columns form a series. Each series of `new` is compared, row by row,
+    with the same series of `old`. A text column whose SPEC entry contains `compared` is not used to form series. Text
+    columns without `compared` must be equal in both tables.
 
     Parameters
     ----------
+    old
+        Reference table.
+    new
+        Table of the build.
     columns
-        SPEC entry of each column by name.
+        Entry of each column in the SPEC (description) of the figure, by name.
 
     Returns
     -------
@@ -45,10 +50,12 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
         One mapping for each column and measure, with these keys:
 
         - column: name of the column.
-        - kind, measure: keys of KINDS and MEASURES.
+        - kind: kind of number in the column, a key of KINDS.
+        - measure: name of the measure of the distance, a key of MEASURES.
         - distance: largest distance, in units of the limit.
-        - where: row with the largest distance.
-        - reference, new: values in this row, or medians if the measure has one distance for the column.
+        - where: text that names the row with the largest distance.
+        - reference, new: values of `old` and `new` in this row. If the measure gives one distance for the whole column,
+          they are medians of the column.
     """
     if list(old) != list(new):
         return [f"columns are {', '.join(new)} instead of {', '.join(old)}"], []
@@ -101,14 +108,17 @@ def _wrong_in_itself(table, columns):
 
 
 def _by_series(table, columns):
-    """Return the rows of each series, in the order of the table; without text columns, the only series is ("",)."""
+    """Return the rows of each series, by the texts that name the series, in the order of the table.
+
+    If the table has no text columns, all rows form one series with the key ("",).
+    """
     texts = [name for name in _words(table) if not pd.api.types.is_bool_dtype(table[name])]
     words = [name for name in texts if "compared" not in columns.get(name, {})][:2]
     return dict(iter(table.groupby(words, sort=False))) if words else {("",): table}
 
 
 def _kind(columns, name, series):
-    """Return the key of KINDS for a column; None if the column is not compared."""
+    """Return the key of KINDS that applies to a column in one series, or None if the column is not compared."""
     kinds = columns.get(name, {}).get("compared")
     if not isinstance(kinds, dict):
         return kinds
@@ -124,7 +134,10 @@ def _given(values):
 
 
 def _distance(old, new, name, kind, measure):
-    """Return the largest distance of a column by one measure, as an entry of `distances` in `table_differences`."""
+    """Return the largest distance of a column by one measure.
+
+    The result is an entry of the list `distances` that `table_differences` returns.
+    """
     before, after = (part[name].to_numpy() for part in (old, new))
     with np.errstate(all="ignore"):
         far = np.nan_to_num(MEASURES[measure](before, after, KINDS[kind]["limits"][measure]), nan=MAX_DISTANCE)
@@ -143,13 +156,17 @@ def _distance(old, new, name, kind, measure):
 def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[str], list[dict]]:
     """Compare points read from the printed book with the curves in a table.
 
-    Return reasons and the largest distance in the form of `table_differences`.
+    Return the reasons for failure, and a list that contains only the largest distance. Both lists have the form that
+    `table_differences` returns.
 
     Parameters
     ----------
     points
-        One row for each point, with some columns of `table` and the column `tolerance`. Text cells select a curve. The
-        tolerance limits the distance, after each coordinate is divided by its range in the panel.
+        One row for each point, with some columns of `table` and the column `tolerance`. The rows of `table` with the
+        same text cells as the point form the curve of the point. The tolerance is the largest allowed distance between
+        the point and the curve. For this distance, each coordinate is divided by its range in the panel.
+    table
+        Plotted table of the build.
     """
     if unknown := set(points) - {*table, "tolerance"}:
         return [f"unknown columns {', '.join(sorted(unknown))}; expected any of {', '.join(table)}, tolerance"], []
@@ -184,7 +201,8 @@ def _nearest(point, curve):
     return places[np.linalg.norm(places - point, axis=1).argmin()]
 
 
-# Each measure returns distances in units of `limit`, one per row or one for all rows.
+# The following functions are the measures. A measure compares the columns `old` and `new` of shape (n,). It returns one
+# distance for each row, or one distance for all rows, in units of `limit`.
 
 
 def _difference(old, new, limit):
@@ -213,11 +231,12 @@ def _rows(old, new, limit):
 
 
 def _balance(old, new, limit):
-    """Compare how many rows enter and how many leave each class (sign test).
+    """Compare, for each class, how many rows enter the class with how many rows leave the class (sign test).
 
-    Numbers are compared by increases and decreases. Rounding errors change rows equally often in both directions. The
-    distance is |n_1 - n_2| / sqrt(n_1 + n_2) for n_1 and n_2 changes in the two directions. The denominator is the
-    standard deviation of n_1 - n_2.
+    For a column of numbers, compare how many numbers increase with how many decrease. Rounding errors change rows in
+    the two directions equally often. The distance is |n_1 - n_2| / sqrt(n_1 + n_2). Here, n_1 and n_2 are the numbers
+    of rows that change in the first and in the second direction. The denominator is the standard deviation of
+    n_1 - n_2.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:
