@@ -1,4 +1,4 @@
-"""Fill in the texts of each figure for a config: title, caption and alternative text."""
+"""Insert config values into the texts of each figure: title, caption and alternative text."""
 
 import re
 from collections.abc import Callable
@@ -28,7 +28,8 @@ def figure_texts(config: dict) -> dict[str, dict]:
 def words(figure: str, scene: dict, parameters: dict) -> dict:
     """Return the SPEC (description) of a figure, with values in place of placeholders such as {f10_hat}.
 
-    A figure of the chapter with other `parameters` gets the texts for figures of your own.
+    `scene` is the config entry of the figure, and `parameters` are the parameters of its system. If the
+    parameters of a figure of the chapter differ from those in the chapter, its texts are those of the SPEC entry `own`.
     """
     known = specs()
     spec = spec_of(figure, scene, known)
@@ -43,7 +44,10 @@ def words(figure: str, scene: dict, parameters: dict) -> dict:
 
 
 def _filled(text, known, escape: Callable[[str], str]):
-    """Return a text with its known placeholders {name} replaced; all other braces belong to formulas and are kept."""
+    """Return a text in which each placeholder {name} is replaced by the value of the name in `known`.
+
+    Braces around an unknown name belong to a formula and are kept. `escape` escapes values that are texts.
+    """
 
     def value(name):
         given = known.get(name[1], name[0])

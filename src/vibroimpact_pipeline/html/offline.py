@@ -53,9 +53,10 @@ def markdown_to_html(source: str) -> str:
 
 
 def linked(page: str, address: str) -> str:
-    """Return a notebook page with links to the report's HTML pages instead of Markdown documents.
+    """Return a notebook page for the report.
 
-    The line "Notebook of ..." links to `address`.
+    Links to Markdown documents are replaced by links to the HTML pages of the report. The line "Notebook of ..."
+    becomes a link to `address`.
     """
     page = re.sub(r'href="\.\./(?:\.\./docs/)?(\w+)\.md"', r'href="../\1.html"', page)
     return re.sub(r'(<p class="of">)(.*?)(</p>)', rf'\1<a href="{escape(address)}">\2</a>\3', page, count=1)

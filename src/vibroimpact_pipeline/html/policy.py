@@ -16,10 +16,10 @@ HEAD = re.compile(r"<head>\n?")
 
 
 def policy(*scripts: str) -> str:
-    """Return the policy as a meta element.
+    """Return the policy as an HTML meta element.
 
-    With inline `scripts`, the policy also allows script files of the site. Without inline scripts, the policy allows no
-    script.
+    If inline `scripts` are given, the policy allows these scripts and all script files of the site. If no inline script
+    is given, the policy allows no script.
     """
     digests = (base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in scripts)
     allowed = " ".join([FILES, *(f"'sha256-{digest}'" for digest in digests)]) if scripts else "'none'"
@@ -45,6 +45,9 @@ def guarded(page: str) -> str:
 
 
 def rendered(template: Path, **values) -> str:
-    """Return the page of a Jinja template with escaped values and a policy that allows no script."""
+    """Fill a Jinja template with values and return the page.
+
+    The values are escaped. The policy of the page allows no script.
+    """
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     return guarded(environment.from_string(template.read_text(encoding="utf-8")).render(values))

@@ -29,9 +29,9 @@ MARKED = re.compile(r'([(“]?)(<math(?![^>]*"block").*?</math>)([.,;:?!)”]*)'
 
 
 def mathml(tex: str, display: bool) -> str:
-    r"""Return a LaTeX formula as MathML; if `display` is True, on a line of its own.
+    r"""Return a LaTeX formula as MathML.
 
-    Only a formula on a line of its own may have a \tag.
+    If `display` is True, the page shows the formula on a line of its own. Only such a formula may have a \tag.
 
     Raises
     ------
