@@ -1,4 +1,7 @@
-"""Data dictionary: describe the content of every results file, from the SPEC of each figure and report/data.yaml."""
+"""Data dictionary: describe the content of every results file.
+
+The descriptions come from report/data.yaml and from the SPEC (description) of each figure.
+"""
 
 import re
 from dataclasses import dataclass, field
@@ -23,15 +26,17 @@ class File:
     Parameters
     ----------
     paths
-        Paths, in which {case} or another placeholder stands for one word.
+        Paths of the files. A placeholder such as {case} stands for one word.
+    about
+        Content of the files.
     columns
-        Meaning and unit of each column and, optionally, its allowed values.
+        Meaning, unit and, optionally, allowed values of each column by name.
     specific
-        Columns with a meaning or values that apply only to these files.
+        Names of the columns whose meaning or values apply only to these files.
     keys
-        Meaning of each key path of a JSON file; * stands for every entry.
+        Meaning of each key of a JSON file by key path. In a key path, * stands for every entry.
     on_demand
-        Command for each path that the default build does not make.
+        Commands that make files, by the path of the file. The default build does not make these files.
     """
 
     paths: list[str]

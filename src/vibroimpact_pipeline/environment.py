@@ -27,9 +27,9 @@ def missing_libraries() -> list[str]:
 
 
 def set_environment(checkout: Path) -> None:
-    """Set environment variables: PYTHONPATH, cache folders, and one thread per job.
+    """Set PYTHONPATH, and environment variables that select cache folders and one thread per job.
 
-    If the checkout is not writable, the cache folders are in the working directory.
+    The cache folders are in the checkout. If the checkout is not writable, they are in the working directory.
     """
     cache_folder = (checkout if os.access(checkout, os.W_OK) else Path.cwd()) / ".cache"
     for variable, folder in CACHES.items():
@@ -43,5 +43,5 @@ def set_environment(checkout: Path) -> None:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     try:
         getpass.getuser()
-    except (KeyError, OSError):  # in some containers the user has no name, and Snakemake would fail
+    except (KeyError, OSError):  # Snakemake needs a user name, which some containers lack
         os.environ["LOGNAME"] = str(os.getuid())

@@ -21,13 +21,13 @@ MAX_PATHS = 4
 
 
 class GitRefused(ValueError):
-    """Raised if git refuses to read a repository, for example because another user owns its directory."""
+    """Raised if a git command fails, for example because another user owns the directory of the repository."""
 
 
 def output(*arguments, root=".") -> bytes:
-    """Return the output of a git command in a repository, in English.
+    """Run a git command in the directory `root` and return the output of the command.
 
-    Environment variables that could select another repository are ignored.
+    The output is in English. Environment variables that could select another repository are ignored.
 
     Raises
     ------

@@ -29,9 +29,10 @@ class Refused(RuntimeError):
 
 @contextmanager
 def running(job) -> Iterator[SimpleNamespace]:
-    """Run a `with` body as a Snakemake job; yield an object with a temporary path for each output.
+    """Run the body of a `with` statement as a Snakemake job; yield the temporary paths of the outputs.
 
-    If code or inputs have changed, or if the body raises an exception, no output is replaced.
+    The yielded object has one attribute for each output, such as `out.json` for the output `json`. If code or inputs
+    have changed, or if the body raises an exception, no output is moved into place.
     """
     if sys.platform == "linux":  # make the kernel terminate this process when its parent ends
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
@@ -75,9 +76,9 @@ def log_of(job) -> Path:
 
 
 def with_key(error, decided: dict) -> str | None:
-    """Return an error text with the full config key, such as system.kappa, instead of the argument name.
+    """Return an error text that begins with a full config key, such as system.kappa, instead of an argument name.
 
-    The result is None if no config entry in `decided` contains the argument.
+    `decided` contains the config entries of the job by key. If no entry contains the argument, the result is None.
     """
     name, _, _ = str(error).partition(":")
     argument, _, _ = name.partition(".")

@@ -1,5 +1,6 @@
 """Write the provenance record of a figure, or compare a record with the current checkout.
 
+The following command compares the record of one figure:
 python -m vibroimpact_pipeline.provenance results/figures/fig10_06.png
 """
 
@@ -76,9 +77,9 @@ def differences(path, record: dict, config: dict) -> Iterator[str]:
 
 
 def _at(config, place):
-    """Return the config entry at a key path such as "section.key"; None if the entry is missing.
+    """Return the config entry at a key path such as "section.key", or None if the entry is missing.
 
-    For "cases" and "cases.NAME", return parameters of System.
+    For "cases.NAME", return the parameters of System for this case. For "cases", return those of each case by name.
     """
     section, _, name = place.partition(".")
     if place == "cases":
@@ -99,7 +100,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m vibroimpact_pipeline.provenance", description=__doc__)
     parser.add_argument("file", type=Path, help="file of a figure, such as results/figures/fig10_06.png")
     file = parser.parse_args().file
-    # Keep symbolic links, because `results` may be a link to another disk.
+    # Symbolic links are not resolved, because `results` may be a link to a folder on another disk.
     parents = Path(os.path.abspath(file)).parents
     build = next((folder.parent for folder in parents if folder.name == RESULTS), code.ROOT)
     of_checkout = sorted((code.ROOT / CONFIG).glob("*.yaml"))

@@ -1,7 +1,8 @@
-"""Write results atomically, and for each result a record of its content and origin.
+"""Write results atomically, and write a record of the content and origin of each result.
 
-The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`. A record contains the rule, and the SHA-256
-of the result and of its inputs in results/. Results copied from another build have no record.
+The record of `results/a/b.csv` is `.snakemake/sums/results/a/b.csv.json`. A record contains the rule that made the
+result, the SHA-256 of the result, and the SHA-256 of each input in results/. A result that was copied from another
+build has no record.
 """
 
 import base64
@@ -26,7 +27,7 @@ class ModifiedResult(RuntimeError):
 
 
 def digest_of(path) -> str:
-    """Return the SHA-256 of a file; for a directory, the SHA-256 of the names and digests of all files."""
+    """Return the SHA-256 of a file. For a directory, return the SHA-256 of the names and digests of its files."""
     path = Path(path)
     if path.is_dir():
         below = sorted(file for file in path.rglob("*") if file.is_file() and file.name != OF_SNAKEMAKE)
@@ -46,7 +47,7 @@ def to_disk(path) -> None:
 
 
 def partial_path(path) -> Path:
-    """Create an empty folder next to `path`; return the path of a file of the same name in this folder."""
+    """Create an empty folder next to `path`; return the path in this folder for a file with the name of `path`."""
     path = Path(path)
     folder = path.with_name(PARTIAL + path.name)
     shutil.rmtree(folder, ignore_errors=True)
@@ -125,11 +126,12 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
 
 
 def distrust(outputs: Iterable) -> list[str]:
-    """Mark existing results without a matching record as incomplete; return their paths.
+    """Mark each existing result that does not match its record, or has no record, as incomplete.
 
-    Snakemake rebuilds marked results when needed.
+    Return the paths of the newly marked results. Snakemake rebuilds a marked result when the result is needed.
     """
-    # Read marks before records, since a job writes the record before Snakemake removes the mark.
+    # Marks are read before records. Since Snakemake removes a mark after the job has written the record, the record of
+    # a result without mark is complete.
     present = [path for path in map(str, outputs) if os.path.exists(path)]
     unmarked = [path for path in present if not _of_snakemake("incomplete", path).exists()]
     found = [path for path in unmarked if not _as_recorded(path)]
@@ -146,9 +148,13 @@ def _mark(path: str) -> None:
 
 
 def _as_recorded(path: str) -> bool:
-    """Return True if a result matches its record; read the result only if modification times or size are unexpected."""
+    """Return True if a result matches its record.
+
+    If the size and the order of the modification times are as expected, the content of the result is not read.
+    """
     try:
-        # The job writes the record; then Snakemake touches the result and writes its own record.
+        # After a build, these times ascend: the job writes the record, then Snakemake touches the result, and then
+        # Snakemake writes its own record.
         times = [Path(one).stat().st_mtime_ns for one in (record_of(path), path, _of_snakemake("metadata", path))]
     except OSError:
         return False
@@ -159,9 +165,9 @@ def _as_recorded(path: str) -> bool:
 
 
 def _of_snakemake(folder: str, path: str) -> Path:
-    """Return the path of Snakemake's own record of a result in a folder such as "metadata".
+    """Return the path of Snakemake's own record of a result; `folder` is "metadata" or "incomplete".
 
-    The path was tested with Snakemake 9.12 and 9.27.
+    Snakemake has no public function for this path. The function was tested with Snakemake 9.12 and 9.27.
     """
     name = base64.urlsafe_b64encode(path.encode()).decode()
     *cut, last = (name[start : start + 254] for start in range(0, len(name), 254))

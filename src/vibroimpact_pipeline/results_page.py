@@ -1,4 +1,7 @@
-"""Make the index page of a build, with the figures, comments on the exact system, recommended methods and links."""
+"""Make the index page of a build, with the figures, recommended methods and links.
+
+The index page quotes what the notebook pages of the figures say about the exact system.
+"""
 
 import csv
 import json
@@ -36,7 +39,7 @@ def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
 def _choices(results) -> list[list[str]]:
     """Return one row for each problem and allowed error in accuracy/choices.csv.
 
-    A row contains the problem, the decimal exponent of the error, and methods.
+    A row contains the problem, the decimal exponent of the allowed error, and one text for each recommended method.
     """
     path = results / "accuracy/choices.csv"
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines())) if path.is_file() else []
@@ -53,7 +56,10 @@ def _choices(results) -> list[list[str]]:
 
 
 def _listed(results, titles) -> list[dict]:
-    """Return title, links, picture and comment on the exact system for each figure that has files."""
+    """Return an entry for each figure that has files: its title, links, picture and comment on the exact system.
+
+    The comment is the paragraph "The exact system: ..." of the notebook page of the figure.
+    """
     found = []
     for name, title in titles.items():
         drawn = [(kind, f"{place}/{name}{end}") for place in ("figures", "accuracy") for kind, end in KINDS.items()]

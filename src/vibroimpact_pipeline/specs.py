@@ -3,17 +3,17 @@
 A SPEC is a dictionary literal with these entries:
 
 - title, caption, alt, equations: texts of the figure.
-- own: texts for figures of your own that use the same drawing code.
+- own: texts for figures that users add to the config and that are drawn with the code of this figure.
 - method: how the figure is computed.
 - notebook: name of the notebook that explains the figure.
-- sweeps: axes and observations that the figure needs from each sweep.
-- columns: meaning, unit and allowed values of each column. The key "C1, C2" describes two columns. The entry `compared`
-  selects a tolerance in tolerances.yaml, for the column or for each series. The entry `infinite` allows infinite
-  values.
-- file: path of the plotted table, if not the default.
+- sweeps: for each sweep that the figure draws, the axes and observations that the figure needs.
+- columns: meaning, unit and allowed values of each column of the plotted table. The key "C1, C2" describes the two
+  columns C1 and C2. If a column has the entry `compared`, the entry selects the tolerance of the column, or of each
+  series, in tolerances.yaml. If a column has the entry `infinite`, infinite values are allowed.
+- file: path of the plotted table; default: results/figures/<name of the figure>.csv.
 - tables: file, description and columns of each further table.
 
-The value of equations, columns or own may be the name of another figure, whose entry is then used.
+If the value of equations, columns or own is the name of another figure, the entry of the other figure is used.
 """
 
 import ast
@@ -60,7 +60,8 @@ def module_of(figure: str) -> str:
 def spec_of(figure: str, scene: dict, known: dict) -> dict:
     """Return the SPEC (description) of a figure, including its drawing module.
 
-    If the config entry `scene` has the key "like", return the SPEC of that figure with the texts in "own".
+    `scene` is the config entry of the figure. If `scene` has the key "like", the result is the SPEC of the figure that
+    "like" names. The texts are then those of the entry "own" in this SPEC, and file names contain the name `figure`.
     """
     module = scene.get("like", figure)
     if module == figure:
@@ -76,13 +77,13 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
 
 
 def with_model(caption: str, scene: dict) -> str:
-    """Return a caption, followed by the model of the figure if this is exact_orbit or second_term."""
+    """Return a caption; if the model of the figure is exact_orbit or second_term, append the name of the model."""
     other = scene.get("model") in ("exact_orbit", "second_term")
     return f"{caption} Drawn with the model *{scene['model'].replace('_', ' ')}*." if other else caption
 
 
 def at(config: dict, path: str):
-    """Return the entry of a config at "section.key".
+    """Return the entry of a config at a key path such as "section.key".
 
     Raises
     ------
@@ -95,15 +96,18 @@ def at(config: dict, path: str):
 
 
 def case_parameters(config: dict, case: str) -> dict:
-    """Return the parameters of System for a case: those of `system`, overridden by the case."""
+    """Return the parameters of System for a case: the section `system`, with the values that the case overrides."""
     return config["system"] | case_overrides(config, case)
 
 
 def columns(table: dict, shared: dict) -> dict[str, dict]:
-    """Return the columns of a table by name, with missing entries taken from `shared`."""
+    """Return the description of each column of a table by name.
+
+    If the description of a column lacks an entry, such as the unit, the entry is taken from `shared`.
+    """
     return {name: shared.get(name, {}) | entry for name, entry in each(table["columns"]).items()}
 
 
 def each(listed: dict) -> dict:
-    """Return a copy of a mapping in which a key "C1, C2" becomes two keys."""
+    """Return a copy of a mapping in which a key such as "C1, C2" is split into the two keys "C1" and "C2"."""
     return {name: entry or {} for names, entry in listed.items() for name in names.split(", ")}
