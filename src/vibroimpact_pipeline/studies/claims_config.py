@@ -10,7 +10,7 @@ JUDGED_WITH = "ec3468120a00"
 
 
 def reason_not_judged(config: dict) -> str:
-    """Return why claims cannot be judged with a config, or an empty text."""
+    """Return the reason why claims cannot be judged with a config, or an empty text if they can be judged."""
     found = departures(config)
     if not found and digest(config) != JUDGED_WITH:
         found = ["simulations, stability.verdict_grid or regimes differ from those for which the claims were written"]
@@ -18,7 +18,10 @@ def reason_not_judged(config: dict) -> str:
 
 
 def digest(config: dict) -> str:
-    """Return a short digest of all settings that affect verdicts on claims, except the parameters of the chapter."""
+    """Return a short digest of all settings that affect verdicts on claims.
+
+    The digest does not cover the parameters of the chapter, which `departures` compares.
+    """
     settings = [config["cases"][case]["simulation"] for case in ("equal", "weak")]
     settings += [config["stability"]["verdict_grid"]]
     settings += [config["regimes"][name] for name in ("observation", "branches", "modulation", "epsilon")]

@@ -12,9 +12,10 @@ TABLES = "fixed_points", "orbits", "verdict_grid", "modulation", "special_points
 
 
 def evidence(inputs: dict) -> Evidence:
-    """Return the evidence for judging the claims of the chapter, given paths of results by name.
+    """Return the evidence for judging the claims of the chapter.
 
-    Simulations are named <case>_samples, <case>_events and <case>_summary.
+    `inputs` contains the path of each result by name. The results of the simulation of a case have the names
+    <case>_samples, <case>_events and <case>_summary.
     """
     simulated = [name.removesuffix("_summary") for name in inputs if name.endswith("_summary")]
     return Evidence(
@@ -25,12 +26,12 @@ def evidence(inputs: dict) -> Evidence:
 
 
 def of_the_chapter(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows for the chapter's cases; all rows if the table has no column "case"."""
+    """Return the rows for the chapter's cases. If the table has no column "case", return all rows."""
     return table[table["case"].isin(CASES)].reset_index(drop=True) if "case" in table else table
 
 
 def simulation(case: str, inputs: dict) -> Simulation:
-    """Read the simulation of a case; `inputs` has the paths of its results as in `evidence`."""
+    """Read the simulation of a case; `inputs` contains the path of each result by name, as in `evidence`."""
     samples, events = (pd.read_csv(inputs[f"{case}_{name}"]) for name in ("samples", "events"))
     summary = json.loads(Path(inputs[f"{case}_summary"]).read_text(encoding="utf-8"))
     return Simulation(samples, events, summary)

@@ -28,7 +28,7 @@ class Plant(Section):
 
 
 class Band(Section):
-    """Frequency band with evenly spaced values."""
+    """Evenly spaced frequencies in a band."""
 
     range: fields.span(Hertz, "Lowest and highest frequency [Hz]")
     values: fields.count("Number of frequencies, endpoints included", 2, fields.MAX_VALUES)
@@ -43,7 +43,7 @@ class Shown(Section):
 
 
 class Machines(Section):
-    """Machines in SI units: amplitude against frequency, with and without balls."""
+    """Machines in SI units. A figure shows the amplitude of the boxes against frequency, with and without balls."""
 
     plant: Plant
     clearances: fields.items(Clearance, 1, 6, "Clearances to compare [m]")

@@ -13,7 +13,10 @@ from vibroimpact_pipeline.studies.config.sweeps import Sweep
 
 
 class VerdictGrid(Section):
-    """Grid of `points` x `points` cells of forcing amplitudes; stability is judged at the centre of each cell."""
+    """Grid of `points` x `points` cells in the plane of the two forcing amplitudes.
+
+    Stability is judged at the centre of each cell.
+    """
 
     f10_range: fields.Forces
     f20_range: fields.Forces
@@ -28,7 +31,7 @@ class Stability(Section):
 
 
 class Studies(Section):
-    """Config of the studies. Values are dimensionless and times in forcing periods, except in `machines`."""
+    """Config of the studies. Except in `machines`, values are dimensionless, and times are in forcing periods."""
 
     stability: Stability
     regimes: Regimes
@@ -58,9 +61,10 @@ class Whole(Config, Studies):
         yield from (("machines", name) for name in self.machines)
 
     def varied_parameters(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
-        """Yield further parameter values that must be valid.
+        """Yield parameter values that must be valid in addition to those of the cases.
 
-        An item is (key path, case or None for all cases, values by parameter).
+        An item is a tuple of the key path of the config entry, the case and the values by parameter. If the values
+        apply to all cases, the case is None.
         """
         branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
         for number, path in enumerate(branches.paths):

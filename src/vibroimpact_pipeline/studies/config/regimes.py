@@ -43,7 +43,7 @@ class BranchPath(Section):
 
 
 class Attractors(Section):
-    """Attractors that are found from evenly spread initial states along the paths of `branches`."""
+    """Search for attractors along the paths of `branches`. The search starts from evenly spread initial states."""
 
     values: fields.count("Number of values along each path", 2, fields.MAX_VALUES)
     starts: fields.Starts
@@ -51,7 +51,7 @@ class Attractors(Section):
 
 
 class Branches(Section):
-    """Branches of 1:1 responses along paths through the parameters, and attractors along the same paths."""
+    """Branches of 1:1 responses along paths in parameter space, and attractors along these paths."""
 
     case: fields.CaseName
     paths: fields.items(BranchPath, 1, 4, "Paths in parameter space", APART)
@@ -60,13 +60,14 @@ class Branches(Section):
     attractors: Attractors
 
     def conditions(self):
-        # The limit of 2000 points suffices for a branch that is 10 times as long as the path.
+        # A continuation stops after 2000 points. If the longest step is 1/200 of the path, 2000 points suffice for a
+        # branch that is 10 times as long as the path.
         if self.longest_step < (least := max(path.range[1] - path.range[0] for path in self.paths) / 200):
             yield ("longest_step",), f"{self.longest_step} should be at least {least:g}, 1/200 of the longest path"
 
 
 class Modulation(Exponent):
-    """Settings of the measures of modulated responses."""
+    """Settings for measuring modulated responses."""
 
     starts: fields.Starts
     seed: fields.Seed
@@ -82,7 +83,10 @@ class Basins(Section):
 
 
 class Mixed(Section):
-    """A fixed point next to the fold of the manifold, excluded from fits since its time scales do not separate."""
+    """A fixed point next to the fold of the slow invariant manifold.
+
+    Fits exclude this point, since the fast and the slow time scale do not separate near the fold.
+    """
 
     case: fields.CaseName
     label: fields.Label

@@ -60,13 +60,13 @@ class Axis(Section):
         return len(self.listed or self.tuples or ()) or self.cells or self.values
 
     def ends(self) -> list[dict[str, float]]:
-        """Return the parameters at both ends of the axis, or at every tuple of `tuples`."""
+        """Return the parameters at both ends of the axis. If the axis has `tuples`, return those of every tuple."""
         values = self.tuples or [[end] * len(self.along) for end in self.range or (min(self.listed), max(self.listed))]
         return [dict(zip(self.along, at, strict=True)) for at in values]
 
 
 class Sweep(Section):
-    """A sweep: one or two axes, a case for all other parameters, and the observations at every point."""
+    """A sweep: one or two axes, a case with the parameters that do not vary, and the observations at every point."""
 
     case: fields.CaseName
     axes: fields.items(Axis, 1, 2, "Axes of the grid")
@@ -96,12 +96,12 @@ class Sweep(Section):
     def corners(self) -> list[dict[str, float]]:
         """Return the parameters at all corners of the grid and band.
 
-        Limits that hold at all corners hold everywhere.
+        If a parameter is within its limits at all corners, it is within these limits everywhere.
         """
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 
     def not_drawn(self, name: str):
-        """Yield (key path, message) for each reason why companion figures cannot draw the sweep `name`."""
+        """Yield a pair (key path, message) for each reason why companion figures cannot draw the sweep `name`."""
         for figure, spec in specs().items():
             if drawn := spec.get("sweeps", {}).get(name):
                 even = all(axis.range and axis.scale != "logarithmic" for axis in self.axes)

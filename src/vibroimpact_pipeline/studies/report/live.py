@@ -34,9 +34,10 @@ def live_data(config: dict) -> str:
 
 
 def _points(system, roots) -> list[dict]:
-    """Return the fixed points of a system; `roots` are its symmetric exact orbits.
+    """Return the fixed points of a system; `roots` are the symmetric exact orbits of the system.
 
-    An entry contains C, B and psi of module 2, the verdict of (10.26), and the verdict on the exact orbit.
+    An entry contains the label of the point, and the saw-tooth amplitude C, amplitude B and phase lag psi of module 2.
+    It also contains the verdict of (10.26), and the verdict on the exact orbit that belongs to the point.
     """
     points = fixed_points(system)
     exact = exact_orbits(system, [point.C for point in points], roots)
@@ -57,7 +58,7 @@ def _point(system, point, orbit) -> dict:
 def map_data(results, config: dict) -> str:
     """Return the data of the regime map on the page Play as JSON.
 
-    The text is empty if the map and the first case have different parameters.
+    If the system of the map differs from that of the first case in more than the forcing amplitudes, the text is empty.
     """
     first, *_ = (case_parameters(config, case) for case in config["cases"])
     swept = case_parameters(config, config["sweeps"]["regime_map"]["case"]) if "regime_map" in config["sweeps"] else {}
@@ -78,7 +79,8 @@ def map_data(results, config: dict) -> str:
 def verdict_data(results, config: dict) -> str:
     """Return the data for the slider of epsilon as JSON.
 
-    For each criterion and epsilon, the data list stable fixed points as [f10, f20, verdict on the exact orbit].
+    The data contain a list for each criterion and each epsilon. This list contains the fixed points that the criterion
+    classifies as stable. A fixed point is given as [f10, f20, verdict on the exact orbit].
     """
     table, grid = results.table("verdict_grid.csv"), config["stability"]["verdict_grid"]
     by_epsilon = list(table.groupby("epsilon"))[::-1]
@@ -101,7 +103,8 @@ DOTS = {"printed_10_26": "(10.26)", "fast": "fast scale", "theory": "fast and sl
 def verdict_dots(results) -> dict:
     """Return the verdict matrix, with one row for each fixed point.
 
-    For each epsilon, a row contains the verdict and the largest multiplier modulus of the exact orbit.
+    A row contains the verdict of each criterion of the theory. For each epsilon, the row also contains the verdict on
+    the exact orbit and the largest modulus of a multiplier of this orbit.
     """
     table = results.table("verdicts_by_epsilon.csv")
     rows = [

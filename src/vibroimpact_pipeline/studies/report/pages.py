@@ -47,11 +47,13 @@ class Pages:
     root
         The checkout.
     results
-        A `Results` object.
+        A `Results` object, which reads the results of this build.
+    config
+        The validated config.
     shown
-        Names of figures by group.
+        For each group of figures, the names of the figures.
     tables
-        Names of additional results to download.
+        Names of the result files, other than files of figures, that readers can download.
     """
 
     def __init__(self, root, results, config: dict, shown: dict, tables=()):
@@ -94,7 +96,8 @@ class Pages:
     def with_numbers(self, text: str, paper: bool = False) -> str:
         """Return a document with the numbers and figures of this build.
 
-        Unless `paper` is True, numbers link to their source. A number that this build lacks is kept.
+        Unless `paper` is True, each number links to its source. If this build lacks a number, the document keeps the
+        number.
         """
         if not paper:
             text = LIVE.sub(lambda found: self._live(**found.groupdict()), text)
@@ -131,7 +134,10 @@ class Pages:
         return text[1:-1] if paper or name not in self.pictures else f"{text}(#{name})"
 
     def plates(self) -> str:
-        """Return the chapter's figures for the end of the article, except Figure 10.1, which the text shows."""
+        """Return the chapter's figures for the end of the article.
+
+        Figure 10.1 is omitted, since the text of the article shows this figure.
+        """
         shown = (name for name in self.chapter if name != "fig10_01")
         plates = [f"![{plain(self.about[name]['title'])}](../results/figures/{name}.png)" for name in shown]
         return "\n\n".join(["\n## The figures of the chapter", *plates]) if plates else ""
@@ -143,7 +149,7 @@ class Pages:
             return still
 
     def figure(self, name: str, level: int = 2) -> str:
-        """Return the section of a figure, with title, equations, picture, files and origin."""
+        """Return a section on a figure, with its title, equations, picture, files and origin."""
         about, record = self.about[name], self.results.provenance(name)
         files = self.results.files(name)
         links = [
@@ -199,7 +205,7 @@ def attribute(text) -> str:
 
 
 def data(name: str, text: str) -> str:
-    """Return JSON as a script element of a page, with < escaped.
+    """Return JSON as a script element of a page; the character < is escaped, so that no text can end the element.
 
     Raises
     ------

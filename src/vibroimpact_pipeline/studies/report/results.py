@@ -27,9 +27,9 @@ class Results:
         return (self.root / name).read_text(encoding="utf-8")
 
     def files(self, figure: str) -> dict[str, Path]:
-        """Return the paths of the files of a figure by kind, such as csv.
+        """Return the paths of the files of a figure by kind (csv, svg, pdf or png).
 
-        A further table <figure>.<name>.csv has the key <name>.
+        If the figure has a further table <figure>.<name>.csv, the path of this table has the key <name>.
 
         Raises
         ------
@@ -56,7 +56,7 @@ class Results:
         return json.loads((self._folder(figure) / f"{figure}.provenance.json").read_text(encoding="utf-8"))
 
     def claims(self) -> list[dict]:
-        """Return the judged claims in the order of the chapter; an empty list if claims are not judged."""
+        """Return the judged claims in the order of the chapter. If claims are not judged, the list is empty."""
         return json.loads(self.text("claims.json")) if self.judged else []
 
     def claims_about(self, figure: str) -> list[dict]:
@@ -65,9 +65,9 @@ class Results:
         return [claim for claim in self.claims() if named.search(claim["place"])]
 
     def most_accurate(self) -> pd.DataFrame:
-        """Return the most accurate finished run for each problem and method.
+        """Return, for each problem and method, the finished run with the smallest error.
 
-        The column ratio is the run time divided by the run time of the event-driven engine.
+        The column `ratio` contains the run time, divided by the run time of the event-driven engine for this problem.
         """
         table = self.table("accuracy/work_precision.csv")
         whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]
@@ -76,7 +76,7 @@ class Results:
         return best.assign(ratio=best["seconds_per_cycle"] / best["problem"].map(ours))
 
     def value(self, place: str):
-        """Return the number at a place in the results, written as in docs/studies/numbers.yaml.
+        """Return the number at a place in the results; `place` has the form of the places in docs/studies/numbers.yaml.
 
         Raises
         ------

@@ -46,19 +46,19 @@ SPHINX = {
     "myst_enable_extensions": ["dollarmath"],
     "myst_disable_syntax": ["html_block", "html_inline"],  # HTML in documents is shown as text
     "myst_heading_anchors": 4,
-    "myst_url_schemes": {"beside": "{{path}}"},  # links to files that the site already contains
+    "myst_url_schemes": {"beside": "{{path}}"},  # the prefix beside: marks links to files of the site
     "html_math_renderer": "mathml",
     "html_theme": "furo",
     "html_css_files": ["mathematics.css", "style.css", "play.css"],
     "html_js_files": [("scroll.js", {"defer": "defer"})],
-    "html_show_search_summary": False,  # browsers do not fetch the summary from local files
+    "html_show_search_summary": False,  # browsers cannot load the texts of summaries from local files
     "html_show_sourcelink": False,
     "html_copy_source": False,
     "html_use_index": False,
     "html_domain_indices": False,
     "html_permalinks": False,
     "default_role": "literal",
-    "smartquotes": False,  # quoted texts are shown unchanged
+    "smartquotes": False,  # quotation marks are shown as they are written
     "autodoc_member_order": "bysource",
     "python_use_unqualified_type_names": True,
 }
@@ -67,12 +67,13 @@ SPHINX = {
 def write(folder, root, pages, built: str, departures=()) -> None:
     """Write the site and the PDF into a folder that already contains figures, data and notebooks.
 
-    `built` names the commit. Every page shows `departures`, the differences from the chapter's parameters.
+    `built` is a text that names the commit of the build. Every page shows `departures`, the differences from the
+    chapter's parameters.
 
     Raises
     ------
     RuntimeError
-        If Sphinx reports a warning, except on docstrings.
+        If Sphinx reports a warning on a page. Warnings on docstrings are ignored.
     """
     notice = NOTICE + "; ".join(departures) if departures else ""
     write_site(Path(folder), Path(root), pages, built, notice)
@@ -170,7 +171,10 @@ def write_article(folder: Path, root: Path, pages, built: str, notice: str = "")
 
 
 def setup(app) -> dict:
-    """Set up this module as a Sphinx extension for formulas, docstrings and the content security policy."""
+    """Set up this module as a Sphinx extension.
+
+    The extension renders formulas as MathML, escapes vertical bars in docstrings, and adds the content security policy.
+    """
     app.add_html_math_renderer("mathml", (_formula, None), (_formula, None))
     app.connect("autodoc-process-docstring", _with_bars)
     app.connect("html-page-context", _with_policy)
