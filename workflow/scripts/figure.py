@@ -16,7 +16,10 @@ from vibroimpact.system import System
 
 
 def arguments(params, inputs) -> dict:
-    """Return the arguments of `compute`: settings, the system of one case or the systems of all cases, and tables."""
+    """Return the arguments of `compute`: settings, tables and, if the figure needs any, systems.
+
+    The argument `system` is the system of one case. The argument `systems` contains the system of each case by name.
+    """
     given = dict(params.settings)
     if params.get("system"):
         given["system"] = System(**params.system)

@@ -1,7 +1,8 @@
 """Compute fixed points and exact 1:1 responses of one case, with verdicts and proofs; write CSV.
 
 A 1:1 response has one impact at each wall per forcing period. search.json describes the search for asymmetric
-responses.
+responses. It contains the number of responses found, the number of Newton starts, and the smallest number of starts
+that led to one of the responses.
 """
 
 import json

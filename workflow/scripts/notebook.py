@@ -1,6 +1,6 @@
-"""Execute a notebook and write a page for each figure that the notebook explains.
+"""Execute a notebook once for each figure that the notebook explains, and write the page of the figure.
 
-Executed notebooks in results/logs/notebooks show which cell failed.
+If a cell fails, the executed notebook in results/logs/notebooks shows the failed cell.
 """
 
 from pathlib import Path
@@ -64,9 +64,10 @@ def execute(notebook, executed, parameters: dict):
 
 
 def parameters_of(config: dict) -> dict:
-    """Return the parameters of a notebook by name, from config entries by key path.
+    """Return the parameters of a notebook by name; `config` contains config entries by key path.
 
-    Each value of a case or `plant` becomes a separate parameter.
+    The name of a parameter is the last key of the path. If a config entry is a case or a `plant`, each value of the
+    entry becomes a separate parameter.
     """
     given = {}
     for path, value in config.items():
@@ -86,7 +87,7 @@ with running(snakemake) as out:
         done = execute(snakemake.input.notebook, executed, given | {"inputs": shown["inputs"]})
         injected = next(cell for cell in done.cells if "injected-parameters" in cell.metadata.get("tags", ()))
         injected.id = "injected-parameters"  # a random id would change the page in every build
-        # A cell with a figure as tag belongs only to the page of this figure.
+        # If the tag of a cell is the name of a figure, the cell belongs only to the page of this figure.
         others = snakemake.params.pages.keys() - {figure}
         done.cells = [cell for cell in done.cells if not others.intersection(cell.metadata.get("tags", ()))]
         Path(getattr(out, figure)).write_text(page(done, texts["title"]), encoding="utf-8")
