@@ -7,7 +7,7 @@ import vibroimpact as vi
 
 
 def wall(F, omega, c, kappa):
-    """Return an oscillator that hits a wall (a ball of mass 1e12); lengths are in units of 50."""
+    """Return an oscillator that hits a wall. The wall is a ball of mass 1e12, and the unit of length is 50."""
     return vi.PhysicalSystem.single(M=1, m=1e12, k=1, c=c, F=F, L=50, kappa=kappa, omega=omega).dimensionless()
 
 
@@ -17,7 +17,7 @@ def speeds(orbit):
 
 
 def sector(r, clearance=0.3):
-    """Return one sector of the chain of Weidemann et al. (2025), without coupling, since all sectors move in phase."""
+    """Return one sector of the chain of Weidemann et al. (2025). All sectors move in phase, without coupling force."""
     given = dict(M=0.98, m=0.02, k=1, c=0.002, F=0.002, kappa=0.8)
     return vi.PhysicalSystem.single(**given, L=clearance, omega=r).dimensionless()
 
@@ -28,7 +28,7 @@ def resonant(system):
 
 
 def flight(stiffness, x, V):
-    """Return the duration of a ball's flight that starts with the speed V at X = x, and the final X."""
+    """Return the duration of a flight and the final X. At the start, X = x and the ball has the speed V."""
     cell = vi.PhysicalSystem.single(M=1, m=0.3, k=stiffness, c=0, F=0, kappa=1 - 1e-12).dimensionless()
     v = V / stiffness**0.5  # dimensionless speed; tau is the time multiplied by stiffness**0.5
     impact = vi.simulate(cell, [x, x - 1, 0, 0, -0.3 * v, v, 0, 0], 9).events[0]
@@ -36,7 +36,7 @@ def flight(stiffness, x, V):
 
 
 def half_period(stiffness, V, low, high):
-    """Return half the period of a symmetric free motion that has an impact at an X in [low, high]."""
+    """Return half the period of the symmetric free motion whose X at an impact is between `low` and `high`."""
     x = brentq(lambda x: flight(stiffness, x, V)[1] + x, low, high)
     return flight(stiffness, x, V)[0]
 

@@ -8,7 +8,7 @@ from vibroimpact.integrators.right_hand_side import accelerations, coefficients
 
 
 class SymplecticEuler(Method):
-    """Semi-implicit Euler method; its setting is the number of steps per cycle."""
+    """Semi-implicit Euler method. The setting of a run is the number of steps per cycle."""
 
     name, family, knob, order = "symplectic Euler", "time-stepping", "steps per cycle", 1
     settings = (300, 1_000, 3_000, 10_000, 30_000)
@@ -25,7 +25,7 @@ class SymplecticEuler(Method):
 
 @njit(cache=True)
 def _march(q, s, tau0, h, steps):
-    """Return the state after all steps of length h, and one row [time, module, wall, speed] per impact."""
+    """Return the state after `steps` steps of length h, and one row [time, module, wall, speed] per impact."""
     epsilon, kappa = q[9], q[10]
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     for n in range(steps):

@@ -22,7 +22,7 @@ SPEC = {
 
 
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
-    """Return the relative speed W' just before an impact for 0 <= C <= C_max, (10.12) and (10.14)."""
+    """Return the relative speed W' just before an impact for 0 <= C <= C_max, from (10.12) and (10.14)."""
     C = np.linspace(0.0, C_max, 101)
     return curve("speed", "before impact", C=C, speed=4 * C / (np.pi * (1 + kappa)))
 

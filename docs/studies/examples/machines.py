@@ -5,14 +5,14 @@ import numpy as np
 import vibroimpact as vi
 from vibroimpact.studies.absorbers.references import compared
 
-FREQUENCIES = 2 * np.pi * np.linspace(2.9, 3.5, 61)  # rad/s
+FREQUENCIES = 2 * np.pi * np.linspace(2.9, 3.5, 61)  # angular frequencies [rad/s]
 
 
 def machines(L, omega=FREQUENCIES[0]):
     return vi.PhysicalSystem(
-        M=10.0, m=0.5, L=L, kappa=0.65,  # kg, kg, m, -
-        k1=4000.0, k2=4100.0, k12=100.0, c1=4.0, c2=4.0, c12=2.0,  # N/m, N s/m
-        F10=2.0, F20=2.0, omega1=omega, omega2=omega,  # N, rad/s
+        M=10.0, m=0.5, L=L, kappa=0.65,  # masses [kg], clearance [m]
+        k1=4000.0, k2=4100.0, k12=100.0, c1=4.0, c2=4.0, c12=2.0,  # stiffness [N/m], damping [N s/m]
+        F10=2.0, F20=2.0, omega1=omega, omega2=omega,  # forces [N], frequencies [rad/s]
     )  # fmt: skip
 
 
