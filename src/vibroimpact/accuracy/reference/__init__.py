@@ -1,4 +1,4 @@
-"""Reference simulation in ball arithmetic, independent of the engine that it validates."""
+"""Reference simulation in interval arithmetic (midpoint and radius), independent of the engine that it validates."""
 
 from vibroimpact.system.extras import need
 

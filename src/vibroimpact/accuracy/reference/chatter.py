@@ -1,4 +1,7 @@
-"""Extrapolate the end of a chatter, the limit of infinitely many impacts, from its first impacts."""
+"""Extrapolate the state at the end of a chatter from the first impacts.
+
+In a chatter, a ball hits the same wall infinitely often, in ever shorter flights.
+"""
 
 import math
 from fractions import Fraction
@@ -9,15 +12,17 @@ from vibroimpact.accuracy.reference.taylor_models import to_ball
 class Chatter:
     """Consecutive impacts of the same balls on the same walls, and the limit of the states after the impacts.
 
-    The map from impact to impact is analytic in the rebound speed. States with the rebound speed 0 are its fixed
-    points, with the eigenvalues kappa and 1. In Koenigs' linearising coordinate, the map multiplies by kappa. A
-    coordinate after impact n is therefore limit + c1 kappa^n + c2 kappa^(2n) + ... Richardson extrapolation removes
-    these powers. The error falls like kappa^(n^2 / 2).
+    The map from the state after one impact to the state after the next impact is analytic in the rebound speed. Each
+    state with the rebound speed 0 is a fixed point of the map. There, the eigenvalues are kappa (for the rebound speed)
+    and 1. In Koenigs' linearising coordinate, the map is a multiplication by kappa. A coordinate after impact n is
+    therefore limit + c1 kappa^n + c2 kappa^(2n) + ... Richardson extrapolation removes the powers of kappa one by one.
+    The error of the extrapolated limit falls like kappa^(n^2 / 2).
     """
 
     def __init__(self, contacts, kappa: Fraction):
         self.contacts = contacts
-        # Only every stride-th impact is used. Since kappa^stride <= 1/2, rounding is amplified less than tenfold.
+        # Only every stride-th impact is used, so that kappa^stride <= 1/2. The extrapolation then amplifies rounding
+        # errors by less than a factor of 10.
         self._stride = max(1, math.ceil(math.log(2) / -math.log(kappa)))
         self._ratio = to_ball(kappa) ** self._stride
         self._impacts = 0
@@ -32,7 +37,8 @@ class Chatter:
     def add(self, coordinates) -> bool:
         """Add the state after the next impact; return True if the limit is now more accurate.
 
-        In practice, `change` then bounds the error of the previous limit.
+        If so, `change` is set to the largest difference between the new and the previous limit. In practice, `change`
+        bounds the error of the previous limit.
         """
         self._impacts += 1
         if (self._impacts - 1) % self._stride:

@@ -1,4 +1,4 @@
-"""Find or exclude the first root of a power series on an interval, with proof in ball arithmetic."""
+"""Find the first root of a power series on an interval, or prove that the interval has no root."""
 
 from flint import arb, ctx
 
@@ -10,7 +10,7 @@ class Undecidable(ArithmeticError):
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
     """Return an interval with the first root of a series in (0, end] and no other root, or None if there is no root.
 
-    Mean-value enclosures of the series prove the result.
+    Mean-value enclosures of the series in interval arithmetic prove the result.
 
     series: arb_poly, positive at 0. hint: point at which (0, end] is split first.
 
@@ -48,7 +48,10 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
 
 
 def refine(series, ball: arb) -> arb:
-    """Return the only root of a series that decreases in the interval `ball`, to working precision."""
+    """Return the root of a series in the interval `ball`, to working precision.
+
+    The series must decrease on this interval and have exactly one root in the interval.
+    """
     slope = series.derivative()
     while True:
         middle = ball.mid()

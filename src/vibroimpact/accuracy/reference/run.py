@@ -1,8 +1,8 @@
 """Simulate (10.1) in arbitrary precision, as the reference for all other methods.
 
-Each flight is a Taylor series with an enclosed tail. Ball arithmetic proves which event is next. Each flight starts
-from an exact state, so that its error is enclosed. `proven_run` checks the growth of these errors by a run with more
-digits.
+Each flight is a Taylor series whose neglected terms are enclosed in an interval. Interval arithmetic (midpoint and
+radius) proves which event is next. Each flight starts from an exact state, so that the error of the flight is enclosed.
+Later flights can amplify these errors. To check this, `proven_run` repeats the run with more digits.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, Trajectory
 from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
 
-ROUNDED = Fraction(1, 10**12)  # largest distance of a ball beyond a wall that counts as rounding
+ROUNDED = Fraction(1, 10**12)  # a start at most this far beyond a wall counts as a rounding error
 ACCURACY, MAX_DIGITS = 1e-15, 5000
 
 
@@ -25,9 +25,11 @@ ACCURACY, MAX_DIGITS = 1e-15, 5000
 class ReferenceRun:
     """Dimensionless run in arbitrary precision; a state is [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
 
-    digits: decimal digits of each flight. events: array of type EVENT. event_taus (n,), event_states (n, 8),
-    final_exact (8,): the same times and states, and the final state, as flint.arb. samples (n, 8), final (8,): float64.
-    chatters: number of completed chatters.
+    digits: decimal digits of each flight. chatters: number of completed chatters (infinite sequences of impacts).
+
+    In float64: `events`, array of type EVENT; `samples`, states at the sample times, shape (n, 8); `final`, final
+    state, shape (8,). In full precision (flint.arb): `event_taus`, times of the events; `event_states`, states just
+    after the events; `final_exact`, final state.
     """
 
     digits: int
@@ -42,9 +44,9 @@ class ReferenceRun:
 
 @dataclass(frozen=True, eq=False)
 class ProvenRun:
-    """Run confirmed by a coarse run with half the digits.
+    """Run that is confirmed by a second run with half the digits (`coarse`).
 
-    agreement: largest difference between both runs; in practice, a bound on the error of `coarse`.
+    agreement: largest difference between `run` and `coarse`. In practice, it bounds the error of `coarse`.
     """
 
     run: ReferenceRun
@@ -57,9 +59,9 @@ def reference_run(
 ) -> ReferenceRun:
     """Simulate (10.1) over `cycles` forcing periods from the time tau0.
 
-    At the start, a ball at rest on a wall w sticks if the wall pushes it. The wall pushes if the first nonzero number
-    among w X'' and its time derivatives is positive. The ball also sticks if all these numbers are 0. Numbers below the
-    accuracy of a flight count as 0.
+    At the start, a ball at rest on a wall w sticks if the wall pushes the ball. The wall pushes if the first nonzero
+    number among w X'' and its time derivatives is positive. The ball also sticks if all these numbers are 0. Numbers
+    below the accuracy of a flight count as 0.
 
     Parameters
     ----------
@@ -74,8 +76,9 @@ def reference_run(
     sample_times : sequence, optional
         Ascending times tau within the run. A sample at the time of an event is the state after the event.
     exact_floats : bool, optional
-        True: read floats as binary values, and treat Omega and balls near a wall as `simulate` does. False: read floats
-        as their shortest decimals, except sample times. The default is True for a System, else False.
+        If True, floats are read as binary values. As in `simulate`, Omega is then rounded to a float, and a ball within
+        rounding of a wall is put on the wall. If False, floats are read as their shortest decimals, except sample
+        times. The default is True for a System, else False.
 
     Raises
     ------
@@ -98,7 +101,7 @@ def reference_run(
     for i in (0, 2):
         gap = start[i] - start[i + 1]
         on_wall = float(start[i]) - float(start[i + 1]) in (1.0, -1.0) or 1 < abs(gap) <= 1 + ROUNDED
-        if exact_floats and on_wall:  # the ball is on the wall up to rounding: put it exactly there
+        if exact_floats and on_wall:  # put a ball exactly on a wall if only rounding separates them
             start[i + 1] = start[i] - (1 if gap > 0 else -1)
         elif abs(gap) > 1:
             module = i // 2 + 1
@@ -113,8 +116,8 @@ def reference_run(
 def proven_run(system_parameters, state, cycles, digits=None, sample_times=None, exact_floats=None) -> ProvenRun:
     """Repeat `reference_run` with doubled digits until two successive runs differ by at most ACCURACY.
 
-    digits: digits of the first run, by default 40 plus 0.33 per period. A modulated motion was measured to lose 0.33
-    digits per period. The other arguments are those of `reference_run`, with tau0 = 0.
+    digits: decimal digits of the first run. The default is 40 plus 0.33 per forcing period, because a modulated motion
+    lost 0.33 digits per period in a measurement. The other arguments are those of `reference_run`, with tau0 = 0.
 
     Raises
     ------
@@ -142,9 +145,10 @@ def proven_run(system_parameters, state, cycles, digits=None, sample_times=None,
 
 
 def departure(coarse: ReferenceRun, fine: ReferenceRun) -> tuple[np.ndarray, np.ndarray]:
-    """Return the event times of `fine` (n,), and the largest difference from `coarse` at each event (n,).
+    """Return the event times of `fine`, shape (n,), and the difference from `coarse` at each event, shape (n,).
 
-    The difference is inf from the first event on that differs in module, wall or kind.
+    The difference is the largest difference in time or in a coordinate. If an event has another module, wall or kind in
+    `coarse`, the difference is inf for this event and all later events.
     """
     error = np.full(len(fine.events), np.inf)
     for i, (one, other) in enumerate(zip(coarse.events, fine.events, strict=False)):

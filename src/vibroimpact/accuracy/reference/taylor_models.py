@@ -1,4 +1,4 @@
-"""Compute Taylor models of the boxes' motion between events, from rational parameters in ball arithmetic."""
+"""Compute Taylor series of the motion of the boxes between events, with enclosed errors, from rational parameters."""
 
 import math
 from dataclasses import dataclass, fields
@@ -9,7 +9,8 @@ from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
 from vibroimpact.system import System
 
-# Largest step, multiplied by the norm of the rate matrix. Cancellation in a step can amplify rounding by e^REACH.
+# The longest step is REACH divided by the norm of the rate matrix. In a step, cancellation can amplify rounding errors
+# by e^REACH.
 REACH = 4
 
 
@@ -51,7 +52,7 @@ class ExactSystem:
     def of(cls, parameters, exact_floats: bool = False) -> "ExactSystem":
         """Return the coefficients for a System, or for a mapping of its ten parameters.
 
-        exact_floats: as for `to_fraction`; True also rounds Omega to a float, as in `simulate`.
+        exact_floats: as in `to_fraction`. If True, Omega is also rounded to a float, as in `simulate`.
 
         Raises
         ------
@@ -83,8 +84,9 @@ def _coupled(one, two, coupling):
 class Flow:
     """Power series of X1 and X2 in the time since an initial state, for a fixed set of sticking balls.
 
-    With s' = A s (`rate_matrix`), the k-th coefficients are the first two entries of A^k s / k!. No eigenvalues are
-    used, so that no spectrum is a special case. The last coefficient is an interval that encloses the neglected tail.
+    The motion obeys s' = A s, where A is the `rate_matrix`. The k-th coefficients of X1 and X2 are therefore the first
+    two entries of A^k s / k!. No eigenvalues are used, so that repeated eigenvalues need no special case. The last
+    coefficient is an interval that encloses the neglected terms.
     """
 
     def __init__(self, system: ExactSystem, stuck, bits: int):
@@ -105,13 +107,13 @@ class Flow:
             self._table = arb_mat(
                 2 * self.terms, 6, [entry for start in (0, 6) for row in table for entry in row[start : start + 6]]
             )
-            # Since |A^k s| <= norm^k |s|, the neglected terms sum to at most twice the first of them while
-            # norm * t <= (terms - 4) / 2. This also holds for the first four derivatives of the series.
+            # Since |A^k s| <= norm^k |s|, the sum of the neglected terms is at most twice the first neglected term if
+            # norm * t <= (terms - 4) / 2. The same bound holds for the first four derivatives of the series.
             self._tail = 2 * to_ball(self.norm) ** self.terms / arb.fac_ui(self.terms)
 
     @property
     def longest_step(self) -> Fraction:
-        """Longest time from the initial state for which the series is accurate to `bits` binary digits."""
+        """Longest time after the initial state up to which the series is accurate to `bits` binary digits."""
         return Fraction(REACH) / self.norm
 
     def size(self, vector) -> arb:
@@ -147,7 +149,10 @@ def rate_matrix(system: ExactSystem, stuck) -> list:
 
 
 def _weighted_norm(rate):
-    """Return six weights >= 1 that bring the norm of `rate` near the highest natural frequency, and this norm."""
+    """Return six weights >= 1, one for each entry of a state, and the norm of `rate` with these weights.
+
+    With these weights, the norm is near the highest natural frequency.
+    """
     stiffness = max(sum(abs(entry) for entry in row[:2]) for row in rate[2:4])
     frequency = Fraction(max(1, math.ceil(8 * math.sqrt(stiffness)) / 8))
     weights = [frequency, frequency] + [Fraction(1)] * 4

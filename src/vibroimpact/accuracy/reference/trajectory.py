@@ -1,4 +1,4 @@
-"""Event loop of the reference simulation in ball arithmetic: flights, impacts, chatter, sticking and release."""
+"""Event loop of the reference simulation in interval arithmetic: flights, impacts, chatter, sticking and release."""
 
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -12,16 +12,17 @@ from vibroimpact.accuracy.reference.taylor_models import ExactSystem, Flow, to_b
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
 LISTED_SPEED = Fraction(1, 10**12)  # rebound speed |W'| up to which impacts of a completed chatter are not listed
-GUARD_BITS = 64  # bits beyond the requested digits
-SEARCH_BITS = 96  # precision that suffices to find most events
+GUARD_BITS = 64  # binary digits of precision in addition to the requested digits
+SEARCH_BITS = 96  # binary digits of precision that suffice to find most events
 
 
 @dataclass
 class _Ball:
     """Motion of one ball relative to its box: gap W, its rate W', and the wall that the ball touches, or 0.
 
-    order: number of leading Taylor coefficients that vanish. They belong to the contact force on a stuck ball, or to
-    the distance 1 - wall W of a ball that leaves its wall. None means that the force stays zero.
+    order: number of leading Taylor coefficients that are 0. For a stuck ball, these are coefficients of the contact
+    force. For a ball that leaves its wall, these are coefficients of the distance 1 - wall W. If the contact force
+    stays 0, the order is None.
     """
 
     gap: arb
@@ -33,7 +34,7 @@ class _Ball:
 
 @dataclass(frozen=True)
 class _Candidate:
-    """Event that may end the flight: the first root of the distance to a wall, or of a contact force."""
+    """Event that may end the flight: at the time `root`, the distance to a wall or a contact force first becomes 0."""
 
     module: int
     wall: int
@@ -44,7 +45,7 @@ class _Candidate:
 class Trajectory:
     """Simulation in progress, at the working precision of the caller.
 
-    record: events (tau, module 0 or 1, wall, kind, state after).
+    record: list of events; an event is a tuple of tau, module (0 or 1), wall, kind and the state just after the event.
     """
 
     system: ExactSystem
@@ -74,7 +75,7 @@ class Trajectory:
 
     def _sample_queue(self):
         times = [] if self.sample_times is None else list(self.sample_times)
-        # Floats have their binary values, because sample times such as k * period are computed as floats.
+        # A float is read as its binary value, because sample times such as k * period are computed as floats.
         rational = [Fraction(float(t)) if isinstance(t, float) else to_fraction("sample_times", t) for t in times]
         if any(later < earlier for earlier, later in pairwise(rational)):
             raise ValueError("sample_times: should be ascending")
@@ -174,7 +175,7 @@ class Trajectory:
     # -- the next event ----------------------------------------------------------------------------------
 
     def _next_events(self, series, search_series, longest):
-        """Return the events within the time `longest` that are at most `tolerance` later than the earliest event."""
+        """Return the earliest event within the time `longest`, and all events that are at most `tolerance` later."""
         try:
             with ctx.workprec(SEARCH_BITS):
                 found = self._bracket(search_series, longest)
@@ -186,12 +187,15 @@ class Trajectory:
         return [_Candidate(module, wall, root.mid()) for (module, wall), root in _earliest(found, self.tolerance)]
 
     def _bracket(self, series, longest):
-        """Return ((module, wall), interval of the first root of `_distance`) for each event that may be the first."""
+        """Return a pair (key, interval) for each event that may be the first one.
+
+        The key is (module, wall). The interval contains the first root of the series `_distance` of this key.
+        """
         keys = []
         for module, ball in enumerate(self.balls):
             if not ball.stuck:
                 keys += [(module, 1), (module, -1)]
-            elif ball.order is not None:  # if None, the contact force stays zero, and the ball stays stuck
+            elif ball.order is not None:  # if the order is None, the force stays 0, and the ball stays stuck
                 keys.append((module, ball.wall))
         distances = [(key, self._distance(key, series)) for key in keys]
         hints = {key: _parabola_hint(distance, longest) for key, distance in distances}
@@ -205,15 +209,16 @@ class Trajectory:
         return found
 
     def _distance(self, key, series):
-        """Return the distance to a wall, or the force on a stuck ball, as a power series without leading zeros.
+        """Return the distance to a wall, or the contact force on a stuck ball, as a power series in time.
 
-        It is positive until the event.
+        If the first coefficients are 0, the series is divided by a power of time. The result is positive until the
+        event.
         """
         module, wall = key
         ball = self.balls[module]
         if ball.stuck:
             return _force(ball, series[module]).right_shift(ball.order)
-        relative = arb_poly(series[module])  # W = X - Y, whose terms from t^2 on are those of X
+        relative = arb_poly(series[module])  # W = X - Y has the terms of X from t^2 on, since Y is linear
         relative[0], relative[1] = ball.gap, ball.rate
         distance = -relative if wall > 0 else relative
         if ball.wall == wall:
@@ -237,7 +242,7 @@ class Trajectory:
                 self._settle(i, started=True)
 
     def _impact(self, module):
-        """Apply Newton's restitution law; the ball sticks if its rebound is below the working precision."""
+        """Apply Newton's restitution law. If the rebound speed is below `tolerance`, let the ball stick."""
         ball = self.balls[module]
         if not ball.wall * ball.rate > -self.tolerance:
             raise Undecidable("cannot decide whether a ball at a wall moves towards it; use more digits")
@@ -255,8 +260,8 @@ class Trajectory:
     def _settle(self, *modules, started=False):
         """Release each stuck ball whose contact force w X'' is negative just after this instant.
 
-        The sign of the force is that of its first nonzero Taylor coefficient; coefficients up to `tolerance` count as
-        0.
+        The sign of the force is the sign of its first nonzero Taylor coefficient. Coefficients up to `tolerance` count
+        as 0.
 
         started: True at the start of a run, where a release is not recorded.
         """
@@ -277,7 +282,10 @@ class Trajectory:
     # -- chatter -----------------------------------------------------------------------------------------
 
     def _follow_chatter(self, contacts):
-        """Add the simultaneous impacts `contacts` to the current chatter or to a new one; complete it if possible."""
+        """Add the simultaneous impacts `contacts` to the current chatter or to a new chatter.
+
+        If `_is_complete` returns True, replace the chatter by its limit.
+        """
         if self.chatter is None or self.chatter.contacts != contacts:
             self.chatter = Chatter(contacts, self.system.kappa) if contacts else None
         if not contacts or any(self.balls[module].stuck for module, _ in contacts):
@@ -304,7 +312,11 @@ class Trajectory:
         return bool(time > 0 and self.tau + time < next_stop + self.tolerance and self._is_undisturbed(contacts, time))
 
     def _is_undisturbed(self, contacts, time):
-        """Return True if contact forces certainly stay positive and other balls stay off the walls within `time`."""
+        """Return True if nothing can disturb the chatter of `contacts` within `time`.
+
+        The contact forces of chattering and stuck balls must certainly stay positive. All other balls must certainly
+        stay off the walls.
+        """
         flow, vector = self._flow(SEARCH_BITS), self._vector()
         acceleration = flow.size(vector) * to_ball(flow.norm)
         series = flow.series(vector)
@@ -339,13 +351,16 @@ class Trajectory:
 
 
 def _force(ball, motion):
-    """Return the contact force w X'' of wall w on a ball at rest, per ball mass, as a series."""
+    """Return the contact force per ball mass as a power series: w X'' for a ball that rests on the wall w."""
     return ball.wall * motion.derivative().derivative()
 
 
 def _parabola_hint(distance, longest):
-    """Return twice the root of the linear part of `distance`, as a hint for `first_root`, or None."""
-    # in a short hop of a chatter, `distance` is almost linear
+    """Return the argument `hint` of `first_root` for a series `distance`, or None if no hint is useful.
+
+    The hint is twice the root of the linear part of `distance`.
+    """
+    # In a short flight of a chatter, `distance` is almost linear. The root is then between 0 and the hint.
     height, slope = distance[0], distance[1]
     if not (height > 0 and slope < 0):
         return None
@@ -354,7 +369,10 @@ def _parabola_hint(distance, longest):
 
 
 def _earliest(found, tolerance):
-    """Return `found` without pairs (key, interval) whose root is certainly more than `tolerance` after another root."""
+    """Return the pairs (key, interval) of `found` whose root may be the earliest.
+
+    A pair is left out if its root is certainly more than `tolerance` later than the root of another pair.
+    """
     if not found:
         return []
     first = min(ball.upper() for _, ball in found)
