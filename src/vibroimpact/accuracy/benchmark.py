@@ -28,7 +28,7 @@ SHORT = 10
 
 
 def methods_table(seconds: float) -> list[dict]:
-    """Return one row per method and setting: time per impact [us], and errors, for the motion PROBLEM.
+    """Return one row per method and setting, with the time per impact [us] and the errors for the motion PROBLEM.
 
     seconds: time [s] for which the run with each setting is repeated.
     """
@@ -45,7 +45,10 @@ def methods_table(seconds: float) -> list[dict]:
 
 
 def scenes() -> dict[str, tuple]:
-    """Return tuples (one system or n systems, initial states (n, 8), number of cycles), keyed by description."""
+    """Return scenes (sets of n motions), keyed by description.
+
+    A scene is a tuple of one system or n systems, initial states of shape (n, 8), and a number of cycles.
+    """
     equal, weak = (System(**PARAMETERS, **CASES[case]) for case in ("equal", "weak"))
     sweep = [
         equal.with_(sigma_e_hat=detuning, f10_hat=force, f20_hat=force)
@@ -62,16 +65,19 @@ def scenes() -> dict[str, tuple]:
 
 
 def scenes_table(seconds: float) -> list[dict]:
-    """Return the time per impact [us] on one core for `ensemble` and for single runs, two rows per scene.
+    """Return the time per impact [us] on one core: for each scene, a row for `ensemble` and a row for single runs.
 
-    The row of `ensemble` also contains the median error. seconds: time [s] for which runs are repeated.
+    The row of `ensemble` also contains an error. It is the median difference between the final states of the ensemble
+    and of single runs after SHORT cycles.
+
+    seconds: time [s] for which the ensemble is repeated; the single runs are repeated for the same time.
     """
     with at_most(1):
         return [row for name, scene in scenes().items() for row in _compared(name, *scene, seconds)]
 
 
 def _compared(name, systems, states, cycles, seconds):
-    """Return the two rows of `scenes_table` for one scene."""
+    """Return the two rows of `scenes_table` for one scene (a set of motions): ensemble and single runs."""
     chosen = np.linspace(0, len(states) - 1, SINGLE_RUNS).astype(int)
     some = np.broadcast_to(np.asarray(systems, dtype=object), len(states))[chosen]
     pairs = list(zip(some, states[chosen], strict=True))

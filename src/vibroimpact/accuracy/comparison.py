@@ -14,13 +14,14 @@ OUTCOMES = {"right": [RIGHT], "wrong": [SILENTLY_WRONG], "stopped": [ERROR, ENDL
 
 
 def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> pd.DataFrame:
-    """Return one row per method: relative cost, and numbers of stress tests.
+    """Return one row per method: cost relative to the first method, and results of the stress tests.
 
     The arguments are rows of `work_precision.measure` and of `stress_tests.judge`. A method solves a problem if it has
     a run with an error of at most 1e-6 and no missed or spurious impacts. Its cost is the shortest time of such a run.
 
     - problems: number of solved problems;
-    - times: largest ratio of the cost to that of the first method; blank unless both methods solve all problems;
+    - times: cost divided by the cost of the first method, for the problem with the largest ratio; blank unless both
+      methods solve all problems;
     - right: number of stress tests with a right result;
     - wrong: number of stress tests with a wrong result but no reported error or doubt;
     - stopped: number of stress tests that end with an error or do not finish;
@@ -40,9 +41,9 @@ def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> p
 
 
 def choices(work_precision: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
-    """Return the two cheapest methods with stress tests for each problem and each allowed error in GOALS.
+    """Return the two cheapest methods for each problem and each allowed error in GOALS.
 
-    compared: result of `methods_table`.
+    Methods without stress tests are left out. compared: result of `methods_table`.
     """
     counts = compared.dropna(subset="tests").set_index("method")[["wrong", "tests"]].astype(int)
     tested = work_precision[work_precision["method"].isin(counts.index)]

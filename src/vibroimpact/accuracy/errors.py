@@ -16,8 +16,10 @@ WINDOW = 0.05
 class Errors(NamedTuple):
     """Errors of a run against a reference run.
 
-    error_state: largest error of a final coordinate. error_time: largest time error [tau] of a matched impact. Both are
-    inf without a final state. missed, spurious: numbers of unmatched impacts of the reference and of the run.
+    error_state: largest error of a coordinate of the final state. error_time: largest time error [tau] of an impact
+    that both runs have. If the run has no final state, error_state and error_time are inf.
+
+    missed: number of impacts that only the reference has. spurious: number of impacts that only the run has.
     """
 
     error_state: float
@@ -29,7 +31,7 @@ class Errors(NamedTuple):
 def run_errors(run, reference, period: float, faint: float = FAINT, events: bool = True) -> Errors:
     """Return the errors of a MethodRun against a reference run.
 
-    faint: rebound speed up to which impacts may be missed. events: False to ignore impacts.
+    faint: a run may miss impacts whose rebound speed is at most `faint`. events: False to compare only final states.
     """
     if run.final is None:
         return Errors(np.inf, np.inf, 0, 0)
@@ -39,7 +41,8 @@ def run_errors(run, reference, period: float, faint: float = FAINT, events: bool
         for wall in (1, -1):
             here = hits[(hits["module"] == module) & (hits["wall"] == wall)]
             taus, box = here["tau"], 4 + 2 * (module - 1)
-            plain = np.abs(here["state"][:, box] - here["state"][:, box + 1]) > faint  # rebound speeds |W'|
+            # A plain impact has a rebound speed |W'| above `faint`.
+            plain = np.abs(here["state"][:, box] - here["state"][:, box + 1]) > faint
             theirs = run.impacts[(run.impacts["module"] == module) & (run.impacts["wall"] == wall)]
             theirs = theirs[(theirs["speed"] > faint) | _near(theirs["tau"], taus[plain], WINDOW * period)]
             apart, lost, extra = _align(taus[plain], theirs["tau"], WINDOW * period)
@@ -55,9 +58,10 @@ def _near(times, others, window) -> np.ndarray:
 
 
 def _align(expected, found, window):
-    """Pair times of two ascending sequences that differ by at most `window`.
+    """Pair the times of two ascending sequences. The two times of a pair differ by at most `window`.
 
-    Return (largest difference in a pair, number of unpaired expected times, unpaired found times).
+    Return the largest difference in a pair, the number of expected times without a pair, and the found times without a
+    pair.
     """
     apart, lost, extra = 0.0, 0, []
     i = j = 0

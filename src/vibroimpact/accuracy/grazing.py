@@ -14,7 +14,9 @@ NEWTON_STEPS = 12
 
 
 def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float, ...]:
-    """Return an initial state (8,) from which ball 1 clears the wall +1 by `clearance`, or hits it if this is negative.
+    """Return an initial state, shape (8,), from which ball 1 misses the wall +1, with the smallest gap `clearance`.
+
+    If `clearance` is negative, ball 1 hits the wall; without the wall, the ball would go this distance beyond.
 
     W_1 = X_1 - Y_1 is largest when X_1' equals the ball velocity. This time does not depend on the initial Y_1.
     Rounding the state changes the clearance by up to 1e-16.

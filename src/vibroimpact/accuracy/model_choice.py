@@ -49,8 +49,8 @@ SAMPLES = 400
 class Motion:
     """Symmetric motion that a model gives for a fixed point.
 
-    impacts (2,): for each ball, a time tau >= 0 at which it hits the wall W = +1, or NaN for an inactive module.
-    response: function that returns U, X, W, Y at times tau (n,).
+    impacts: for each ball, a time tau >= 0 at which the ball hits the wall W = +1, shape (2,). An inactive module (a
+    module that no force drives) has NaN. response: function that returns U, X, W and Y at times tau of shape (n,).
     """
 
     point: LabelledPoint
@@ -61,8 +61,8 @@ class Motion:
 def motions(system, points: list[LabelledPoint], model: str) -> list[Motion]:
     """Return the motion that a model gives for each fixed point of a system.
 
-    points: all fixed points, since an exact orbit belongs to the nearest one. The model exact_orbit omits points
-    without an orbit.
+    points: all fixed points of the system. All are needed, because each exact orbit is assigned to the nearest point.
+    With the model exact_orbit, points without an orbit are left out.
 
     Raises
     ------
@@ -140,5 +140,5 @@ def _exact_U(system, root, tau):
 
 
 def _sawtooth(system, C, impacts, tau):
-    """Return the saw-tooth Z = W - U at times tau (n,), shape (n, 2); inactive modules have 0."""
+    """Return the saw-tooth Z = W - U at times tau (n,), shape (n, 2). In an inactive module, Z is 0."""
     return np.nan_to_num(sawtooth(system.Omega * (tau[:, None] - impacts), C, 0.0))

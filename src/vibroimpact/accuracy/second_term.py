@@ -42,7 +42,9 @@ def at_zero(slope):
 
 
 def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
-    """Return the system with the given epsilon, and its orbit [impact times, amplitudes C] next to a fixed point.
+    """Return the system with the given epsilon, and the symmetric orbit of this system next to a fixed point.
+
+    The orbit is an array of two impact times and two amplitudes C.
 
     Raises
     ------
@@ -59,9 +61,9 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 
 
 def offsets(system, point, roots) -> np.ndarray:
-    """Return C (row 0) and impact phases [rad] (row 1) of orbits, minus those of a fixed point.
+    """Return the differences between orbits and a fixed point: in C (row 0) and in the impact phases [rad] (row 1).
 
-    roots (..., 4): orbits, [impact times, amplitudes C].
+    roots: orbits, shape (..., 4); an orbit is given by two impact times and two amplitudes C.
     """
     phases = np.angle(np.exp(1j * system.Omega * (roots[..., :2] - impact_times(system, point))))
     return np.stack([roots[..., 2:] - point.C, phases], axis=-2)

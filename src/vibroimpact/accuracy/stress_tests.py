@@ -24,10 +24,13 @@ CHAPTER = PARAMETERS | CASES["equal"]
 
 @dataclass(frozen=True)
 class StressTest:
-    """Test problem: group, name, system, initial state (8,) at tau = 0, number of cycles.
+    """Test problem that is hard for a known reason.
 
-    faint: rebound speed up to which impacts may be missed. reference_cycles: number of cycles of the reference run if
-    the motion settles. quick: True if the reduced set contains the test.
+    state: initial state at tau = 0, shape (8,). cycles: number of forcing cycles. faint: a method may miss impacts
+    whose rebound speed is at most `faint`. quick: True if the test is also in the reduced set of tests.
+
+    reference_cycles: number of cycles after which the motion has settled and the reference run ends. If it is None, the
+    reference run has `cycles` cycles.
     """
 
     group: str
@@ -47,7 +50,7 @@ PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 will hit a wa
 RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 rests on a wall that pushes it
 TOGETHER = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)  # both modules move in the same way
 MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # module 2 mirrors module 1
-FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # on the manifold at C = C_min, (10.25)
+FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # at the fold of the manifold, (10.25)
 
 
 def stress_tests() -> list[StressTest]:
@@ -79,7 +82,7 @@ def stress_tests() -> list[StressTest]:
 
 
 def judge(test: StressTest, methods) -> list[dict]:
-    """Run each method with the setting `Method.careful` on a stress test; return rows with verdict and errors."""
+    """Run each method on a stress test, with the setting `Method.careful`; return one row with a verdict per method."""
     reference = reference_of(test)
     return [_row(test, method, reference) for method in methods]
 
@@ -123,12 +126,19 @@ def _row(test, method, reference):
 
 
 def grazing(system: System, side: int, digits: int) -> StressTest:
-    """Return the test in which ball 1 misses (side 1) or hits (side -1) a wall by 10^-digits."""
+    """Return the test in which ball 1 barely misses a wall (side 1) or barely hits a wall (side -1).
+
+    If ball 1 misses the wall, the smallest gap is 10^-digits. If ball 1 hits the wall, the ball would go 10^-digits
+    beyond the wall without the impact.
+    """
     start = grazing_start(system, ("0.4", "-0.3", "0.5", "0.2"), "0.15", guess=1.0, clearance=f"{side}e-{digits}")
     name = f"{'clears' if side > 0 else 'hits'} by 1e-{digits}"
     return StressTest("grazing", name, system, start, 1, faint=0.0, quick=digits in (2, 6, 10, 14))
 
 
 def _crossing(system, periods):
-    """Return a state from which ball 1 hits a wall after `periods` periods, up to rounding, without forcing."""
+    """Return a state from which ball 1 hits a wall after `periods` forcing periods, up to rounding.
+
+    The forces of `system` must be 0, so that the boxes stay at rest until the impact.
+    """
     return (0.0, 0.0, 0.0, 0.0, 0.0, -1.0 / (periods * system.period), 0.0, 0.0)

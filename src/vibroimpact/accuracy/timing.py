@@ -9,9 +9,10 @@ MOST_CALLS = 5000
 
 
 def interleaved(functions, seconds: float) -> list[tuple]:
-    """Return the result and the shortest time [s] of each function, from repeated calls in turn.
+    """Return the result and the shortest time [s] of each function.
 
-    Because of the turns, a disturbance of the machine affects all functions. Compile all code before.
+    The functions are called in turn, so that a disturbance of the machine affects all of them. All code must be
+    compiled before. seconds: total time [s] of the repeated calls of each function.
     """
     given, best = [None] * len(functions), [float("inf")] * len(functions)
     total, calls, left = [0.0] * len(functions), [0] * len(functions), list(range(len(functions)))
@@ -26,7 +27,7 @@ def interleaved(functions, seconds: float) -> list[tuple]:
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of Python and packages, and the processor architecture, on which a measurement depends."""
+    """Return what a measurement depends on: the versions of Python and packages, and the processor architecture."""
     installed = {one.name: one.version for one in distributions()}
     found = {name: installed[name] for name in PACKAGES if name in installed}
     return {"python": platform.python_version(), "machine": platform.machine()} | found

@@ -26,7 +26,8 @@ epsilon = 0.1, it is at most 0.29, or above 2.5 where the orbits next to two fix
 def orbit_rows(case: str, orbits) -> pd.DataFrame:
     """Return one row per orbit with the verdict of each criterion.
 
-    The labels are S1, ... (symmetric) and A1, ... (asymmetric). Proofs of orbits add columns.
+    Symmetric orbits have the labels S1, S2, ..., and asymmetric orbits have the labels A1, A2, ... If an orbit has a
+    proof, the table also has the columns of `OrbitProof.row`.
     """
     counts, rows = {True: 0, False: 0}, []
     for orbit in orbits:
@@ -41,8 +42,8 @@ def orbit_rows(case: str, orbits) -> pd.DataFrame:
 def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.DataFrame:
     """Return one row per fixed point, sorted by label, with the verdict of each criterion.
 
-    admissible: True if the balls stay between the walls at leading order. orbit: label of the exact orbit next to the
-    point, or "". orbits: `orbit_rows` of the case.
+    The column `admissible` is True if the balls stay between the walls at leading order. The column `orbit` contains
+    the label of the exact orbit next to the point, or "" if there is none. orbits: result of `orbit_rows` for the case.
     """
     points = sorted(points, key=lambda point: point.label)
     symmetric = orbits[orbits["symmetric"].astype(bool)]  # in an empty table this column is not boolean
@@ -59,9 +60,10 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
 
 
 def partners(points, orbits) -> list[int | None]:
-    """Return, for each fixed point, the index of the exact orbit next to it, or None.
+    """Return, for each fixed point, the index of the exact orbit next to the point, or None if there is none.
 
-    points (n, 2), orbits (m, 2): amplitudes C. A point and its orbit are nearest to each other and closer than REACH.
+    points: amplitudes C of the fixed points, shape (n, 2). orbits: amplitudes C of the orbits, shape (m, 2). A point
+    and the orbit next to it are nearest to each other, at a distance below REACH.
     """
     points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
     if not len(orbits):

@@ -20,10 +20,11 @@ DIGITS = 40
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """Part of a simulation after the transient (the window).
+    """Results of a simulation in the window, which is the part after the transient.
 
-    samples: tau and the state at evenly spaced times. events: events in the window. strobe: tau and the state once per
-    cycle of the whole run. trust: method and evidence of accuracy.
+    samples: tau and the state at evenly spaced times of the window. events: impacts, sticks and releases in the window.
+    strobe: tau and the state at the start of every forcing cycle of the whole run, and at the end of the run. trust:
+    method of the simulation, and evidence of its accuracy.
     """
 
     samples: pd.DataFrame
@@ -35,8 +36,9 @@ class Window:
 def window(system: System, settings: dict) -> Window:
     """Simulate a case and return its window.
 
-    settings: initial_state (8,), transient_cycles, window_cycles, samples_per_cycle, and model ("float64" or
-    "reference"). Optional: digits, the number of digits of the first reference run.
+    settings: dictionary with the keys initial_state, shape (8,); transient_cycles and window_cycles, numbers of forcing
+    cycles before and in the window; samples_per_cycle; and model, "float64" or "reference". The key digits is optional:
+    number of decimal digits of the first reference run.
 
     Raises
     ------
@@ -46,7 +48,7 @@ def window(system: System, settings: dict) -> Window:
     cycles = settings["transient_cycles"] + settings["window_cycles"]
     starts = np.arange(settings["transient_cycles"]) * system.period
     per_cycle = settings["samples_per_cycle"]
-    phases = np.arange(settings["window_cycles"] * per_cycle + 1) / per_cycle  # the same phases in every cycle
+    phases = np.arange(settings["window_cycles"] * per_cycle + 1) / per_cycle  # every cycle has the same sample phases
     times = (settings["transient_cycles"] + phases) * system.period
     run, trust = _integrate(system, settings, cycles, np.concatenate([starts, times]))
     states = pd.DataFrame(np.column_stack([[*starts, *times], run.samples]), columns=["tau", *NAMES])
@@ -67,7 +69,7 @@ def _integrate(system, settings, cycles, times):
         run = simulate(system, settings["initial_state"], cycles, sample_times=times)
         certificate = {name: value for name, value in vars(run.certificate).items() if np.isfinite(value)}
         return run, {"method": "float64", "certificate": certificate}
-    from vibroimpact.accuracy.reference.run import proven_run  # loads packages that float64 runs do not need
+    from vibroimpact.accuracy.reference.run import proven_run  # needs packages that float64 runs do not use
 
     options = {"digits": settings.get("digits", DIGITS), "sample_times": times, "exact_floats": False}
     proof = proven_run(system, settings["initial_state"], cycles, **options)

@@ -18,7 +18,7 @@ different motions; smaller errors are due to rounding."""
 
 @dataclass(frozen=True)
 class Problem:
-    """Motion to compute: name, system, initial state (8,) at tau = 0, and number of forcing cycles."""
+    """Motion to compute, over `cycles` forcing cycles from the initial state `state`, shape (8,), at tau = 0."""
 
     name: str
     system: System
@@ -63,7 +63,10 @@ def measure(problem: Problem, methods: list[Method], seconds: float, short: bool
 
 
 def _measured(problem, setting, run, time, reference):
-    """Return the columns of a run; the reason is the cause of a failure or the doubt that the method reports."""
+    """Return the columns of a run.
+
+    The column `reason` contains the cause of a failure, or the doubt that the method reports about its own result.
+    """
     return {
         "setting": str(setting),
         **run_errors(run, reference, problem.system.period)._asdict(),
@@ -76,9 +79,9 @@ def _measured(problem, setting, run, time, reference):
 
 
 def fitted_order(points) -> float | None:
-    """Return the slope of log(error) against log(scale), or None.
+    """Return the slope of log(error) against log(scale), or None if fewer than three errors can be used.
 
-    points: pairs (scale, error). At least three errors must be in the range RESOLVED.
+    points: pairs (scale, error). Only errors in the range RESOLVED are used.
     """
     largest, smallest = RESOLVED
     resolved = [(scale, error) for scale, error in points if smallest <= error <= largest]
