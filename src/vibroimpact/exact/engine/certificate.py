@@ -39,9 +39,12 @@ approach velocity. An error that repeats adds up instead of averaging out."""
 class Errors(NamedTuple):
     """Estimated errors of a state, in units of UNIT (the float64 epsilon).
 
-    independent (8, 8): covariance of independent errors. repeated (8, 6): sums of errors that recur, one column per
-    source. Columns 0 to 3 belong to the flow tables: amplitude and phase of box 1, then of box 2. Columns 4 and 5
-    belong to impacts of balls 1 and 2.
+    independent: covariance of independent rounding errors, shape (8, 8). repeated: sums of rounding errors that recur
+    with the same value, shape (8, 6).
+
+    Each column of `repeated` belongs to one source. Columns 0 to 3 belong to rounded entries of the flow tables, which
+    contain the free motion of the boxes. These errors change the amplitude and the phase of box 1, then of box 2.
+    Columns 4 and 5 belong to impacts of ball 1 and ball 2.
     """
 
     independent: np.ndarray
@@ -50,10 +53,11 @@ class Errors(NamedTuple):
 
 @compiled
 def errors_of(flow, flights, events, limit):
-    """Return the estimated errors at the start and end of each flight, (m + 1, 2), and at the end of the run.
+    """Return the estimated errors at the start and end of each flight, and the estimated error at the end of the run.
 
-    An error is the root of the summed mean square errors of all components. Once it exceeds `limit` after an event, the
-    later errors are inf. A final error above `limit` is inf.
+    A run with m events has m + 1 flights. The errors of the flights have shape (m + 1, 2). An error is the square root
+    of the sum of the mean square errors of all components. If the error after an event exceeds `limit`, all later
+    errors are inf. A final error above `limit` is replaced by inf.
     """
     q = flow.coefficients
     estimates, largest = np.full((len(flights), 2), math.inf), limit / UNIT
@@ -81,7 +85,7 @@ def errors_of(flow, flights, events, limit):
 def errors_at(flow, flights, events, times, limit):
     """Return the estimated errors (n,) of the states at ascending times since the start of a run.
 
-    They include the rounding of these times. Errors above `limit` are inf.
+    The errors include the effect of rounding these times. Errors above `limit` are replaced by inf.
     """
     q = flow.coefficients
     estimates, largest, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
@@ -124,11 +128,14 @@ def _begin(q, flight, errors):
 
 @inlined
 def _fly(flow, flight, errors, matrix, product):
-    """Propagate errors over a flight, and add the rounding errors of the flow tables; overwrite `flight`."""
+    """Propagate errors over a flight, and add the rounding errors of the flow tables.
+
+    A long flight is cut into pieces. The row `flight` is overwritten and finally describes the last piece.
+    """
     left = flight[LENGTH]
     while left > 0.0:
         flight[LENGTH] = min(left, flow.longest)
-        # Shorter flights use the first table entry. It is the identity and has no rounding error.
+        # A shorter piece uses only the first table entry, which is the identity and has no rounding error.
         if flight[LENGTH] > 0.5 * flow.spacing:
             _add_table(flow.coefficients, flight[BEFORE:AFTER], errors.repeated)
         fill_flight(flow, flight, matrix)
@@ -145,7 +152,7 @@ def _fly(flow, flight, errors, matrix, product):
 def _pass_event(q, flights, events, n, errors, matrix, product):
     """Propagate errors over event n, and add the rounding errors of the event."""
     i, reached = int(events[n, 1]) - 1, flights[n + 1, BEFORE:AFTER]
-    if events[n, 3] == IMPACT:  # the ball was moved onto its wall
+    if events[n, 3] == IMPACT:  # the run moved the ball onto its wall by the distance `miss`
         miss = 1.0 - abs(flights[n, AFTER + i] - flights[n, AFTER + 4 + i])
         errors.independent[4 + i, 4 + i] += (miss / UNIT) ** 2
     fill_event(q, flights, events, n, matrix)
@@ -160,7 +167,8 @@ def _pass_event(q, flights, events, n, errors, matrix, product):
 def _end(q, flight, elapsed, errors, rate):
     """Add the effects of rounding the time and the state at the end of a run or at a sample.
 
-    elapsed: time of a sample, with which the error of this time grows; 0 at the end of a run.
+    elapsed: time of a sample since the start of the run; the rounding error of the sample time grows with this time. At
+    the end of a run, `elapsed` is 0.
     """
     late = 2.0 / q.omega + flight[LENGTH] + elapsed
     _, _, walls = start_of(flight)
@@ -201,7 +209,7 @@ def _multiply(a, b, product):
 
 @inlined
 def _root(errors):
-    """Return the root of the sum, over all components of the state, of their mean square errors."""
+    """Return the square root of the sum of the mean square errors of all components of the state."""
     total = 0.0
     for k in range(8):
         row = errors.independent[k, k]  # one sum for each row, since the processor can compute these sums in parallel
@@ -214,7 +222,7 @@ def _root(errors):
 @inlined
 def _add_table(q, state, sums):
     """Add the rounding error of a flow table entry to `sums`, before a flight from a state (8,)."""
-    for i in range(2):  # the motion of each box is scaled and rotated in the phase plane
+    for i in range(2):  # the error scales and rotates the motion of box i in the phase plane
         x, v = state[i], state[2 + i]
         omega = math.sqrt(max(q.k11 if i == 0 else q.k22, 1.0))
         sums[i, 2 * i] += TABLE * x
@@ -227,9 +235,11 @@ def _add_table(q, state, sums):
 def _add_rounding(q, errors, flight, state, met):
     """Add the rounding error of a state (8,), [boxes, balls], at the end of a flight.
 
-    The contributions to a state are rounded even if they cancel. The force contributes F / Omega^2 to a position, and
-    F / Omega to a velocity. A stiff spring also contributes to a velocity. The velocity of a free ball is rounded only
-    at an impact. met: for each ball, True if it is at a wall.
+    A state is computed as a sum of contributions. The rounding error of a contribution remains even if contributions
+    cancel. The force contributes F / Omega^2 to a position, and F / Omega to a velocity. A stiff spring also
+    contributes to a velocity. The velocity of a free ball is computed and rounded only at an impact.
+
+    met: for each ball, True if the ball is at a wall.
     """
     covariance, began = errors.independent, flight[BEFORE:]
     speed = q.drive / max(1.0, q.omega)
@@ -257,8 +267,8 @@ class Certificate(Representation):
     Attributes
     ----------
     flights, exclusions : int
-        Number of flights, and number of proofs that an interval has no event. The proofs cover the whole run;
-        otherwise `simulate` raises ArithmeticError.
+        Number of flights, and number of proofs. Each proof shows that a time interval contains no event. The proofs
+        cover the whole run; otherwise `simulate` raises ArithmeticError.
     chatters : int
         Number of completed chatters (infinite sequences of impacts).
     neglected : float
@@ -266,20 +276,20 @@ class Certificate(Representation):
     wall_residual : float
         Largest ||W| - 1| at an impact, before the ball was moved onto the wall.
     nearest_miss : float
-        Smallest gap to a wall at which a ball turned back without an impact; inf if none did.
+        Smallest gap to a wall at which a ball turned back without an impact; inf if no ball turned back.
     shallowest_hit : float
         Smallest depth beyond a wall that a ball would have reached without an impact.
     clearance : float
-        Smallest margin divided by the estimated error of the state at this time. A margin is the error that would
-        change the sequence of events.
+        Smallest ratio of a margin to the estimated error of the state at the same time. A margin is the size of a state
+        error that would change the sequence of events.
     undecided : int
         Number of times at which rounding decides whether an event happens, such as a grazing impact.
     error : float
         Estimated error of the final state (root mean square); inf if the run ends beyond `horizon`. The estimate
         includes a rounding error at every event.
     horizon : float
-        Time tau at which the estimated error first exceeds 1e-3, or inf if it never does. Beyond it, the run is a
-        possible motion, but not the one from the given initial state.
+        Time tau at which the estimated error first exceeds 1e-3, or inf if the error never exceeds 1e-3. Beyond the
+        horizon, the run is a possible motion of the system, but not the motion from the given initial state.
 
     Notes
     -----
@@ -313,7 +323,8 @@ class Certificate(Representation):
         errors, error = errors_of(flow, flights, rows, HORIZON_ERROR)
         margins, depths, doubts = margins_of(q, flights, turns, rows, phase, duration)
         known, horizon = np.isfinite(errors), np.inf
-        # The horizon is the first event after which the error is inf, or else the end of the run.
+        # The horizon is the first event after which the error is inf. Without such an event, the horizon is the
+        # end of the run.
         if not np.isfinite(error):
             horizon = run.tau0 + [*rows[:, 0], duration][np.count_nonzero(known[:, 0]) - 1]
         return cls(
