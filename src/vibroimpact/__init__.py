@@ -13,7 +13,8 @@
 - `design`: choice of the ball for a machine.
 - `to_frame`, `to_dataset`: results as tables.
 
-Stability verdicts are named `fast` (impacts), `slow` (amplitudes), `theory` (both) and `exact` (exact orbit).
+There are four verdicts on stability: `fast` (stability of the impacts), `slow` (stability of the amplitudes), `theory`
+(`fast` and `slow` together) and `exact` (stability of the exact orbit).
 """
 
 from importlib import import_module

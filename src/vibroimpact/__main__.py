@@ -8,7 +8,7 @@ from vibroimpact.interrupt import without_traceback
 def main() -> int:
     """Run one command; return the exit status."""
     with without_traceback():
-        # This import takes a second. Inside the `with` block, Ctrl-C prints no traceback.
+        # This import takes a second. The import is inside the `with` block, so that Ctrl-C prints no traceback.
         from vibroimpact.cli.parser import main
 
         return main()

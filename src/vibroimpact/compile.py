@@ -1,7 +1,7 @@
 """Compile the code of `simulate`, `ensemble` and `Run` before its first use: `python -m vibroimpact.compile`.
 
-The code is cached in NUMBA_CACHE_DIR, if set, or in the first writable folder: that of the library, the user's cache, a
-temporary folder.
+The compiled code is cached in the folder NUMBA_CACHE_DIR, if this variable is set. Otherwise, the code is cached in the
+folder of the library, in the user's cache folder or in a temporary folder. The first writable one of these is used.
 """
 
 import gc

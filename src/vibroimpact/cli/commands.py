@@ -83,7 +83,8 @@ def _fixed_points(system, options):
 def _orbits(system, options):
     """Return one row per admissible orbit.
 
-    Phases are in forcing periods, speeds are those after an impact. modulus_1 is the largest Floquet modulus.
+    Phases are in forcing periods. Speeds are speeds just after an impact. modulus_1 is the modulus of the largest
+    Floquet multiplier.
     """
     measures = [f"{what}{side}" for what in ("phase", "speed") for side in _SIDES]
     columns = ("symmetric", "C1", "C2", *measures, "modulus_1", "residual", "exact")
@@ -105,7 +106,10 @@ def _simulate_options(parser):
 
 
 def _simulate(system, options):
-    """Return one row per sample (tau and the state), or one row per event (with the state just after the event)."""
+    """Return one row per sample, with tau and the state.
+
+    With the option --events, return one row per event instead, with the state just after the event.
+    """
     cycles = whole("cycles", options.cycles, 0, _MOST_SAMPLES)
     if options.events:
         events = simulate(system, options.state, cycles, options.tau0).events.tolist()
@@ -137,7 +141,10 @@ def _design_options(parser):
 
 
 def _design(options):
-    """Return the response with the chosen ball, one row per frequency, and the text of the `Design` as the summary."""
+    """Return a table of the response with the chosen ball, one row per frequency.
+
+    The summary of the table is the text of the `Design`.
+    """
     if options.plot is not None:
         if options.plot.suffix not in PICTURES:
             raise ValueError(f"plot: {options.plot} should end in {', '.join(PICTURES)}")

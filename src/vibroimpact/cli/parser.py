@@ -87,7 +87,7 @@ def _check_folders(options):
 def _put(table: Table, output: Path | None):
     """Write the table to `output`, if given, and print the summary, if there is one.
 
-    The table is printed if there is no file and no summary, or if writing fails.
+    Print the table if there is neither an output file nor a summary, or if the file cannot be written.
     """
     failed = None
     try:
