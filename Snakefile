@@ -1,3 +1,4 @@
-# Let `snakemake` find the pipeline. The directive `include:` would not take over the default target.
+# Let `snakemake` find the pipeline. The method `include` is used, because the directive `include:` would not take over
+# the default target.
 
 workflow.include("workflow/Snakefile", overwrite_default_target=True)

@@ -1,4 +1,5 @@
-# Measure accuracy, speed and failures of each method. Timings use all cores, so that they run alone.
+# Measure accuracy, speed and failures of each method. A job that measures times claims all cores, so that no other job
+# runs at the same time.
 
 ACCURACY = config["accuracy"]
 # Full effort means longer timings, and every method on every stress test.

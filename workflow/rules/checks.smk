@@ -1,7 +1,8 @@
 # Compare figures with the reference set in figures/. Only `make accept` changes the set.
 
 
-# Without output files, this rule always runs. With STRICT=1, figures that are not comparable fail.
+# This rule has no output files, so that it always runs. If STRICT=1 is set, a figure that cannot be compared with its
+# reference also counts as failed.
 rule figure_check:
     input:
         [getattr(rules, name).output for name in (*config["figures"], *CHARTS)],

@@ -49,7 +49,7 @@ STUDIES = (ROOT / "workflow/rules/studies").is_dir()
 
 
 CONFIG_FILES = [f"config/{name}.yaml" for name in ("config", "studies")[: 1 + STUDIES]]
-# Read each file from the working directory or, if missing there, from the checkout.
+# Read each config file from the working directory. If the file is missing there, read the file of the checkout.
 FOUND = [path if Path(path).is_file() else checkout_path(path) for path in CONFIG_FILES]
 
 

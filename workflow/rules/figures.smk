@@ -1,7 +1,7 @@
-# Each figure of the chapter has a rule and a module (in src/vibroimpact/figures) of its name.
+# Each figure of the chapter has a rule of the same name, and a module of the same name in src/vibroimpact/figures.
 # `snakemake --cores 2 fig10_06` makes one figure and its inputs.
 
-# Config entry of each figure by name; the rules of the studies add further figures.
+# SCENES contains the config entry of each figure, keyed by name. The rules of the studies add further figures.
 SCENES = dict(config["figures"])
 
 POINTS = {"points": "results/fixed_points/{case}.csv"}
@@ -9,7 +9,7 @@ MOTION = {
     "samples": "results/simulations/{case}/{model}/samples.csv",
     "events": "results/simulations/{case}/{model}/events.csv",
 }
-# READ contains results that a notebook reads in addition to the files of its figure.
+# READ lists, for each notebook, the results that the notebook reads in addition to the files of its figure.
 ORBITS = {"orbits": "results/orbits/{case}.csv"}
 READ = {
     "fixed_points": POINTS | ORBITS,
@@ -110,7 +110,7 @@ use rule fig10_01 as fig10_11 with:
         **scene("fig10_11"),
 
 
-# Figures of your own, each drawn like a figure of the chapter.
+# The config can define further figures. Each of these figures is drawn like a figure of the chapter.
 for figure in (name for name, own_scene in config["figures"].items() if "like" in own_scene):
 
     rule:
@@ -127,7 +127,7 @@ for figure in (name for name, own_scene in config["figures"].items() if "like" i
             "../scripts/figure.py"
 
 
-# Names of figures with captions; the rules of the studies add further names.
+# ALL_FIGURES lists the figures that have a caption. The rules of the studies add further figures.
 ALL_FIGURES = list(config["figures"])
 
 if STUDIES:
@@ -138,7 +138,7 @@ if STUDIES:
 config["captions"] = {name: words["caption"] for name, words in SPECS.items()}
 config["captions"] |= {figure: caption(figure) for figure in ALL_FIGURES}
 
-# One job executes a notebook once for each figure that the notebook explains.
+# Each notebook has one job. The job executes the notebook once for each figure that the notebook explains.
 for path in sorted((ROOT / "notebooks").rglob("*.ipynb")):
     notebook = path.relative_to(ROOT).as_posix()
     shown = [figure for figure in SCENES if spec(figure).get("notebook") == path.stem]

@@ -1,4 +1,5 @@
-# Compute fixed points of the slow flow (10.23) and exact 1:1 responses of each case.
+# Compute fixed points of the slow flow (10.23) and exact 1:1 responses of each case. A 1:1 response has one impact at
+# each wall per forcing period.
 
 
 rule fixed_points:

@@ -17,7 +17,8 @@ from vibroimpact.system.state import KINDS, NAMES
 def summarise(simulated: Window, settings: dict) -> dict:
     """Return a summary of the window after the transient.
 
-    The summary contains the largest change of a coordinate over n cycles, for n up to 4.
+    The summary contains the time span of the window, the numbers of events and the final state. For each n from 1 to at
+    most 4, it also contains the largest change of a coordinate over n cycles.
     """
     events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {

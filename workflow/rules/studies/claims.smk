@@ -1,4 +1,4 @@
-# Judge the claims of the chapter. With other parameters or settings, claims are not judged.
+# Judge the claims of the chapter. If the config changes the parameters or settings of the claims, no claim is judged.
 
 from vibroimpact_pipeline.studies.claims_config import reason_not_judged
 

@@ -4,13 +4,13 @@
 include: "common.smk"
 
 
-# The function `compute` of each figure has these arguments:
-# - case: the system of a case. The config entry at this path names the case.
-# - systems: the systems of all cases, if True.
-# - settings: the config entries at these paths. An argument has the name of the last key. * stands for all keys except
-#   `case`.
-# - inputs: the tables at these paths.
-# A figure is omitted if the config lacks one of these entries or an entry in `needs`.
+# The keys of a figure select the arguments of its function `compute`:
+# - case: path of the config entry that names a case. The system of this case is an argument.
+# - systems: If True, the systems of all cases are an argument.
+# - settings: paths of config entries. Each entry is an argument with the name of the last key in its path. A * at the
+#   end of a path stands for all keys except `case`.
+# - inputs: paths of tables. Each table is an argument.
+# A figure is omitted if the config lacks one of these entries, or an entry whose path is in `needs`.
 COMPANIONS = {
     "companion_10_08": {
         "case": "figures.fig10_08.case",

@@ -1,4 +1,4 @@
-# Prove lists of fixed points and orbits complete, judge stability, and measure modulation.
+# Prove that lists of fixed points and orbits are complete, judge stability, and measure modulation.
 
 
 rule proofs:
@@ -25,7 +25,7 @@ rule verdict_grid:
         "../../scripts/studies/verdict_grid.py"
 
 
-# Measures of modulation, and Lyapunov spectra, for every case.
+# Compute measures of modulation and Lyapunov spectra for every case.
 rule modulation:
     output:
         measures="results/regimes/modulation.csv",
@@ -39,7 +39,7 @@ rule modulation:
         "../../scripts/studies/modulation.py"
 
 
-# Verdicts on the fixed points of all cases for decreasing epsilon.
+# Judge the stability of the fixed points of all cases for decreasing epsilon.
 rule verdicts_by_epsilon:
     output:
         csv="results/verdicts_by_epsilon.csv",

@@ -5,7 +5,7 @@ from vibroimpact.studies.sweeps.cost import points, tiles
 SWEEPS = config.get("sweeps", {})
 
 
-# `--set-scatter NAME=8` overrides the number of tiles that follows from the predicted cost.
+# The number of tiles follows from the predicted cost. The option `--set-scatter NAME=8` overrides this number.
 scattergather:
     **{name: tiles(sweep_request(sweep), config["tile_seconds"]) for name, sweep in SWEEPS.items()},
 
@@ -55,7 +55,7 @@ for name, sweep in SWEEPS.items():
             "../../scripts/figure.py"
 
 
-# A figure for each sweep that no companion figure draws.
+# Draw a figure for each sweep that no companion figure draws.
 rule sweeps:
     input:
         [

@@ -1,7 +1,8 @@
 """Write proofs on the fixed points and orbits of all cases as JSON.
 
-Interval arithmetic proves the lists of fixed points and of symmetric orbits complete. The list of asymmetric orbits has
-no proof. If many Newton starts reach every orbit, a missed orbit is unlikely.
+Interval arithmetic proves that the lists of fixed points and of symmetric orbits are complete. The list of asymmetric
+orbits has no proof. The search for these orbits counts the starts of Newton's method that led to each orbit. If many
+starts led to each orbit in the list, it is unlikely that an orbit was missed.
 """
 
 import dataclasses

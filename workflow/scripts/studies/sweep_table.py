@@ -1,4 +1,7 @@
-"""Join the tables of all tiles (parts of a sweep, one job each); write CSV, and NetCDF on the grid of the axes."""
+"""Join the tables of all tiles (parts of a sweep, one job each), and write the result as CSV and as NetCDF.
+
+The NetCDF file has one dimension per axis of the sweep.
+"""
 
 import sys
 

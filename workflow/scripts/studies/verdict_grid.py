@@ -1,4 +1,4 @@
-"""Write a CSV table of the verdicts on all fixed points, on a grid of forcing amplitudes for several epsilon."""
+"""Write the verdicts on all fixed points as CSV, on a grid of forcing amplitudes and for several values of epsilon."""
 
 from vibroimpact_pipeline.jobs import running
 

@@ -1,4 +1,4 @@
-"""Write a CSV table of the verdicts on the fixed points of all cases, for several epsilon."""
+"""Write a CSV table of the verdicts on the fixed points of all cases, for several values of epsilon."""
 
 from vibroimpact_pipeline.jobs import running
 
