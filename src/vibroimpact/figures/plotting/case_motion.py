@@ -22,9 +22,10 @@ AS_ASYMMETRIC = "as in no motion of the chapter's theory"
 
 
 def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Return samples and events of the motion of a case, from the files in `inputs` or, without files, simulated.
+    """Return samples and events of the motion of a case.
 
-    Files of another case, other parameters or other settings raise ValueError.
+    Read the samples and events from the files in `inputs`. If `inputs` is empty, simulate the motion. Raise ValueError
+    if the files belong to another case, to other parameters or to other settings.
     """
     if inputs:
         summary = json.loads(Path(inputs["summary"]).read_text(encoding="utf-8"))
@@ -42,10 +43,10 @@ def simulated(case: str, parameters: dict, settings: dict, inputs: dict) -> tupl
 
 
 def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -> str:
-    """Return a text in Markdown on whether a simulated motion repeats, and on its flight times.
+    """Return a text in Markdown on whether a simulated motion repeats, and on the flight times of its balls.
 
-    displacements: in the window, (n, 4), with `per_cycle` samples per forcing period. impacts: in the window, columns
-    tau, module, wall.
+    displacements: boxes and balls at the sample times, shape (n, 4). per_cycle: number of samples per forcing period.
+    impacts: table of the impacts, with columns tau, module, wall. period: forcing period.
     """
     mirror = mirror_distance(displacements, per_cycle)
     kind = f"symmetric, {AS_SYMMETRIC}" if mirror <= SETTLED else f"**asymmetric**, {AS_ASYMMETRIC}"
@@ -60,7 +61,11 @@ def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -
 
 
 def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, float]]:
-    """Return module and mean flight times [periods] from walls +1 and -1 of each ball that leaves both walls."""
+    """Return the mean flight times of each ball that leaves both walls.
+
+    A tuple contains the module, the mean duration of flights from wall +1, and that of flights from wall -1. Durations
+    are in forcing periods.
+    """
     found = []
     for module, mine in impacts.groupby("module"):
         flown = mine["tau"].diff().shift(-1).groupby(mine["wall"]).mean() / period
@@ -70,7 +75,11 @@ def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, floa
 
 
 def repetition(displacements, per_cycle: int) -> str:
-    """Return a phrase on how many periods a motion takes to repeat, and on its largest change until then."""
+    """Return a phrase on how many forcing periods a motion takes to repeat.
+
+    The phrase also gives the largest change of a displacement over this number of periods. If the motion does not
+    even nearly repeat, the phrase gives the largest change over one period.
+    """
     longest = max(1, (len(displacements) - 1) // (2 * per_cycle))
     changes = {lag: distance_after(displacements, per_cycle, lag) for lag in range(1, longest + 1)}
     settled, near = (next((n for n in changes if changes[n] <= limit), None) for limit in (SETTLED, NEAR))

@@ -20,9 +20,10 @@ HINT = "set inputs = {} to compute from the parameters of the notebook"
 
 
 def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
-    """Return the fixed points of a case, computed or, if `inputs` is given, read from inputs["points"].
+    """Return the fixed points of a case.
 
-    A file with another case or other points raises ValueError.
+    Read the points from the file inputs["points"]. If `inputs` is empty, compute the points. Raise ValueError if the
+    file contains another case, or points that are not the fixed points of the system.
     """
     computed = fixed_point_table(case, system)
     if not inputs:
@@ -33,10 +34,14 @@ def fixed_points(case: str, system, inputs: dict) -> pd.DataFrame:
 
 
 def verdicts(case: str, system, points: pd.DataFrame, inputs: dict) -> pd.DataFrame:
-    """Return the verdicts of all criteria on each fixed point, computed or, if `inputs` is given, read from files.
+    """Return the verdicts of all criteria on each fixed point.
 
-    Columns are those of `fixed_point_rows`, and largest multiplier (in modulus, of the exact orbit next to the point).
-    A file with another case or other points raises ValueError.
+    Read the verdicts from the files inputs["points"] and inputs["orbits"]. If `inputs` is empty, compute the verdicts.
+
+    The table has the columns of `fixed_point_rows` and the column "largest multiplier". This column contains the
+    largest modulus of the Floquet multipliers of the exact orbit next to the fixed point.
+
+    Raise ValueError if the file inputs["points"] contains another case or other points.
     """
     if inputs:
         orbits, given = tables.read(inputs["orbits"]), tables.read(inputs["points"])
@@ -67,7 +72,10 @@ def why(verdicts: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(verdicts: pd.DataFrame) -> str:
-    """Return a sentence on the Floquet verdict on each fixed point, from the columns label, orbit and exact."""
+    """Return a sentence in Markdown with the verdict of the Floquet multipliers on each fixed point.
+
+    The function uses the columns label, orbit and exact of `verdicts`.
+    """
     if verdicts.empty:
         return f"{EXACTLY} the theory has no fixed point here that it could confirm or refute."
     said = []

@@ -15,7 +15,7 @@ HATCH = 1.5
 
 
 def sheet(width: float, height: float) -> tuple[Figure, object]:
-    """Return a figure with one bare set of axes, measured in mm from the lower left corner."""
+    """Return a figure and its only axes, without frame; coordinates are in mm from the lower left corner."""
     figure = new_figure(width, height, layout=None)
     axes = figure.add_axes((0, 0, 1, 1), xlim=(0, width), ylim=(0, height))
     axes.set_axis_off()

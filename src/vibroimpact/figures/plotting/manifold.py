@@ -12,10 +12,10 @@ BRANCHES = {"SIM unstable": UNSTABLE, "SIM stable": STABLE}
 
 
 def branches(panel: str, kappa: float, C_max: float) -> list[pd.DataFrame]:
-    """Return the unstable and the stable branch of B(C), (10.16), for 0 <= C <= C_max, by (10.26).
+    """Return the unstable and the stable branch of the manifold B(C), (10.16), for 0 <= C <= C_max.
 
-    Both branches contain their common point, the stable branch also the fold C_min of (10.25). C_max must be above
-    C_min.
+    The branches meet at the limit of (10.26). Both branches contain this point. The stable branch also contains the
+    fold, which is at C = C_min of (10.25). Raise ValueError if C_max is not above C_min.
     """
     r = rho(kappa)
     limit, fold = printed_limit(r), C_min(r)
@@ -30,7 +30,7 @@ def branches(panel: str, kappa: float, C_max: float) -> list[pd.DataFrame]:
 
 
 def draw_branches(axes, table: pd.DataFrame, panel: str) -> None:
-    """Draw both branches of one panel: stable bold solid, unstable dashed."""
+    """Draw both branches of one panel: a bold solid line for the stable branch, a dashed line for the unstable one."""
     for series, style in BRANCHES.items():
         branch = select(table, panel, series)
         axes.plot(branch["C"], branch["B"], **style, label=series.removeprefix("SIM "))

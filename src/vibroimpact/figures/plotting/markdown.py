@@ -34,8 +34,8 @@ WORDS = {"None": "–", "nan": "–", "inf": "∞", "True": "yes", "False": "no"
 def digits(value, number: int = 3) -> str:
     """Return a value as text; numbers have `number` significant digits.
 
-    Nonzero numbers of modulus below 1e-4 or from 1e6 on are written with a power of ten. WORDS contains the texts for
-    None and other values.
+    Numbers are written with a power of ten if their modulus is at least 1e6, or below 1e-4 and not 0. The texts in
+    WORDS replace None, NaN, infinity, True and False.
     """
     try:
         value = float(value) if isinstance(value, str) else value

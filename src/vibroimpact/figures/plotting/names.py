@@ -30,7 +30,8 @@ def name_curves(figure, panels: dict, **style) -> None:
     Parameters
     ----------
     panels : dict
-        For each axes, a list of pairs: the name of a curve, and the Line2D that show the curve.
+        The keys are axes, and the values are lists of pairs. A pair contains the name of a curve, and a list of the
+        Line2D objects that draw this curve.
     style
         Text properties of the names.
     """
@@ -77,8 +78,8 @@ class _Names:
     def _place(self, half, own, others):
         """Return the centre of a name near its curve, and both ends of the leader line from the name to the curve.
 
-        half: half the width and height of the name. own, others: discs that cover the curve, and the other named
-        curves.
+        half: half the width and half the height of the name, shape (2,). own: discs that cover the curve. others:
+        discs that cover all other named curves. Discs are rows of `_outline`.
         """
         frame, margin = self.axes.get_window_extent(), half + GAP * self.point
         x = np.arange(frame.x0 + margin[0], frame.x1 - margin[0], STEP * self.point)
@@ -110,9 +111,9 @@ class _Names:
 
 
 def _outline(line, point):
-    """Return discs that cover a line and its markers: centre x, centre y and radius in pixels, (n, 3).
+    """Return discs that cover a line and its markers, shape (n, 3).
 
-    point: pixels per typographic point.
+    The columns are centre x, centre y and radius in pixels. point: length of a typographic point in pixels.
     """
     corners = line.get_transform().transform(line.get_xydata())
     corners = corners[np.isfinite(corners).all(axis=1)]
@@ -126,6 +127,10 @@ def _outline(line, point):
 
 
 def _gaps(place, half, points):
-    """Return the distances of the discs `points` (n, 3) from a rectangle with centre `place` and half-size `half`."""
+    """Return the distances of discs from a rectangle.
+
+    place: centre of the rectangle. half: half the width and half the height of the rectangle. points: discs as in
+    `_outline`, shape (n, 3).
+    """
     apart = np.maximum(np.abs(points[:, :2] - place) - half, 0.0)
     return np.hypot(apart[..., 0], apart[..., 1]) - points[:, 2]

@@ -12,7 +12,8 @@ OF_ALL = ("figure", "alt", "case", "inputs")
 def refuse_unknown(shell, known) -> None:
     """Raise ValueError if a parameter cell of a notebook assigns an unknown name.
 
-    shell: the running IPython. known: parameters of this notebook, without those of all notebooks.
+    shell: running IPython shell. known: names of the parameters of this notebook, without the names in OF_ALL, which
+    all notebooks have.
     """
     cells = shell.user_ns["In"]
     last = max(number for number, source in enumerate(cells) if source.startswith(FIRST))

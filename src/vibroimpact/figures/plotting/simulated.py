@@ -45,12 +45,14 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame
 def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
     """Return statistics of the amplitudes of each box.
 
-    An amplitude is half the peak-to-peak displacement in one forcing period. A modulation period is the time from one
-    swell of the amplitude to the next.
+    Each forcing period has one amplitude: half the peak-to-peak displacement of the box. A swell of the amplitude is a
+    rise from low to high values (`exact.measures.modulation.swells`). A modulation period is the time from one swell to
+    the next.
 
-    Returns columns displacement ("X1", "X2"), smallest amplitude, largest amplitude, amplitude variation (standard
-    deviation divided by mean), modulation periods (their number), mean length in cycles (mean modulation period in
-    forcing cycles, or NaN).
+    Returns the following columns. displacement: "X1" or "X2". smallest amplitude, largest amplitude: extremes over all
+    forcing periods. amplitude variation: standard deviation of the amplitudes, divided by their mean. modulation
+    periods: number of modulation periods. mean length in cycles: mean length of the modulation periods in forcing
+    periods, NaN without modulation periods.
     """
     per_cycle = samples_per_cycle(samples["tau"].to_numpy(), system.period)
     amplitudes = {name: modulation.cycle_amplitudes(samples[name], per_cycle) for name in ("X1", "X2")}
@@ -70,9 +72,9 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
 
 @styled
 def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
-    """Draw the table of `compute`: X_2 in panel a, and W_2 with its walls in panel b below.
+    """Draw the table of `compute`: X_2 in panel a, and below it W_2 with the walls in panel b.
 
-    shaded: time intervals with a grey background [forcing cycles], (n, 2).
+    shaded: time intervals that get a grey background, in forcing periods, shape (n, 2).
     """
     figure = new_figure(SINGLE_COLUMN, 80.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True)
@@ -95,7 +97,10 @@ def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
 
 
 def without_resonance(table: pd.DataFrame) -> np.ndarray:
-    """Return the time intervals in which ball 2 does not reach the opposite wall within a cycle [cycles], (n, 2)."""
+    """Return the time intervals without resonance in forcing periods, shape (n, 2).
+
+    In such an interval, ball 2 needs more than one forcing period to reach the opposite wall.
+    """
     motion = select(table, "b", "W_2")
     time, wall = motion.loc[motion["value"].abs() == 1, ["cycle", "value"]].to_numpy().T
     reached = time[np.diff(wall, prepend=0) != 0]

@@ -57,7 +57,7 @@ def heading(axes, letter: str = "", words: str = "") -> None:
 
 
 def time_plot(axes, lines, walls: bool = True) -> None:
-    """Draw lines over time, each given as (times, values, style), and the walls W = +-1."""
+    """Draw lines over time, each given as (times, values, style), and if `walls` is True, the walls W = +-1."""
     for wall in (-1.0, 1.0) if walls else ():
         axes.axhline(wall, color=BLACK, linewidth=0.4, zorder=0)
     for time, values, style in lines:
@@ -80,23 +80,26 @@ def png(figure: Figure) -> bytes:
 
 @styled
 def save(figure: Figure, outputs: dict) -> None:
-    """Write a figure to outputs["png"], ["pdf"] and ["svg"], if present, all with the layout of the first file.
+    """Write a figure to the files outputs["png"], outputs["pdf"] and outputs["svg"].
 
-    Package versions are written to outputs["provenance"], if present.
+    All files have the same layout. If `outputs` has the key "provenance", the package versions are written to this
+    file. A file whose key is missing is not written.
     """
-    # The order is fixed, since earlier drawing changes the last digits of the axes' positions.
+    # The order of the files is fixed, since each drawing can change the last digits of the positions of the axes.
     for kind in (kind for kind in _METADATA if kind in outputs):
         figure.savefig(outputs[kind], format=kind, metadata=_METADATA[kind])
-        figure.set_layout_engine(None)  # one layout for all files; a layout engine would draw each file twice
+        figure.set_layout_engine(None)  # with a layout engine, each further file would be drawn twice
     if "provenance" in outputs:
         versions = json.dumps({"versions": recorded_versions()})
         Path(outputs["provenance"]).write_text(versions, encoding="utf-8")
 
 
 def draw_tables(figure, read: dict) -> Figure:
-    """Draw a figure (given as its Python module) from its tables `read`, {name: DataFrame}.
+    """Draw a figure from its tables.
 
-    `figure.draw` gets one table if "csv" is the only one, else `read`; without tables it gets no argument.
+    figure: Python module of the figure. read: data frames of the tables, keyed by the names of the tables. If the
+    figure has only the table "csv", `figure.draw` gets this table. If the figure has other tables, `figure.draw` gets
+    `read`. If the figure has no tables, `figure.draw` gets no argument.
     """
     if not read:
         return figure.draw()
@@ -107,8 +110,8 @@ def draw_tables(figure, read: dict) -> Figure:
 def write_and_draw(figure, computed, outputs: dict) -> None:
     """Write the tables of a figure to files, and draw the figure from the tables as written.
 
-    figure: Python module of the figure. computed: result of its `compute`. outputs: paths, by the name of a table or by
-    a key of `save`. Tables without a path are not written.
+    figure: Python module of the figure. computed: result of `figure.compute`. outputs: paths of the files to write. The
+    keys are the names of the tables and the keys of `save`, such as "png". A table without a path is not written.
     """
     drawn = _by_name(computed)
     for name in drawn.keys() & outputs.keys():
@@ -118,10 +121,13 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
 
 
 def shown(figure, inputs: dict, *args, **settings) -> tuple:
-    """Return the tables of a figure, as `compute` returns them, and its PNG (a path or the bytes).
+    """Return the tables of a figure, in the form in which `figure.compute` returns them, and the PNG of the figure.
 
-    figure: Python module of the figure. inputs: paths of the tables by name, and path of the PNG by "png". If `inputs`
-    is empty, the figure is computed and drawn.
+    figure: Python module of the figure. inputs: paths of the tables, keyed by the names of the tables, and path of the
+    PNG, keyed "png". args, settings: arguments of `figure.compute`.
+
+    The tables are read from their paths, and the path of the PNG is returned. If `inputs` is empty, the figure is
+    computed and drawn, and the bytes of the PNG are returned.
     """
     if not inputs:
         computed = figure.compute(*args, **settings)

@@ -1,4 +1,4 @@
-"""Return the package versions on which the pixels of a picture depend, and those recorded with a figure."""
+"""Return versions of packages: those that determine the pixels of a picture, and those recorded with a figure."""
 
 import platform
 from importlib.metadata import version
