@@ -31,7 +31,7 @@ def compute() -> dict:
 
 @styled
 def draw() -> Figure:
-    """Draw one module; the ball touches a wall where |x - y| = L."""
+    """Draw one module; its ball (at y) touches a wall of its box (at x) where |x - y| = L."""
     figure, axes = drawing.sheet(WIDTH, HEIGHT)
     drawing.body(axes, CENTRE - 0.5 * BOX_WIDTH, BOTTOM, BOX_WIDTH, BOX_HEIGHT)
     length = 2 * (L + RADIUS)

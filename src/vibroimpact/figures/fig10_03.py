@@ -31,11 +31,11 @@ SPEC = {
 
 
 def compute(amplitude: float, theta: float, tau0_max: float) -> pd.DataFrame:
-    """Return the saw-tooth Z(tau_0) of (10.11) and its impacts on [0, tau0_max].
+    """Return the saw-tooth Z(tau_0) of (10.11) on [0, tau0_max], and the impacts, which are at the corners of Z.
 
-    amplitude is the constant C, and theta the constant phase [rad].
+    amplitude: constant C of (10.11). theta: constant phase of (10.11) [rad].
 
-    Returns columns panel, series ("Z" or "impacts"), tau0, Z. The points of Z include its corners.
+    Returns columns panel, series ("Z" or "impacts"), tau0, Z. The points of the series "Z" include the corners.
 
     Raises
     ------
@@ -65,7 +65,10 @@ def key_points(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def exact(amplitude: float, theta: float, tau0_max: float) -> str:
-    """Return a text in Markdown on Z in exact motions; arguments as in `compute`."""
+    """Return a text in Markdown on the shape of Z in exact motions of the system.
+
+    The arguments are those of `compute`.
+    """
     return (
         f"{EXACTLY} between its impacts a ball flies freely, so that $Z = W - U = -(1 + \\varepsilon)Y$ consists of "
         "straight lines there, too. Its corners are half a period apart only in symmetric motions."

@@ -37,12 +37,13 @@ INSET = (0.335, 0.43, 0.31, 0.38)
 def compute(kappa: float, C_max: float) -> pd.DataFrame:
     """Return the manifold B(C), (10.16), for 0 <= C <= C_max, and the level B_min of its fold, (10.25).
 
-    Returns columns panel, series ("SIM stable" and "SIM unstable" by (10.26), "B_min"), C, B.
+    Returns columns panel, series, C, B. The series are "SIM stable", "SIM unstable" and "B_min". The
+    condition (10.26) decides which branch of the manifold is stable.
 
     Raises
     ------
     ValueError
-        If C_max is not above the fold C_min.
+        If C_max is not above C_min, the value of C at the fold.
     """
     level = curve("SIM", "B_min", C=[0.0, C_max], B=B_min(rho(kappa)))
     return join([*branches("SIM", kappa, C_max), level])

@@ -31,9 +31,12 @@ REGIONS = {"stable": LIGHT_GREY, "unstable": "white"}
 
 
 def compute(C_range: tuple[float, float]) -> pd.DataFrame:
-    """Return the stable and unstable regions by (10.26) and the fold C_min(kappa), (10.25), for C in C_range.
+    """Return the stable and unstable regions of the plane (kappa, C), and the fold C_min(kappa) of (10.25).
 
-    Returns columns panel, series, kappa (0 to 1), C; the series "stable" and "unstable" are outlines of the regions.
+    The regions are those of (10.26) for 0 <= kappa <= 1 and for C in C_range.
+
+    Returns columns panel, series, kappa, C. The series "stable" and "unstable" are the outlines of the regions. The
+    series "C_min" is the fold.
 
     Raises
     ------
@@ -57,7 +60,10 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
 
 
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the limit (10.26) of C, C_min and their difference at six evenly spaced kappa."""
+    """Return a table with one row for each of six evenly spaced kappa.
+
+    The columns are kappa, the limit of C by (10.26), C_min, and C_min minus the limit.
+    """
     fold = select(table, "regions", "C_min")["C"].to_numpy()
     border = select(table, "regions", "stable").iloc[: len(fold)]
     rows = np.linspace(0, len(fold) - 1, 6).astype(int)

@@ -74,18 +74,20 @@ MARKERS = {
 
 
 def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd.DataFrame:
-    """Return the manifold, fixed points P_i and singular points S_i of (10.24) on the planes (C_1, B_1) and (C_2, B_2).
+    """Return the manifold with points P_i and S_i on the planes (C_1, B_1) and (C_2, B_2).
+
+    The points P_i are projections of the fixed points. The singular points S_i solve (10.24).
 
     Parameters
     ----------
     points : DataFrame
         Fixed points of the case, columns label, C1, C2, B1, B2, psi1, psi2.
     model : str, default 'slow_flow'
-        With exact_orbit, P_i and S_i belong to the exact orbits next to the fixed points. Fixed points without such an
-        orbit are left out.
+        slow_flow or exact_orbit. With exact_orbit, P_i and S_i are computed from the exact orbits next to the fixed
+        points. A fixed point without an exact orbit next to it is left out.
     C_max
-        Largest C_i of the planes, one number or one per module. If 1.1 times the largest C_i of a fixed point is
-        larger, the planes end there.
+        One number, or one number per module. The axis C_i ends at C_max or at 1.1 times the largest C_i of all fixed
+        points, whichever is larger.
 
     Returns columns panel (label and module, such as "a1"), series, C, B. The series are "SIM stable", "SIM unstable",
     "P_i", "S_i", and "S_i beyond" for singular points outside the planes. Without fixed points the planes show the
@@ -101,7 +103,10 @@ def compute(system, points: pd.DataFrame, C_max, model: str = "slow_flow") -> pd
 
 
 def planes(system, points, C_max) -> list[pd.DataFrame]:
-    """Return the tables of `compute`, one per curve or set of points in a plane."""
+    """Return the table of `compute` in parts.
+
+    Each part is one curve, or one set of points, in one plane.
+    """
     ends = np.fmax.reduce([np.broadcast_to(C_max, 2), *(1.1 * point.C for point in points)])
     if not points:
         return [branch for i in MODULES for branch in branches(str(i), system.kappa, ends[i - 1])]
@@ -130,7 +135,8 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
     Parameters
     ----------
     chapter : dict, optional
-        The chapter's verdicts by label; headings show them where (10.26) differs.
+        Verdict of the chapter on each fixed point, keyed by the label of the point. The heading of a fixed point shows
+        the chapter's verdict if (10.26) gives another verdict.
     """
     labels = list(dict.fromkeys(panel[:-1] for panel in table["panel"]))
     figure = new_figure(SINGLE_COLUMN, ROW_HEIGHT * len(labels) + MARGINS)
@@ -147,7 +153,7 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
                 corner = {"textcoords": "offset points", "ha": "right", "va": "bottom", "linespacing": 0.9}
                 axes.annotate(outside, (1, 0), (-4, 3), "axes fraction", **corner, **NAME)
     for axes, module in zip(grid[0], MODULES, strict=True):
-        axes.set_title(f"module {module}\n", pad=4)  # one line above the heading of the row
+        axes.set_title(f"module {module}\n", pad=4)  # the line break puts this title above the heading of the row
     for axes, module in zip(grid[-1], MODULES, strict=True):
         axes.set_xlabel(f"$C_{module}$")
     handles = [Line2D([], [], linestyle="none", **MARKERS[kind]) for kind in "PS"]
@@ -160,7 +166,8 @@ def draw(table: pd.DataFrame, chapter: dict[str, str] | None = None) -> Figure:
 def verdict(table: pd.DataFrame, label: str) -> str:
     """Return the verdict of (10.26) on a fixed point, or "" if `table` does not contain the point.
 
-    A "stable" point lies on the stable branch in the plane of each active module.
+    The verdict is "stable" if P_i lies on the stable branch for each active module, else "unstable". A module is active
+    if a force drives it.
     """
     beyond = [
         select(table, f"{label}{module}", "SIM stable")["C"].min() < C
@@ -183,7 +190,10 @@ def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
-    """Draw the plane (C_i, B_i) of one panel; return entries for the argument `panels` of `name_curves`."""
+    """Draw the plane (C_i, B_i) of one panel, and return the points to be named.
+
+    The result is a part of the argument `panels` of `name_curves`.
+    """
     module = panel[-1]
     end = select(table, panel, "SIM stable")["C"].iloc[-1]
     top = table["B"][table["series"].str.startswith("SIM")].max()

@@ -50,7 +50,7 @@ COORDINATES = {
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, model: str = "slow_flow") -> pd.DataFrame:
-    """Return U_i, X_i, W_i and Y_i of both modules over some forcing periods, by (10.9), (10.10) or another model.
+    """Return U_i, X_i, W_i and Y_i of both modules at a fixed point, over `periods` forcing periods from tau = 0.
 
     Parameters
     ----------
@@ -59,9 +59,10 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
     fixed_point : str
         Label of the fixed point.
     model : str, default 'slow_flow'
-        slow_flow, exact_orbit or second_term; see `vibroimpact.accuracy.model_choice`.
+        slow_flow (leading order, (10.9) and (10.10)), exact_orbit or second_term. `vibroimpact.accuracy.model_choice`
+        describes the models.
 
-    Returns columns panel ("module 1", "module 2"), series ("U_1", ...), tau, value. The points include the impacts.
+    Returns columns panel ("module 1", "module 2"), series ("U_1", ...), tau, value. The times tau include the impacts.
 
     Raises
     ------
@@ -73,7 +74,7 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
     shown = motion(system, points, fixed_point, model)
     period, end, curves = system.period, periods * system.period, []
     for module, first in zip(MODULES, shown.impacts, strict=True):
-        # There is an impact every half period; `first` is NaN if there are no impacts.
+        # The ball hits a wall every half period. If the module is inactive, `first` is NaN.
         impacts = np.arange(first - period, end, 0.5 * period) if np.isfinite(first) else np.empty(0)
         tau = np.union1d(np.linspace(0.0, end, 401), impacts[impacts >= 0])
         response = shown.response(tau)
@@ -99,7 +100,10 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def draw_response(axes, table: pd.DataFrame, module: int) -> dict:
-    """Draw the coordinates and walls of one module over tau, and return the argument `panels` of `name_curves`."""
+    """Draw the coordinates and walls of one module over tau, and return the curves to be named.
+
+    The result is a part of the argument `panels` of `name_curves`.
+    """
     lines = {name: select(table, f"module {module}", f"{name}_{module}") for name in COORDINATES}
     time_plot(axes, [(line["tau"], line["value"], COORDINATES[name]) for name, line in lines.items()])
     axes.set_ylabel(f"box $X_{module}$, ball $Y_{module}$")

@@ -34,7 +34,8 @@ PLACE_OF_B = {"b1": 0.957, "b2": 1.665}
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the table of `compute` as in figure 10.6.
 
-    At the chapter's parameters, headings also show the chapter's verdicts where (10.26) differs.
+    At the chapter's parameters, the heading of a fixed point also shows the chapter's verdict if (10.26) gives another
+    verdict.
     """
     found = [abs(select(table, plane, f"P_{plane[1]}")["C"] - C) < 1e-3 for plane, C in PLACE_OF_B.items()]
     return fig10_06.draw(table, CHAPTER if all(len(near) and near.all() for near in found) else {})

@@ -35,7 +35,13 @@ def compute(
 ) -> pd.DataFrame:
     """Return the planes of figure 10.6 and the response of figure 10.7 for one fixed point.
 
-    Returns columns panel, series, C, B, tau, value. Exceptions are those of both figures.
+    Returns columns panel, series, C, B, tau, value. The planes have values of C and B, the response has values of tau
+    and value.
+
+    Raises
+    ------
+    ValueError
+        If `fig10_06.compute` or `fig10_07.compute` raises it.
     """
     point = motion(system, points, fixed_point, model).point
     return join(

@@ -46,10 +46,16 @@ SPEC = {
 
 
 def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """Return the motion as in figure 10.8, keyed "csv", and its amplitude statistics, keyed "statistics"."""
+    """Return two tables: the motion as in figure 10.8, and statistics of the amplitudes of both boxes.
+
+    The keys of the tables are "csv" and "statistics".
+    """
     return {"csv": simulated.compute(system, samples, events), "statistics": simulated.statistics(system, samples)}
 
 
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw the tables of `compute` as in figure 10.8, with grey shading in intervals without resonance."""
+    """Draw the tables of `compute` as in figure 10.8.
+
+    Grey shading marks intervals without resonance: ball 2 takes longer than a forcing period from wall to wall.
+    """
     return simulated.draw(tables["csv"], simulated.without_resonance(tables["csv"]))

@@ -37,7 +37,10 @@ DIGITS = range(2, 15)
 
 
 def compute() -> pd.DataFrame:
-    """Return the rows of `stress_tests.judge` for each method in LOOKS and each depth, with the columns in SPEC."""
+    """Return one row for each method in LOOKS and each depth of the grazing impact, with the columns in SPEC.
+
+    The errors in a row are computed by `stress_tests.judge`.
+    """
     system, methods = System(**CHAPTER), [method for method in METHODS if method.name in LOOKS]
     rows = [{"digits": digits} | row for digits in DIGITS for row in judge(grazing(system, -1, digits), methods)]
     table = pd.DataFrame(rows)[[name for names in SPEC["columns"] for name in names.split(", ")]]

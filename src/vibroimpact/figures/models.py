@@ -77,10 +77,11 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
     Parameters
     ----------
     scenes : dict
-        A dict per figure, keyed by its name. The keys of each dict are module and notebook (names), model (in use),
-        system (parameters), and settings (of the figure or of its simulation).
+        One dict per figure, keyed by the name of the figure. The dict of a figure has five keys: `module` (name of the
+        Python module), `notebook` (name of the notebook), `model` (name of the model in use), `system` (parameters) and
+        `settings` (of the figure or of the simulation).
     seconds : float
-        Time [s] for which each run is repeated.
+        Time [s] for which each run is repeated to measure the run time.
 
     Returns the columns of SPEC.
     """
@@ -94,7 +95,10 @@ def compute(scenes: dict, seconds: float) -> pd.DataFrame:
 
 
 def _motions(module, system, settings, models, seconds):
-    """Yield name, reference, error and run time [s] of each model of a figure of fixed points."""
+    """Yield one tuple per model: model, name of the reference, error [percent], run time [s].
+
+    module: Python module of a figure that shows fixed points or a theoretical response.
+    """
 
     def made(model):
         try:
@@ -109,16 +113,16 @@ def _motions(module, system, settings, models, seconds):
 
 
 def _simulations(module, system, settings, models, seconds):
-    """Return name, reference, error and run time [s] of each model of a simulated motion."""
+    """Return one tuple per model of a simulated motion: model, name of the reference, error [percent], run time [s]."""
     whole = window(system, settings | {"model": "float64"})
-    # Runs for the error start after the transient, which takes a minute in arbitrary precision.
+    # The compared runs start after the transient, since the transient takes a minute in arbitrary precision.
     part = settings | {"initial_state": whole.samples[list(NAMES)].iloc[0].tolist(), "transient_cycles": 0}
     part["window_cycles"] = min(part["window_cycles"], COMPARED)
     run = window(system, part | {"model": "float64"})
     ((_, fast),) = interleaved([lambda: window(system, settings | {"model": "float64"})], seconds)
     ((reference, slow),) = interleaved([lambda: window(system, part | {"model": "reference"})], seconds)
     if transient := settings["transient_cycles"]:
-        # The transient in arbitrary precision is estimated from the run time per period of a run with few samples.
+        # The run time of the transient in arbitrary precision is estimated from a run with few samples per period.
         few = part | {"model": "reference", "samples_per_cycle": 8}
         slow += interleaved([lambda: window(system, few)], seconds)[0][1] * transient / part["window_cycles"]
     chaotic = "horizon" in run.trust["certificate"]
@@ -132,9 +136,11 @@ def _simulations(module, system, settings, models, seconds):
 
 
 def largest_error(table, reference) -> float:
-    """Return the largest difference between the points P_i, or the curves, of two tables [percent of the range].
+    """Return the largest difference between two tables of a figure [percent].
 
-    Curves are compared at common times. The result is inf if a table is None, or if the points do not match.
+    The points P_i or the curves are compared; curves are compared at the times that are in both tables. A difference in
+    a column is divided by the range of the column in the same panel of `reference`. The result is inf if a table is
+    None, or if the tables contain different points P_i.
     """
     if table is None or reference is None:
         return np.inf
@@ -150,15 +156,19 @@ def largest_error(table, reference) -> float:
 
 
 def _plotted(table, column):
-    """Return the values to compare from one column, keyed by panel, series and, for curves, time."""
+    """Return the values of one column that `largest_error` compares, as a pandas Series.
+
+    The index is (panel, series) for the points P_i, and (panel, series, tau) for curves.
+    """
     rows = table[table["series"].str.startswith("P_")] if column != "value" else table.dropna(subset="value")
     return rows.set_index(["panel", "series", *(["tau"] if column == "value" else [])])[column]
 
 
 def burst_statistics(system, run: Window, reference: Window) -> np.ndarray:
-    """Return the share of time in bursts of ball 2, and smallest, mean and largest amplitude of X_2 [percent].
+    """Return four statistics of a run with bursts of resonance [percent].
 
-    Amplitudes are relative to the range of X_2 in `reference`.
+    The first is the share of the time in which ball 2 is in a burst. The other three are the smallest, mean and largest
+    amplitude of X_2, divided by the range of X_2 in `reference`. Each forcing period has one amplitude.
     """
     impacts = run.events[(run.events["module"] == 2) & (run.events["kind"] == "impact")]
     bursts = modulation.bursts(impacts["tau"], impacts["wall"], system.period)

@@ -53,7 +53,10 @@ LEFT, RIGHT = 27.0, 11.0
 
 
 def compute(full: bool) -> pd.DataFrame:
-    """Return the rows of `accuracy.stress_tests.judge` for all tests or, if `full` is False, for the reduced set."""
+    """Return one row per stress test and method, computed by `accuracy.stress_tests.judge`.
+
+    full: True for all tests, False for the quick tests only.
+    """
     chosen = [test for test in stress_tests() if full or test.quick]
     return pd.DataFrame([row for test in chosen for row in judge(test, METHODS)])
 

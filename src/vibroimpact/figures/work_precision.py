@@ -53,14 +53,17 @@ GUIDE = {"color": GREY, "linestyle": ":", "linewidth": 0.9, "zorder": 0}
 
 
 def compute(problems: dict, seconds: float, short: bool) -> pd.DataFrame:
-    """Return the rows of `accuracy.work_precision.measure` on all problems.
+    """Return one row per problem, method and setting, computed by `accuracy.work_precision.measure`.
 
     Parameters
     ----------
     problems : dict
-        By name, a dict with `system` (parameters by name), `initial_state` and `cycles`.
-    seconds, short
-        As in `measure`.
+        One dict per problem, keyed by the name of the problem. The dict of a problem has the keys `system` (parameters
+        by name), `initial_state` and `cycles`.
+    seconds : float
+        Time [s] for which the run with each setting is repeated.
+    short : bool
+        True to skip every second setting of a method.
     """
     starts = (
         Problem(name, System(**problem["system"]), tuple(problem["initial_state"]), problem["cycles"])
@@ -80,11 +83,12 @@ def draw(table: pd.DataFrame) -> Figure:
     for axes, problem, letter in zip(panels, problems, ascii_lowercase, strict=False):
         axes.set(xscale="log", yscale="log", xlim=(SMALLEST / 3, END), xlabel="error of the final state")
         axes.axvspan(LARGEST * 2, END, color=LIGHT_GREY, linewidth=0, zorder=0)
-        axes.axvline(LARGEST * 2, color=LIGHT_GREY)  # names avoid lines, so that none crosses the edge of the shading
+        axes.axvline(LARGEST * 2, color=LIGHT_GREY)  # names of curves avoid this line, the edge of the shading
         axes.vlines(GOALS, 0, 1, transform=axes.get_xaxis_transform(), **GUIDE)
         measured = drawn[(drawn["problem"] == problem) & drawn["seconds_per_cycle"].notna()]
         by_method = measured.groupby("method", sort=False)
-        # Methods without a result get their names first, since the grey lane of their markers has little room.
+        # `name_curves` writes names in this order. Methods without a result come first, since all their markers lie in
+        # the narrow grey lane, where names have little room.
         by_room = sorted(by_method, key=lambda one: one[1]["outcome"].eq("finished").any())
         curves[axes] = [(method, lines) for method, rows in by_room for lines in _method(axes, method, rows)]
         axes.set_xticks(10.0 ** np.arange(-15, 1, 3))
@@ -110,4 +114,4 @@ def _method(axes, method, rows):
     x, wrong = good["error_state"].clip(SMALLEST, LARGEST), good["missed"] + good["spurious"] > 0
     lane = axes.plot(np.full(failed.sum(), NO_RESULT), rows["seconds_per_cycle"][failed], **mark(method))
     curve = draw_method(axes, method, x, good["seconds_per_cycle"], wrong)
-    return lane, curve  # `name_curves` writes the method's name at the markers of failed runs and at the curve
+    return lane, curve  # `name_curves` writes the name twice: at the markers of failed runs and at the curve
