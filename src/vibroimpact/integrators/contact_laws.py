@@ -2,17 +2,19 @@
 
 In a law without walls, the force acts everywhere in the box, and p = |W|.
 
-The motion of the ball relative to its box has the mass mu = epsilon / (1 + epsilon). With the speed V = p', it follows
+The motion of the ball relative to its box has the mass mu = epsilon / (1 + epsilon). The speed V = p' satisfies
 V dV/dp = -(K p^n + D p^m V) / mu.
 
 If m = (n - 1) / 2, the substitution u = p^((n + 1) / 2) gives V dV/du = -2 (K u + D V) / ((n + 1) mu). This is a linear
-oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact is half an oscillation. Therefore the
-restitution coefficient is exp(-pi zeta / sqrt(1 - zeta^2)) at every speed (Antypov and Elliott 2011, for n = 3/2).
+oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact lasts half a period of this oscillator.
+Therefore the restitution coefficient is exp(-pi zeta / sqrt(1 - zeta^2)) at every speed (Antypov and Elliott 2011, for
+n = 3/2).
 
 If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. A contact begins at p = 0 with speed V and
 ends at p = 0 with speed -kappa V. So the right-hand side integrates to zero. The left-hand side then gives
-(1 + kappa) d = log((1 + d) / (1 - kappa d)), d = D V / K. So D must be proportional to 1 / V. Therefore D is set at
-each impact (as by Lankarani and Nikravesh, 1990).
+(1 + kappa) d = log((1 + d) / (1 - kappa d)), where d = D V / K and V is the speed at the beginning of the contact. This
+equation determines d from kappa alone. So D must be proportional to 1 / V. Therefore D is set anew at each impact (as
+by Lankarani and Nikravesh, 1990).
 """
 
 import math
@@ -55,9 +57,9 @@ def stiffness_of(law: Law, mass: float, duration: float) -> float:
 
 
 def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float) -> float:
-    """Return the stiffness K for which a ball with speed 1 at W = 0 turns at W = 1, without walls."""
+    """Return the stiffness K of a law without walls, for which a ball with speed 1 at W = 0 turns at W = 1."""
     zeta = damping_ratio(kappa)
-    # The ball turns at u = `deepest` / sqrt(2 K / ((n + 1) mu)). This must be u = 1, where W = 1.
+    # The ball turns at u = `deepest` / sqrt(2 K / ((n + 1) mu)), and K makes this u = 1, since u = 1 at W = 1.
     deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))
     return 0.5 * (law.stiffness + 1.0) * mass * deepest**2
 

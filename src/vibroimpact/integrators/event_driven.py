@@ -11,7 +11,7 @@ from vibroimpact.system.state import IMPACT
 
 
 class Engine(Method):
-    """Closed-form flight and certified events (vibroimpact.simulate), without a tolerance."""
+    """The engine of this package, `vibroimpact.simulate`: closed-form flights and certified events, no tolerance."""
 
     name, family, knob, settings, careful = "this engine", "exact flow", "precision", ("float64",), "float64"
 
@@ -24,7 +24,7 @@ class Engine(Method):
 
 
 class CertifiedEngine(Engine):
-    """The engine, with the computation of the error certificate (`Run.certificate`) included in the run time."""
+    """The engine of this package; its run time includes the computation of the error certificate, `Run.certificate`."""
 
     name = "this engine, certified"
 
@@ -35,7 +35,7 @@ class CertifiedEngine(Engine):
 
 
 def _impacts(run):
-    """Return the impacts of a run, rows [tau, module, wall, speed], without its sticks and releases."""
+    """Return the impacts of a run as rows [tau, module, wall, speed]; sticks and releases are left out."""
     rows = run.rows[run.rows[:, KIND] == IMPACT]
     return np.stack([run.tau0 + rows[:, TIME], rows[:, MODULE], rows[:, WALL], np.abs(rows[:, APPROACH])], axis=1)
 

@@ -69,7 +69,10 @@ def _right_hand_side(stuck):
 
 @lru_cache(maxsize=64)  # heyoka compiles each integrator when it is created
 class _Integrator:
-    """heyoka's integrator of (10.2) in one contact state, with event callbacks that apply the impact law."""
+    """heyoka's integrator of (10.2), with event callbacks that apply the impact law.
+
+    An integrator belongs to one contact state. stuck: for each ball, True if it sticks to a wall.
+    """
 
     def __init__(self, tolerance, stuck):
         self.stuck = stuck
@@ -111,9 +114,9 @@ class _Integrator:
         return False
 
     def _impact(self, i, wall):
-        """Return the callback that applies the impact law.
+        """Return the callback that applies the impact law to ball i at a wall.
 
-        If a ball is stuck or ball i may stick, the callback stops the flight instead.
+        If a ball is stuck, or if ball i is so slow that it may stick, the callback only stops the flight.
         """
         s_box, s_ball = 4 + BOXES[i], 4 + BALLS[i]
 

@@ -12,11 +12,11 @@ the acceleration a of W in flight,
     s' = R v,   v' = (-1)^n a / R - k v |v|.
 
 The other coordinate of a module is the centre of mass (X + epsilon Y) / (1 + epsilon) of box and ball. An impact does
-not change its velocity; its acceleration is a / (1 + epsilon).
+not change the velocity of the centre of mass. The acceleration of the centre of mass is a / (1 + epsilon).
 
 All eight coordinates are continuous. Their derivatives jump at walls and where v changes its sign. A step of length h
-across a jump has an error of order h in any integrator; the classical Runge-Kutta method is used here. So the method is
-of first order unless the jumps are located. A ball cannot rest on a wall; it continues to impact.
+across a jump has an error of order h in any integrator. So the classical Runge-Kutta method, which is used here, is of
+first order unless steps end at the jumps. A ball cannot rest on a wall; it continues to impact.
 """
 
 import math
@@ -30,7 +30,7 @@ from vibroimpact.system.state import BALLS, BOXES
 
 SHORTEST, PATIENCE = 1e-6, 100
 """A run is stopped after more than PATIENCE successive jumps, each less than SHORTEST [tau] after the previous jump."""
-HALVINGS = 50  # number of bisections of a step that locate a jump
+HALVINGS = 50  # number of bisections that locate a jump within a step
 
 
 class Ivanov(Method):
@@ -60,7 +60,7 @@ class Ivanov(Method):
 def unfolded(state, epsilon: float, k: float) -> np.ndarray:
     """Return the unfolded coordinates (8,) of a state (8,), with both balls in cell n = 0.
 
-    The four coordinates of a module are s, v, the centre of mass and its velocity.
+    The four coordinates of a module are s, v, and the displacement and velocity of the centre of mass.
     """
     x, y = state[BOXES], state[BALLS]
     W, W_rate = x[:2] - y[:2], x[2:] - y[2:]
@@ -101,7 +101,8 @@ def _rates(tau, z, q, k, boxes, signs, d):
 def _step(tau, z, h, q, k, boxes, signs, locate):
     """Return the coordinates after a step of length h.
 
-    locate: True if each stage uses the cells and signs of v at its own position.
+    If `locate` is True, each stage uses the cells and signs of v at its own position. Otherwise all stages use `boxes`
+    and `signs`.
     """
     rates, ahead, at = np.empty(8), z.copy(), z.copy()
     for stage in range(4):
@@ -134,9 +135,10 @@ def _impact(tau, i, box, direction, speed, k):
 
 @disk_cached()
 def _march_across_jumps(q, k, z, tau0, h, count):
-    """Take `count` steps without locating jumps.
+    """Take `count` steps of length h without locating the jumps.
 
-    Return coordinates, cells, impacts, number of steps, and NaN (an endless chatter is not detected).
+    Return the last coordinates, the cells of the balls, the impacts, the number of steps, and NaN. `_march_to_jumps`
+    returns the time of an endless chatter in the place of NaN; this function does not detect a chatter.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, signs = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
@@ -155,9 +157,10 @@ def _march_across_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _march_to_jumps(q, k, z, tau0, h, count):
-    """Take `count` steps, each divided at its jumps.
+    """Take `count` steps of length h, and divide each step at the jumps within it.
 
-    Return coordinates, cells, impacts, number of steps, and the time of an endless chatter or NaN.
+    Return the last coordinates, the cells of the balls, the impacts, the number of steps including parts of steps, and
+    the time of an endless chatter (impacts in ever shorter flights). The time is NaN if there is no endless chatter.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     boxes, signs, idle, steps = np.zeros(2, np.int64), np.ones(2), 0, 0
@@ -186,7 +189,10 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, signs):
-    """Return the fraction of a step up to its first jump of the right-hand side, and the coordinates just after it."""
+    """Locate the first jump of the right-hand side within the fraction `part` of a step of length h.
+
+    Return the fraction of the step that ends just after the jump, and the coordinates at its end.
+    """
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, signs, False)
     for _ in range(HALVINGS):
         half = 0.5 * (least + part)
@@ -210,9 +216,10 @@ def _beyond(z, boxes, signs):
 
 @disk_cached()
 def _ahead_of(z, i, boxes, signs):
-    """Return the distance of ball i to the wall ahead, and v, positive towards this wall.
+    """Return the distance of ball i to the wall ahead, and the coordinate v of ball i, counted towards this wall.
 
-    After a jump, one of them is negative.
+    The distance is negative after the ball has passed the wall. The returned v is negative after v has changed its
+    sign.
     """
     return 1.0 - signs[i] * (z[4 * i] - 2.0 * boxes[i]), signs[i] * z[4 * i + 1]
 

@@ -1,6 +1,6 @@
 """Compute flights exactly, as sums of modes of the boxes; find impacts from samples of 1 - |W| by Newton's method.
 
-It is not proved that no event occurs between two samples.
+Unlike the engine of this package, this method does not prove that no event occurs between two samples.
 """
 
 import math
@@ -53,12 +53,13 @@ class Modal(Method):
 def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
     """Return tables of the modes in the four contact states, and the largest condition number of the eigenvectors.
 
-    The first axis is the contact state. Axes of length 2 hold real and imaginary parts. The tables are:
+    A contact state says which balls stick; it is the first axis of each table. Axes of length 2 hold real and imaginary
+    parts. A conjugate pair of eigenvalues gives one mode, whose shape is twice one eigenvector. The tables are:
 
-    - the number of modes, (4,); the last mode is the forced response,
-    - the rates (eigenvalues) of the modes, (4, 2, 5),
-    - the mode shapes in [X1, X2, X1', X2'], (4, 2, 4, 5); a conjugate pair is one mode, with twice its eigenvector,
-    - the matrix from the free motion of the boxes to the amplitudes of the free modes, (4, 2, 4, 4).
+    - the number of modes, shape (4,); the last mode is the forced response,
+    - the rates (eigenvalues) of the modes, shape (4, 2, 5),
+    - the mode shapes in [X1, X2, X1', X2'], shape (4, 2, 4, 5),
+    - the matrix that turns the free motion of the boxes into the amplitudes of the free modes, shape (4, 2, 4, 4).
     """
     counts, worst = np.zeros(4, np.intp), 0.0
     rates, shapes, inverses = (np.zeros((4, *shape), complex) for shape in ((5,), (4, 5), (4, 4)))
@@ -79,7 +80,7 @@ def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
 
 @inlined()
 def _turn(rates, count, t, turns):
-    """Write exp(rate t) of each mode into `turns` (2, 5): real and imaginary parts."""
+    """Write the real and imaginary parts of exp(rate t) of each mode into `turns`, shape (2, 5)."""
     for k in range(count):
         size, angle = math.exp(rates[0, k] * t) if rates[0, k] != 0.0 else 1.0, rates[1, k] * t
         turns[0, k], turns[1, k] = size * math.cos(angle), size * math.sin(angle)
@@ -87,7 +88,7 @@ def _turn(rates, count, t, turns):
 
 @inlined()
 def _advance(turns, count, amplitudes, later):
-    """Write the product of the amplitudes (2, 5) and the factors of `_turn` into `later`."""
+    """Multiply the complex amplitude of each mode by its factor of `_turn`; write the products into `later`."""
     for k in range(count):
         re, im, c, s = amplitudes[0, k], amplitudes[1, k], turns[0, k], turns[1, k]
         later[0, k], later[1, k] = re * c - im * s, re * s + im * c
@@ -95,7 +96,10 @@ def _advance(turns, count, amplitudes, later):
 
 @inlined()
 def _amplitudes(s, tau, omega, count, inverse, shape, amplitudes):
-    """Write the amplitudes of the free modes and of the forced response for the state s (8,) at time tau."""
+    """Write the amplitudes of all modes in the state s at time tau into `amplitudes`, shape (2, 5).
+
+    The last mode is the forced response.
+    """
     n = count - 1
     c, d = math.cos(omega * tau), math.sin(omega * tau)
     amplitudes[0, n], amplitudes[1, n] = c, d
@@ -110,7 +114,10 @@ def _amplitudes(s, tau, omega, count, inverse, shape, amplitudes):
 
 @inlined()
 def _state(s, walls, count, shape, amplitudes, t, there):
-    """Write the state (8,) at a time t after the start of a flight into `there`, given the mode amplitudes at t."""
+    """Write the state at a time t after the start of a flight into `there`, shape (8,).
+
+    s: state at the start of the flight. amplitudes: amplitudes of the modes at the time t.
+    """
     for j in range(4):
         total = 0.0
         for k in range(count):
@@ -167,9 +174,10 @@ def _march(q, tables, s, tau, end, step, limit):
 
 @inlined_source()
 def _fly(q, flight, tau, length, stride, most, memory):
-    """Sample a flight until an event, the time `length`, or `most` samples; write the last state to memory[2].
+    """Sample a flight until an event occurs, the time `length` has passed or `most` samples are taken.
 
-    Return (module of the event or -1, time, number of samples).
+    Return the module of the event (-1 without an event), the time since the start of the flight, and the number of
+    samples. Write the state at this time to memory[2].
     """
     (s, walls, count, shape, rates, amplitudes), (step, ahead), (modes, states, reached) = flight, stride, memory
     (now, trial, turns), (before, there, event) = modes, states

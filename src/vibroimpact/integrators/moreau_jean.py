@@ -10,9 +10,9 @@ from vibroimpact.integrators.right_hand_side import coefficients
 
 
 class MoreauJean(Method):
-    """Trapezoidal rule; the restitution law relates the velocities before and after a step with a contact.
+    """Time-stepping with the trapezoidal rule; the setting is the number of steps per cycle.
 
-    The setting is the number of steps per cycle.
+    In a step with a contact, the restitution law relates the velocities before and after the step.
     """
 
     name, family, knob, order = "Moreau-Jean", "time-stepping", "steps per cycle", 1
@@ -32,7 +32,7 @@ class MoreauJean(Method):
 def _march(q, s, tau0, h, steps):
     """Take `steps` steps of length h; return the last state and the contacts.
 
-    A contact is a row [time, module, wall, speed] from its first step.
+    A contact can last for several steps. Its row [time, module, wall, speed] describes the first of these steps.
     """
     k11, k12, k22, c11, c12, c22, f1, f2, omega, epsilon, kappa = q
     g = 0.5 * h
@@ -67,16 +67,20 @@ def _march(q, s, tau0, h, steps):
 
 @disk_cached()
 def _closed(gap, speed, g):
-    """Return the wall (+1 or -1) that a ball at W = `gap` reaches in the time g at constant speed, or 0."""
+    """Return the wall (+1 or -1) that a ball reaches within the time g at constant speed, or 0 for no wall.
+
+    gap: relative displacement W. speed: relative velocity W'.
+    """
     ahead = gap + g * speed
     return 1 if ahead >= 1.0 else (-1 if ahead <= -1.0 else 0)
 
 
 @disk_cached()
 def _impulses(q1, q2, d11, d12, d22):
-    """Return the impulses P on the two balls: P >= 0, D P - q >= 0, P (D P - q) = 0.
+    """Return the impulses P on the two balls, which satisfy P >= 0, D P - q >= 0 and P (D P - q) = 0.
 
-    D is positive definite; q is -inf for a ball without contact.
+    q has the components q1 and q2; q is -inf for a ball without contact. The matrix D is symmetric and positive
+    definite, with the elements d11, d12 and d22.
     """
     if q1 <= 0.0 and q2 <= 0.0:
         return 0.0, 0.0

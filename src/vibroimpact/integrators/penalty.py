@@ -55,7 +55,7 @@ class Penalty(Method):
         return MethodRun(final, rows, steps, 6 * steps)
 
     def law(self, system, setting) -> np.ndarray:
-        """Return the numbers of the contact law (see `law_numbers`)."""
+        """Return the result of `law_numbers` for the contact law of this method and a setting."""
         mass = system.epsilon / (1.0 + system.epsilon)
         stiffness = stiffness_of(self._law, mass, setting * system.period)
         return law_numbers(self._law, stiffness, damping_of(self._law, mass, system.kappa, stiffness), 1.0)
@@ -87,7 +87,8 @@ class PowerLaw(Penalty):
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
     """Return [n, m, K, D, power, start, contact] of a contact law K p^n + D p^m p', shape (7,).
 
-    D is for speed V = 1; it is proportional to V**-power. p is 0 at |W| = start. A contact begins at |W| = contact.
+    D is the damping of a contact at speed V = 1. At another speed V, the damping is D V**-power. The depth p is 0 at
+    |W| = start. A contact begins at |W| = contact.
     """
     # If D is proportional to (1 / V)**power, kappa is the same at every speed V.
     power = (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
@@ -117,7 +118,8 @@ def force(gap, speed, law, damping):
 def _rates(tau, s, contact, d):
     """Write the derivative of the state s into d.
 
-    contact: results of `coefficients` and `law_numbers`, and the damping D of each ball's contact.
+    contact: tuple of the result of `coefficients`, the result of `law_numbers`, and the damping D of the contact of
+    each ball, shape (2,).
     """
     q, law, dampings = contact
     a = accelerations(math.sin(q[8] * tau), s, q, (0.0, 0.0))
@@ -155,7 +157,7 @@ def _step(stages, tau, s, h, contact):
 
 @disk_cached()
 def _reach(s, i, law):
-    """Return |W| of ball i minus the |W| at which contact begins, a negative value in flight."""
+    """Return |W| of ball i minus the |W| at which a contact begins; this difference is negative in flight."""
     return abs(s[2 * i] - s[2 * i + 1]) - law[6]
 
 
@@ -192,7 +194,10 @@ def _march(q, law, stages, s, tau, end, limit):
 
 @disk_cached()
 def _until_contact(stages, tau, s, h, ahead, contact, touching):
-    """Shorten a step to end just after its first contact begins; return its length and the state at its end."""
+    """Shorten a step so that it ends just after the first contact begins.
+
+    Return the length of the shortened step and the state at its end. A step in which no contact begins is not changed.
+    """
     least = 0.0
     for _ in range(HALVINGS):
         if not _begins(ahead, contact[1], touching) or least == h:

@@ -19,11 +19,11 @@ in an endless chatter."""
 class MethodRun:
     """Result of a run of one method.
 
-    final: state (8,) at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], or None after a failure. noted: impacts (tau,
-    module, wall, speed) in order of time, or a function that returns them. steps: number of integration steps.
-    evaluations: evaluations of the right-hand side, 0 if they are not counted. outcome: FINISHED, REFUSED or
-    UNFINISHED. reason: why the run has no result, or "". doubt: function that returns what the method reports as
-    undecided, or "".
+    final: state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), or None after a failure. noted: impacts
+    (tau, module, wall, speed) in order of time, or a function that returns these impacts. steps: number of integration
+    steps. evaluations: number of evaluations of the right-hand side, or 0 if the method does not count them. outcome:
+    FINISHED, REFUSED or UNFINISHED. reason: text on why the run has no result, or "". doubt: function that returns a
+    text on what the method could not decide, or "".
 
     The measured run time does not include the evaluation of `impacts` and `doubt`.
     """
@@ -38,7 +38,7 @@ class MethodRun:
 
     @cached_property
     def impacts(self) -> np.ndarray:
-        """Impacts in `noted` as one array, (n,) of type IMPACT."""
+        """Impacts in `noted` as an array of the data type IMPACT, shape (n,)."""
         rows = self.noted() if callable(self.noted) else self.noted
         return np.array([tuple(row) for row in rows], IMPACT)
 
@@ -48,10 +48,11 @@ class Method(ABC):
 
     To add an integrator, write a subclass and list an instance of it in `integrators.METHODS`.
 
-    name, family: texts for tables and legends. knob: meaning of the setting. settings: values from coarse to fine.
-    careful: setting of a careful user for difficult motions. order: expected order of convergence in `scale`, or None.
-    limit: largest number of steps of a run, roughly half a minute. compiles_settings: True if each setting has its own
-    compiled code.
+    name, family: texts for tables and legends. knob: meaning of the setting, such as "steps per cycle". settings:
+    values of the setting from coarse to fine. careful: setting that a careful user would choose for difficult motions.
+    order: expected order of convergence of the error with the quantity `scale`, or None. limit: largest number of steps
+    of a run; this number takes roughly half a minute. compiles_settings: True if each setting has its own compiled
+    code.
     """
 
     name: str
@@ -71,7 +72,7 @@ class Method(ABC):
     def run(self, system, state, cycles: int, tau0: float, setting) -> MethodRun:
         """Integrate from a state (8,) at tau0 over `cycles` forcing periods in at most `limit` steps.
 
-        setting: one of `settings`. A run that cannot continue returns the result of `failed`.
+        setting: one of `settings`. If the run cannot continue, return the result of `failed`.
         """
 
     def scale(self, setting, run: MethodRun) -> float:

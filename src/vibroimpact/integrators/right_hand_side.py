@@ -58,9 +58,9 @@ def rates(tau, s, q, walls):
 
 
 def jacobian(system, stuck) -> np.ndarray:
-    """Return the derivative (8, 8) of `rates` with respect to the state.
+    """Return the derivative of `rates` with respect to the state, shape (8, 8).
 
-    stuck: (2,) bool, True for a ball that sticks to a wall.
+    stuck: booleans, shape (2,), True for a ball that sticks to a wall.
     """
     boxes = rate_matrix(system, stuck)[2:4, :4]
     matrix = np.zeros((8, 8))

@@ -1,8 +1,8 @@
 """Contact logic of the event-driven integrators, applied where an integrator has stopped at an event.
 
-General integrators cannot follow a chatter to its end. So a ball whose rebound is slower than `slow` sticks if the box
-presses it against the wall. The omitted impacts change the state by less than slow^3. If an integrator misses an
-impact, the ball continues beyond the wall.
+General integrators cannot follow a chatter (impacts at one wall in ever shorter flights) to its end. So a ball whose
+rebound is slower than `slow` sticks if the box presses it against the wall. The omitted impacts change the state by
+less than slow^3. If an integrator misses an impact, the ball continues beyond the wall.
 
 q is the result of `right_hand_side.coefficients`.
 """
@@ -40,9 +40,11 @@ def guard(tau, s, q, walls, i):
 
 @disk_cached()
 def resolve(tau, s, q, walls, due, rows, count, slow):
-    """Update s (8,) and walls (2,) at an event of module `due` (-1 at the start of a run).
+    """Update the state and the walls at an event of a module, and return the rows of all impacts and their number.
 
-    Return the rows [time, module, wall, speed] of impacts, and their number. slow: see the module docstring.
+    s: state, shape (8,). walls: for each ball, the wall that it sticks to, or 0. due: index of the module with the
+    event, or -1 at the start of a run. rows, count: rows [time, module, wall, speed] of the impacts so far, and their
+    number. slow: speed of rebound below which a ball sticks if its box presses it against the wall.
     """
     for i in range(2):
         x = 2 * i
@@ -63,7 +65,7 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
             if abs(s[x + 4] - s[x + 5]) <= slow and wall * acceleration(tau, s, q, walls, i) > 0.0:
                 s[x + 4] = s[x + 5] = (s[x + 4] + q[9] * s[x + 5]) / (1.0 + q[9])
                 walls[i] = wall
-    for i in range(2):  # an impact in one module may release the ball of the other
+    for i in range(2):  # an impact in one module may release the ball of the other module
         if walls[i] != 0.0 and guard(tau, s, q, walls, i) < 0.0:
             walls[i] = 0.0
     return rows, count
@@ -71,9 +73,10 @@ def resolve(tau, s, q, walls, due, rows, count, slow):
 
 @inlined()
 def first_sample_time(tau, s, q, walls, step):
-    """Return `step`, or half the expected duration of a flight that begins at a wall if this is shorter.
+    """Return the time from tau to the first sample, chosen so that no short flight is missed.
 
-    The first sample is at this time, so that no short flight is missed.
+    If a flight begins at a wall, this time is at most half the expected duration of the flight. Otherwise this time is
+    `step`.
     """
     for i in range(2):
         x = 2 * i
@@ -95,7 +98,7 @@ def newton_or_middle(t, value, slope, low, high):
 class Contacts:
     """Contact states and impacts of a run, for integrators without contact logic.
 
-    walls: (2,), the wall that each ball sticks to, or 0. impacts: rows (time, module, wall, speed).
+    walls: for each ball, the wall that it sticks to, or 0. impacts: list of rows (time, module, wall, speed).
     """
 
     def __init__(self, system, slow: float):

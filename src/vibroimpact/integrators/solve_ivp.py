@@ -1,4 +1,4 @@
-"""Integrate with SciPy's solve_ivp, which stops at each impact or vanishing contact force and is then restarted."""
+"""Integrate with SciPy's solve_ivp, which stops at each impact and each end of a contact, and is then restarted."""
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -16,7 +16,8 @@ PATIENCE = 100  # largest number of successive events without progress in time
 class SolveIvp(Method):
     """One method of solve_ivp; the setting is the relative tolerance rtol.
 
-    The first step after an impact is at most half the expected flight, so that no impact of a chatter is missed.
+    The first step after an impact is at most half the expected duration of the flight. So no impact of a chatter
+    (impacts at one wall in ever shorter flights) is missed.
     """
 
     family, knob = "solve_ivp", "rtol"
@@ -50,7 +51,7 @@ class SolveIvp(Method):
                     atol=ABSOLUTE * setting,
                     **options,
                 )
-            except ValueError:  # the root search for the event failed without a specific message
+            except ValueError:  # the search of solve_ivp for the time of the event failed
                 return failed(REFUSED, f"{LOST} at tau = {tau:.6g}", steps, evaluations, contacts.impacts)
             steps, evaluations = steps + len(flight.t) - 1, evaluations + flight.nfev
             if flight.status < 0:
@@ -66,9 +67,10 @@ class SolveIvp(Method):
 
 
 def _events(i, wall):
-    """Return two functions; one or both fall through zero at the next event of module i.
+    """Return two functions, at least one of which falls through zero at the next event of module i.
 
-    They are the distances to both walls for a flying ball, and the contact force / epsilon for a sticking ball.
+    For a flying ball, the functions are its distances to the two walls. For a sticking ball, both functions are the
+    contact force divided by epsilon.
     """
     x, y = BOXES[i], BALLS[i]
 
