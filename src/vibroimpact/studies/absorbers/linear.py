@@ -16,8 +16,9 @@ POINTS = 400
 class Linear:
     """Linear system M X'' + C X' + K X = F sin(Omega tau), dimensionless.
 
-    mass, damping, stiffness: matrices M, C, K, each (n, n). The coordinates are X_1 and X_2 of the boxes, then Y_1 and
-    Y_2 of any absorbers. force: amplitudes F, (n,). scale: function that returns a factor of F for each frequency.
+    mass, damping, stiffness: matrices M, C and K, shape (n, n). The coordinates are X_1 and X_2 of the boxes. If there
+    are absorbers, Y_1 and Y_2 follow. force: amplitudes F, shape (n,). scale: function that returns a factor of F for
+    each frequency Omega.
     """
 
     mass: np.ndarray
@@ -34,9 +35,9 @@ class Linear:
         return np.abs(self._responses(Omega)[..., :2])
 
     def strokes(self, Omega) -> np.ndarray:
-        """Return the stroke of each absorber, the amplitude of X_i - Y_i, at the frequencies `Omega`, shape (..., 2).
+        """Return the strokes of both absorbers at the frequencies `Omega`, shape (..., 2).
 
-        An undamped resonance raises numpy.linalg.LinAlgError.
+        The stroke of an absorber is the amplitude of X_i - Y_i. An undamped resonance raises numpy.linalg.LinAlgError.
         """
         responses = self._responses(Omega)
         return np.abs(responses[..., :2] - responses[..., 2:])
@@ -48,15 +49,15 @@ class Linear:
         return np.linalg.solve(impedance, self.scale(Omega) * self.force[:, None])[..., 0]
 
     def peak(self, band: tuple[float, float]) -> float:
-        """Return the largest amplitude of X_1 and X_2 in a band, or inf if it contains an undamped resonance."""
+        """Return the largest amplitude of X_1 and X_2 in a band, or inf if the band contains an undamped resonance."""
         return self._highest(self.amplitudes, band)
 
     def stroke(self, band: tuple[float, float]) -> float:
-        """Return the largest stroke of an absorber in a band, or inf if it contains an undamped resonance."""
+        """Return the largest stroke of an absorber in a band, or inf if the band contains an undamped resonance."""
         return self._highest(self.strokes, band)
 
     def _highest(self, measure, band):
-        """Return the largest value of `measure` in a band, or inf if it contains an undamped resonance.
+        """Return the largest value of `measure` in a band, or inf if the band contains an undamped resonance.
 
         measure: the method `amplitudes` or `strokes`.
         """

@@ -1,7 +1,10 @@
-"""Compute the peak displacement of boxes with balls in a band of frequencies; one cycle in a hundred exceeds the peak.
+"""Compute the peak displacement of boxes with balls in a band of frequencies.
 
-The largest displacement of a chaotic motion grows with the length of the run; a quantile over cycles does not. The
-lowest of many measured peaks is probably too low. Therefore callers measure the lowest peaks again, from other states.
+The peak is the displacement that is exceeded in one cycle of a hundred. The largest displacement of a chaotic motion
+grows with the length of the run, but the peak does not.
+
+If many peaks are measured, the random error of the lowest peak is probably negative. Therefore callers measure the
+lowest peaks again, from other initial states.
 """
 
 from collections.abc import Sequence
@@ -21,10 +24,11 @@ QUANTILE = 0.99
 
 @dataclass(frozen=True)
 class CycleMaxima:
-    """Displacements of the boxes in the observed cycles of runs, for m systems from n initial states each.
+    """Displacements of the boxes in the observed cycles of runs.
 
-    largest: largest |X_1| or |X_2| in each cycle, (m, n, observed cycles); nan for unfinished runs. rms: largest root
-    mean square of X_1 or X_2 of all finished runs.
+    Each of m systems runs from each of n initial states. largest: largest |X_1| or |X_2| in each observed cycle, shape
+    (m, n, cycles), nan for unfinished runs. rms: root mean square of X_1 or X_2 over the observed cycles of a run, the
+    largest value of all finished runs. unfinished: number of unfinished runs.
     """
 
     largest: np.ndarray
@@ -35,8 +39,8 @@ class CycleMaxima:
 def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> tuple[float, float]:
     """Return the peak displacement in a band of frequencies, and its standard error.
 
-    systems: one system per frequency; each runs from every state of `states`, (n, 8). The other arguments are as for
-    `ensemble`.
+    systems: one system per frequency. states: initial states, shape (n, 8); each system runs from each of them. cycles:
+    number of forcing periods of a run. settle: number of forcing periods before the observation.
 
     Raises
     ------
@@ -50,9 +54,9 @@ def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int)
 
 
 def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> CycleMaxima:
-    """Run each system from every state; return the maxima of each cycle. The arguments are those of `peak`.
+    """Run each system from every state, and return the largest displacements in each cycle.
 
-    An uncoupled module without force starts at rest.
+    The arguments are those of `peak`. A module that no force drives, directly or through the coupling, starts at rest.
     """
     if not cycles > settle:
         raise ValueError(f"cycles: {cycles} is not above settle = {settle}, so that no cycle is left to observe")
@@ -65,9 +69,9 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
 
 
 def peak_of(largest: ArrayLike) -> np.ndarray:
-    """Return the peak of each system, the 0.99 quantile of `CycleMaxima.largest` over all cycles and runs.
+    """Return the peak of each system: the 0.99 quantile of `largest` over all runs and cycles of the system.
 
-    The peak is nan without finished runs.
+    largest: as in `CycleMaxima`. If a system has no finished run, its peak is nan.
     """
     largest = np.asarray(largest)
     return np.array(
@@ -89,7 +93,7 @@ def standard_error(largest: ArrayLike) -> float:
 
 
 def finished(runs: np.ndarray) -> np.ndarray:
-    """Return the given outcomes of `ensemble`; raise ArithmeticError if a run could not be finished."""
+    """Return the outcomes `runs` of `ensemble` unchanged; raise ArithmeticError if a run could not be finished."""
     failed = runs["status"][runs["status"] != FINISHED]
     if len(failed):
         raise ArithmeticError(f"the peak is unknown, since a run failed: {STATUSES[int(failed[0])]}")
