@@ -27,8 +27,9 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     Returns
     -------
     pandas.DataFrame
-        One row per event of a run, run of an ensemble, initial state, point, orbit or dict. An empty list from this
-        package gives the usual columns without rows.
+        A run gives one row per event, an ensemble one row per run, and basins one row per initial state. A list gives
+        one row per fixed point, orbit or dict, or one row per computed point of each branch. An empty list that a
+        function of this package returned gives the usual columns and no rows.
 
     Raises
     ------
@@ -72,9 +73,9 @@ def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dat
     Returns
     -------
     xarray.Dataset
-        Each entry of `along` is a dimension; a tuple has the name of its first parameter. Each other column is a
-        variable. All numbers are dimensionless; their attribute `units` is "1". `.to_netcdf(path, engine="scipy")`
-        saves the dataset.
+        Each entry of `along` is a dimension. The dimension of a tuple has the name of the first parameter in the tuple.
+        Each other column is a variable. All numbers are dimensionless; their attribute `units` is "1".
+        `.to_netcdf(path, engine="scipy")` saves the dataset.
 
     Raises
     ------
@@ -116,7 +117,10 @@ def of_run(run):
 
 
 def plot(system, times, samples):
-    """Return a Matplotlib Figure of X_i and W_i = X_i - Y_i, from the states `samples` (n, 8) at `times` (n,)."""
+    """Return a Matplotlib Figure of X_i and W_i = X_i - Y_i over time.
+
+    times: times tau, shape (n,). samples: states at these times, shape (n, 8).
+    """
     need("figures", "matplotlib")
     from matplotlib.figure import Figure
 
@@ -138,9 +142,10 @@ def _rows(one, number):
 
 
 def _columns(table):
-    """Return the columns of a structured array (n,), keyed by name.
+    """Return the columns of a structured array of shape (n,), keyed by name.
 
-    A field of 8 numbers gives one column per component of a state. The columns of other fields are numbered from 1.
+    A field of 8 numbers is a state and gives one column per component. Any other field of several numbers gives columns
+    that are numbered from 1.
     """
     columns = {}
     for name in table.dtype.names:
