@@ -1,20 +1,23 @@
 """Decorators that compile the inner loops with Numba, cache them on disk and release the interpreter lock.
 
-Rounding: in a step of a run, the compiler must not combine or reorder operations. A formula then gives the same bits in
-single runs and in ensembles. There is one exception. In `compiled` functions, and in `inlined_source` functions that
-they call, a product and a sum may be fused.
+Rounding: in a step of a run, the compiler must not combine or reorder floating-point operations. A formula then gives
+the same bits in a single run and in an ensemble (several runs that advance together in vector instructions). The
+decorator `compiled` is an exception. In its functions, and in `inlined_source` functions that they call, the compiler
+may fuse a product and a sum into one operation with a single rounding.
 
-Inlining: functions that run at every event are inlined. Passing a motion (about 30 numbers) would cost more than the
-computation. Most functions with a single caller are `inlined_source`, so that they are not compiled twice.
+Inlining: functions that run at every event are inlined. Passing a motion and its Taylor polynomials (about 30 numbers)
+as arguments would cost more than the computation. Most functions with a single caller are decorated by
+`inlined_source`. Numba then compiles them only as a part of their caller.
 
 Reference counting: only `compiled` functions, and `inlined_source` functions that they call, create or return arrays.
-In other functions, counting would only cost time.
+In all other functions, Numba does not count references to arrays, because counting would only cost time.
 
-Each decorator sets fastmath, inlining and reference counting, because Numba takes a missing option from the caller that
-is compiled first.
+Each decorator sets the options for fastmath, inlining and reference counting. If an option were missing, Numba would
+take the option of the caller that is compiled first.
 
 The cache key depends on all source files that may be compiled into a function. Numba itself checks only the file of the
-function. If NUMBA_CACHE_DIR is set, only Numba's check is done: clear the cache after a change of the sources.
+function. If NUMBA_CACHE_DIR is set, only Numba's check is done. In this case, clear the cache after every change of the
+sources.
 """
 
 import hashlib
@@ -59,11 +62,11 @@ SHARED_FOLDERS = ("system", "exact/engine")
 
 
 def disk_cached(**options):
-    """Return a decorator like Numba's `njit` that caches the compiled code on disk, in `code_folder`."""
+    """Return a decorator like Numba's `njit` that caches the compiled code in the folder from `code_folder`."""
 
     def decorate(function):
         folder, before = code_folder(Path(function.__code__.co_filename).parent), config.CACHE_DIR
-        config.CACHE_DIR = str(folder or before)  # restored below, so that other packages keep their folder
+        config.CACHE_DIR = str(folder or before)  # the old value is restored below for other packages
         try:
             return njit(cache=True, **options)(function)
         finally:
@@ -74,7 +77,10 @@ def disk_cached(**options):
 
 @cache
 def code_folder(package: Path) -> Path | None:
-    """Return the cache folder for a package, named after a hash of the sources, or None if NUMBA_CACHE_DIR is set."""
+    """Return the cache folder for a package, or None if NUMBA_CACHE_DIR is set.
+
+    The name of the folder contains a hash of all source files that may be compiled into functions of the package.
+    """
     if config.CACHE_DIR:
         return None
     files = {path for folder in (*(PACKAGE / name for name in SHARED_FOLDERS), package) for path in folder.glob("*.py")}
@@ -86,10 +92,10 @@ def code_folder(package: Path) -> Path | None:
 
 @cache
 def _writable() -> Path:
-    """Return the first writable folder: next to the library, in the user's cache, or a new temporary folder."""
+    """Return the first writable folder: `LIBRARY_CACHE`, a folder in the user's cache, or a new temporary folder."""
     own = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
     for folder in (LIBRARY_CACHE, own / "vibroimpact"):
-        if folder.is_absolute() and _takes_files(folder):  # "~" stays in the path if the home directory is unknown
+        if folder.is_absolute() and _takes_files(folder):  # "~/.cache" is relative if the home is unknown
             return folder
     NOTICE.hint = ""
     say(f"neither the installation nor {own} is writable, so every process compiles; set XDG_CACHE_HOME to a folder")

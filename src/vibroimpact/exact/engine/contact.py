@@ -1,10 +1,11 @@
 """Apply a free flight, or all events of one instant, to a motion.
 
 Each event is a row of a table: [time since the start, module, wall, kind, state after the event, forcing phase,
-approach (see `record`), sine and cosine of the phase]. The phase is that of the event, with one exception. The stick
-that completes a chatter has the phase of the last simulated impact.
+approach (see `record`), sine and cosine of the phase]. The row contains the forcing phase at the event, with one
+exception. The stick that completes a chatter (impacts at one wall in ever shorter flights) has the phase of the last
+simulated impact.
 
-`vibroimpact.system.restitution` defines the impact law and lists its implementations.
+`vibroimpact.system.restitution` defines the impact law and lists all functions that implement the law.
 """
 
 from typing import NamedTuple
@@ -24,15 +25,18 @@ from vibroimpact.exact.engine.exclusion import (
 from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses, jet, mode_of
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
-NEGLIGIBLE = 1e-18  # largest change of the state that completing a chatter may neglect
-HIGHEST_HOP = 1e-12  # largest hop (in W) at which a chatter may be completed
+NEGLIGIBLE = 1e-18  # largest change of the state that may be neglected when a stick replaces the rest of a chatter
+HIGHEST_HOP = 1e-12  # largest height of a hop (in W = X - Y) at which a stick may replace the rest of a chatter
 
 
 class Motion(NamedTuple):
     """State at one instant of a run.
 
-    boxes: (X1, X2, X1', X2'). balls: (Y1, Y2, Y1', Y2'). walls: for each ball, the wall to which it sticks, or 0.
-    touching: the wall on which a free ball rests or which it is just leaving, or 0. sine, cosine: of the forcing phase.
+    boxes: positions and velocities of the boxes, (X1, X2, X1', X2').
+    balls: positions and velocities of the balls, (Y1, Y2, Y1', Y2').
+    walls: for each ball, the wall (+1 or -1) to which the ball sticks, or 0.
+    touching: for each free ball, the wall on which the ball rests or which the ball is just leaving, or 0.
+    sine, cosine: sine and cosine of the forcing phase.
     """
 
     boxes: tuple[float, float, float, float]
@@ -51,13 +55,13 @@ def pair(values, i, value):
 
 @inlined
 def with_velocity(values, i, velocity):
-    """Return the boxes (or balls) with the velocity in module i replaced."""
+    """Return the state `values` of the boxes (or balls), with the velocity in module i replaced by `velocity`."""
     return values[:2] + pair(values[2:], i, velocity)
 
 
 @inlined
 def with_boxes_and_balls(motion, boxes, balls):
-    """Return a motion with boxes and balls replaced."""
+    """Return `motion` with the states of boxes and balls replaced by `boxes` and `balls`."""
     return Motion(boxes, balls, motion.walls, motion.touching, motion.sine, motion.cosine)
 
 
@@ -70,7 +74,11 @@ def with_contacts(motion, i, wall, touching):
 
 @inlined
 def drift_balls(balls, walls, boxes, t):
-    """Return positions and velocities of the balls after a time t; `boxes` is the state at that time."""
+    """Return the state (Y1, Y2, Y1', Y2') of the balls at a time t after the start of a flight.
+
+    balls: state of the balls at the start of the flight. walls: the wall to which each ball sticks, or 0.
+    boxes: state of the boxes at the time t. A sticking ball moves with its box.
+    """
     y1, y2, v1, v2 = balls[0] + t * balls[2], balls[1] + t * balls[3], balls[2], balls[3]
     if walls[0] != 0:
         y1, v1 = boxes[0] - walls[0], boxes[2]
@@ -81,7 +89,10 @@ def drift_balls(balls, walls, boxes, t):
 
 @inlined
 def free_flight(flow, motion, t):
-    """Return the motion a time t later without events; only sticking balls then touch a wall."""
+    """Return the motion after a free flight of duration t, in which no event happens.
+
+    In the result, `touching` is (0, 0), since only sticking balls touch a wall after a flight.
+    """
     boxes, sine, cosine = advance(flow, mode_of(motion.walls), motion.boxes, motion.sine, motion.cosine, t)
     return Motion(boxes, drift_balls(motion.balls, motion.walls, boxes, t), motion.walls, (0, 0), sine, cosine)
 
@@ -92,21 +103,25 @@ changes that completed chatters neglect. EXCLUSIONS: number of proofs that an in
 
 
 class Log(NamedTuple):
-    """Rows of events (n, ROW) and counters (ENTRIES,); counters[EVENTS] is the number of rows in use."""
+    """Log of a run: `rows` of events, shape (n, ROW), and `counters`, shape (ENTRIES,).
+
+    The number of rows in use is counters[EVENTS].
+    """
 
     rows: np.ndarray
     counters: np.ndarray
 
 
 TIME, MODULE, WALL, KIND = range(4)
-PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # indices in the row of an event, and the length of the row
+PHASE, APPROACH, SINE, COSINE, ROW = 12, 13, 14, 15, 16  # indices in the row of an event; ROW is its length
 
 
 @inlined
 def record(log, time, i, wall, kind, boxes, balls, approach):
     """Write an event of module i (0 or 1) to the log, without the forcing phase.
 
-    approach: relative velocity before an impact; last relative speed for the stick of a completed chatter; otherwise 0.
+    approach: for an impact, the relative velocity before the impact. For the stick that completes a chatter, `approach`
+    is the relative speed after the last simulated impact. For all other events, `approach` is 0.
     """
     row = log.rows[int(log.counters[EVENTS])]
     row[0], row[1], row[2], row[3] = time, i + 1, wall, kind
@@ -125,10 +140,11 @@ def pack(boxes, balls, state):
 
 @inlined
 def impact(q, box, ball):
-    """Return the velocities (X', Y') after an impact, from the velocities `box` and `ball` before it.
+    """Return the velocities (X', Y') after an impact, from the velocities `box` and `ball` before the impact.
 
-    The factor (1 + kappa) / (1 + epsilon) includes its rounding remainder, since its error would repeat at every
-    impact. The velocity of the heavier body is computed first, because it changes less.
+    The factor (1 + kappa) / (1 + epsilon) is used with its rounding remainder. Otherwise the rounding error of the
+    factor would repeat at every impact. The velocity of the heavier body is computed first, because this velocity
+    changes less.
     """
     relative = box - ball
     gained = q.impulse * relative + q.impulse_rest * relative
@@ -147,17 +163,20 @@ def common_velocity(q, box, ball):
 
 @inlined
 def box_accelerations(q, walls, boxes, sine):
-    """Return the accelerations of both boxes, given the walls to which balls stick and the sine of the phase."""
+    """Return the accelerations of both boxes, from the walls to which balls stick and the sine of the forcing phase."""
     return acceleration(q, inverse_masses(q, mode_of(walls)), boxes[:2], boxes[2:], (q.f1 * sine, q.f2 * sine))
 
 
 @inlined
 def _contact_push(q, jets, boxes, i, wall, sticking):
-    """Return a number > 0 if the wall pushes ball i, at rest on it, and < 0 if the wall would have to pull the ball.
+    """Return a number > 0 if the wall pushes the resting ball i, and < 0 if the wall would have to pull the ball.
 
-    The sign is that of the contact force or, if this is zero within rounding, of its first nonzero derivative. There is
-    one exception: the force on a sticking ball is negative but increases at the rate `change` > 0. If released, the
-    ball would rise to the height 2 |force|^3 / (3 change^2). If this height is below rounding, the ball stays stuck.
+    The number has the sign of the contact force. If the contact force is zero within rounding, the number has the sign
+    of the first nonzero derivative of the force.
+
+    There is one exception. The force on a sticking ball may be negative but increase at the rate `change` > 0. If the
+    ball were released, it would rise to the height 2 |force|^3 / (3 change^2). If this height is below rounding, the
+    function returns `change`, so that the ball stays stuck.
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -174,18 +193,22 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
 
 @inlined
 def _hop(q, motion, i, wall):
-    """Return (u, a): speed at which ball i leaves a wall, and acceleration of its box towards the ball."""
+    """Return (u, a) for ball i, which has just left a wall.
+
+    u: speed of the ball relative to the wall. a: acceleration of the box towards the ball.
+    """
     a = wall * box_accelerations(q, motion.walls, motion.boxes, motion.sine)[i]
     return -wall * (motion.boxes[2 + i] - motion.balls[2 + i]), a
 
 
 @inlined_source
 def _end_of_chatter(flow, motion, i, counters):
-    """Return the time until the chatter of ball i ends, or -1 if it cannot be completed now.
+    """Return the time until the chatter of ball i ends, or -1 if the chatter cannot be completed now.
 
-    Hops shorten by the factor kappa. With u and a from `_hop`, the chatter ends after T = 2 u / (a (1 - kappa)).
-    Completing it conserves the momentum of box and ball. It neglects that hops change the spring forces. The neglected
-    effect is of the order u^3 / a^2.
+    Each hop of the ball is shorter than the hop before by the factor kappa. With u and a from `_hop`, the chatter ends
+    after the time T = 2 u / (a (1 - kappa)). A stick then replaces the remaining impacts. The stick conserves the
+    momentum of box and ball. It neglects that the hops change the spring forces. The neglected effect is of the order
+    u^3 / a^2.
     """
     q, boxes, balls, wall = flow.coefficients, motion.boxes, motion.balls, motion.touching[i]
     u, a = _hop(q, motion, i, wall)
@@ -214,7 +237,7 @@ def _end_of_chatter(flow, motion, i, counters):
 
 @inlined
 def _joined(q, motion, i):
-    """Return the motion after ball i joins its box, with momentum conserved."""
+    """Return the motion after ball i sticks to its box, with the momentum of box and ball conserved."""
     boxes, balls = motion.boxes, motion.balls
     common = common_velocity(q, boxes[2 + i], balls[2 + i])
     return with_boxes_and_balls(motion, with_velocity(boxes, i, common), with_velocity(balls, i, common))
@@ -224,9 +247,11 @@ def _joined(q, motion, i):
 def resolve(flow, motion, elapsed, remaining, due, log):
     """Return the motion after all events of an instant.
 
-    remaining: time to the end of the run. due: module (0 or 1) with an event due now, or -1. Contact forces are checked
-    after all impacts, since an impact can release the ball of the other module. Chatters come last, since they end
-    later.
+    elapsed: time since the start of the run. remaining: time to the end of the run.
+    due: module (0 or 1) in which an event is due now, or -1.
+
+    Impacts are applied first. Contact forces are checked after all impacts, since an impact in one module can release
+    the ball of the other module. Chatters are completed last, since they end after this instant.
     """
     pulled = due if due >= 0 and motion.walls[due] != 0 else -1
     chatters = (False, False)
@@ -244,9 +269,11 @@ def resolve(flow, motion, elapsed, remaining, due, log):
 
 @inlined_source
 def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
-    """Apply the impact of the flying ball i if it has reached a wall; return (motion, soon).
+    """Apply the impact of the flying ball i if the ball has reached a wall; return (motion, soon).
 
-    soon: True if a chatter would end within half of `remaining` and half of LOOKAHEAD * flow.unit.
+    due: True if the impact is due now.
+    soon: True if a chatter that starts with this impact would end soon. The limits are half of `remaining`, and half of
+    LOOKAHEAD * flow.unit, the longest time that one proof covers.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
@@ -265,7 +292,7 @@ def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
     log.counters[RESIDUAL] = max(log.counters[RESIDUAL], abs(1.0 - wall * relative))
     box, ball = impact(q, boxes[2 + i], balls[2 + i])
     motion = with_boxes_and_balls(motion, with_velocity(boxes, i, box), with_velocity(balls, i, ball))
-    if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # rebound speed below rounding
+    if q.kappa * abs(velocity) <= RESOLUTION * (abs(velocity) + abs(box) + abs(ball)):  # the rebound is below rounding
         motion = _joined(q, motion, i)
     record(log, elapsed, i, wall, IMPACT, motion.boxes, motion.balls, velocity)
     u, a = _hop(q, motion, i, wall)
@@ -274,10 +301,13 @@ def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
 
 @inlined
 def _stick_or_release(q, motion, i, pulled, elapsed, log):
-    """Return the motion after ball i, at rest on a wall, sticks, stays stuck or is released."""
+    """Return the motion after ball i, which rests on a wall, sticks, stays stuck or is released.
+
+    pulled: True if the release of the sticking ball i is due now.
+    """
     boxes, wall, touching = motion.boxes, motion.walls[i], motion.touching[i]
-    # Check free and stuck balls with the same acceleration, that of the box with the ball stuck to it. Otherwise a ball
-    # with almost no contact force could stick and be released endlessly.
+    # Free and stuck balls are checked with the same acceleration of the box, computed as if the ball were stuck.
+    # Otherwise a ball with almost no contact force could stick and be released endlessly.
     together = mode_of(pair(motion.walls, i, 1))
     jets = jet(q, together, boxes, motion.sine, motion.cosine)
     if wall != 0:
@@ -293,7 +323,11 @@ def _stick_or_release(q, motion, i, pulled, elapsed, log):
 
 @inlined_source
 def _complete_both(flow, motion, chatters, elapsed, log):
-    """Return the motion after completing the chatters that end soon; record their ends in order of time."""
+    """Return the motion after completing the chatters that end soon.
+
+    chatters: for each ball, True if its chatter would end soon (see `_apply_impact`).
+    The sticks at the ends of the chatters are recorded in order of time.
+    """
     boxes, balls = motion.boxes, motion.balls
     ends, inward = (-1.0, -1.0), (abs(boxes[2] - balls[2]), abs(boxes[3] - balls[3]))
     for i in range(2):
@@ -303,7 +337,7 @@ def _complete_both(flow, motion, chatters, elapsed, log):
             if end >= 0.0:
                 log.counters[CHATTERS] += 1
                 motion = with_contacts(_joined(flow.coefficients, motion, i), i, motion.touching[i], 0)
-    for i in range(2):  # completing a chatter may pull the other ball off its wall
+    for i in range(2):  # the end of a chatter may pull the other ball off its wall
         if motion.walls[i] != 0 and ends[i] < 0.0:
             motion = _stick_or_release(flow.coefficients, motion, i, False, elapsed, log)
     sooner = 0 if ends[0] <= ends[1] else 1

@@ -3,10 +3,14 @@
 Each term is computed independently, so that the balance tests all terms. The stick that completes a chatter dissipates
 the remaining energy of the relative motion.
 
-In flight, z = [X1, X2, X1', X2', sin, cos] obeys z' = A z. With damping, z G z is the rate of change of a potential
-z S z + c t. S and c solve A^T S + S A + c (sin^2 + cos^2) = G (Lyapunov's equation). The integral of z G z is then the
-difference of this potential between the ends of a flight. With very little damping, rounding spoils the difference,
-because S is large. Gauss's rule then integrates along the Taylor polynomials.
+Work and dissipation in dampers are integrals of quadratic forms z G z over the flights, with a matrix G. In flight, the
+vector z = [X1, X2, X1', X2', sin, cos] obeys z' = A z; sin and cos belong to the forcing phase. If the system is
+damped, z G z is the rate of change of a potential z S z + c t. The matrix S and the number c solve Lyapunov's equation
+A^T S + S A + c (sin^2 + cos^2) = G. The integral of z G z is then the difference of the potential between the ends of a
+flight.
+
+If the damping is very small, S is large and rounding spoils the difference. In this case, Gauss's rule integrates z G z
+along the Taylor polynomials of the motion.
 """
 
 import math
@@ -43,10 +47,11 @@ NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggau
 
 
 class Squares(NamedTuple):
-    """Potentials S (4, k, 6, 6) and drifts c (4, k) for k integrals in each of the 4 contact states.
+    """Potentials that give k integrals along a flight, in each of the four contact states.
 
-    An integral is the change of z S z + c t, where z = [X1, X2, X1', X2', sin, cos]. If k = 0, Gauss's rule computes
-    the integrals instead.
+    potentials: matrices S, shape (4, k, 6, 6). drifts: numbers c, shape (4, k).
+    Each integral is the change of z S z + c t in the flight, where z = [X1, X2, X1', X2', sin, cos]. If k = 0, Gauss's
+    rule computes the integrals instead.
     """
 
     potentials: np.ndarray
@@ -78,15 +83,18 @@ UNITS[np.arange(TRIANGLE), ROWS, COLUMNS] = UNITS[np.arange(TRIANGLE), COLUMNS, 
 
 
 def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return potentials S (n, 4, k, 6, 6), drifts c (n, 4, k) and flags (n,) for the integrals of z G z.
+    """Return potentials, drifts and flags for the integrals of z G z along the flights of n systems.
 
-    rates: (n, 4, 6, 6). kernels: G (k, 6, 6). A flag is True if differences of z S z + c t keep enough digits.
+    rates: rate matrices A, shape (n, 4, 6, 6), for each of the four contact states. kernels: matrices G, shape (k, 6,
+    6).
+    The potentials S have shape (n, 4, k, 6, 6), the drifts c shape (n, 4, k) and the flags shape (n,). The flag of a
+    system is True if differences of z S z + c t keep enough digits.
     """
     equations = np.zeros((*rates.shape[:2], TRIANGLE + 1, TRIANGLE + 1))
     images = UNITS @ rates[:, :, None]
-    images = (images + images.swapaxes(-1, -2))[..., ROWS, COLUMNS]  # A^T S + S A for each S of the basis
+    images = (images + images.swapaxes(-1, -2))[..., ROWS, COLUMNS]  # A^T S + S A for each matrix S in UNITS
     equations[..., :-1, :-1] = images.swapaxes(-1, -2)
-    # S is unique up to a multiple of the constant sin^2 + cos^2; these entries select one S.
+    # The equation leaves a multiple of the constant form sin^2 + cos^2 in S open. These entries select one S.
     equations[..., :-1, -1] = equations[..., -1, :-1] = (ROWS == COLUMNS) & (ROWS >= 4)
     sides = np.zeros((TRIANGLE + 1, len(kernels)))
     sides[:-1] = kernels[:, ROWS, COLUMNS].T
@@ -106,7 +114,10 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @lru_cache(maxsize=64)
 def squares_of(system) -> Squares:
-    """Return the potentials for the integrals of `OBSERVED`, or NO_POTENTIALS if differences would lose digits."""
+    """Return the potentials for the integrals of the quadratic forms `OBSERVED`.
+
+    If differences of these potentials would lose too many digits, return NO_POTENTIALS.
+    """
     _, rates = numbers_of([system], 2)
     potentials, drifts, sound = potentials_of(rates[:, 0], OBSERVED)
     return Squares(potentials[0], drifts[0]) if sound[0] else NO_POTENTIALS
@@ -131,8 +142,8 @@ class Energy(Representation):
     stored : float
         Change of the energy stored in boxes, balls and springs.
     per_cycle : ndarray
-        Energies of each forcing period, structured array (cycles,) of type ENERGY. An event between two periods belongs
-        to the later period.
+        Energies of each forcing period: structured array of type ENERGY, shape (cycles,). An event at the boundary of
+        two periods belongs to the later period.
 
     Examples
     --------
@@ -161,7 +172,10 @@ class Energy(Representation):
 
     @property
     def residual(self) -> float:
-        """Difference work - (ground + coupling + impacts + stored), summed over modules; it is due to rounding only."""
+        """Difference work - (ground + coupling + impacts + stored), summed over both modules.
+
+        This difference is due to rounding only.
+        """
         return float(self.work.sum() - self.ground.sum() - self.coupling - self.impacts.sum() - self.stored)
 
     @property
@@ -174,16 +188,19 @@ class Energy(Representation):
 
 
 def energies(system, rows) -> np.ndarray:
-    """Return an array (...,) of type ENERGY from rows (..., ENTRIES) that `accumulate_energy` filled."""
+    """Return a structured array of type ENERGY from rows that `accumulate_energy` filled.
+
+    rows: shape (..., ENTRIES). The result has shape (...).
+    """
     factors = [*system.forcing, system.gamma1, system.gamma2, system.gamma12, 1.0, 1.0, 1.0]
     return np.ascontiguousarray(rows[..., len(POSITIONS) :] * factors).view(ENERGY)[..., 0]
 
 
 @compiled
 def accumulate_energy(flow, flights, events, squares, period, rows):
-    """Add the energies along a run to rows (k, ENTRIES), one row per period.
+    """Add the integrals, losses and changes of stored energy along a run to `rows`.
 
-    The rows are initially 0. The last row also covers the rest of the run.
+    rows: shape (k, ENTRIES), initially 0. Each row covers one period. The last row also covers the rest of the run.
     """
     q, row, passed = flow.coefficients, 0, 0.0
     boxes, balls, walls = start_of(flights[0])
@@ -218,7 +235,7 @@ def accumulate_energy(flow, flights, events, squares, period, rows):
 
 @inlined_source
 def _follow(flow, squares, motion, t, row):
-    """Return the boxes after a flight of length t <= flow.longest, and add its integrals to a row."""
+    """Return the boxes after a flight of length t <= flow.longest; add the integrals over the flight to `row`."""
     mode = mode_of(motion.walls)
     boxes, sine, cosine = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, t)
     if squares.drifts.shape[1] == 0:
@@ -233,7 +250,7 @@ def _follow(flow, squares, motion, t, row):
 
 @inlined
 def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
-    """Add the potentials z S z at one point of a flight, multiplied by `sign`, to sums (k,)."""
+    """Add the k potentials z S z at one point of a flight, multiplied by `sign`, to `sums`, shape (k,)."""
     z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
     for k in range(squares.drifts.shape[1]):
         total = 0.0
@@ -247,7 +264,10 @@ def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
 
 @inlined
 def _add_quadrature(flow, mode, motion, length, row):
-    """Add the integrals of the forms `OBSERVED` over a flight of length <= flow.longest to a row, by Gauss's rule."""
+    """Add the integrals of the quadratic forms `OBSERVED` over a flight to `row`, computed by Gauss's rule.
+
+    length: duration of the flight, at most `flow.longest`.
+    """
     for j in range(int(length * flow.density + 0.5) + 1):
         jets = jet_at(flow, mode, motion.boxes, motion.sine, motion.cosine, j)
         sine, cosine = rotate_phase(flow, motion.sine, motion.cosine, j)

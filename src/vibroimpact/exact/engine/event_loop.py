@@ -1,17 +1,19 @@
-"""Integrate (10.2) from event to event: flights, impacts, chatter, sticking and release.
+"""Integrate the equations of motion (10.2) from event to event: flights, impacts, chatter, sticking and release.
 
 Between events the flow is linear and has a closed form (flow.advance). exclusion.module_time proves that a module has
-no event over some time, or brackets its next event. If the first event is certain, Newton's method finds its time.
-Otherwise the flight continues to the end of the proved interval, so that no event is missed. Events (contact.resolve):
+no event over some time, or brackets the time of its next event. If it is certain which event comes first, Newton's
+method finds the time of this event. Otherwise the flight continues to the end of the proved interval, so that no event
+is missed. The events are (contact.resolve):
 
 impact    a ball meets a wall with outward relative velocity. Newton's restitution rule and the conservation of momentum
-          determine the velocities;
+          determine the velocities after the impact;
 stick     a ball comes to rest on a wall, for example after a chatter (infinitely many impacts in a finite time). Box
           and ball then move as one body of mass 1 + epsilon;
-release   the contact force of a sticking ball falls to zero, or an impact in the other module makes it negative.
+release   a sticking ball leaves its wall, because its contact force falls to zero or an impact in the other module
+          makes this force negative.
 
-A chatter is completed at once if the neglected change of the state is below rounding. Long runs lose no digits, because
-time is represented by the forcing phase, reduced to one turn.
+A chatter is not simulated to its end. A stick replaces the remaining impacts if this changes the state by less than
+rounding. Long runs lose no digits, because time is represented by the forcing phase, which is reduced to one turn.
 """
 
 import math
@@ -41,9 +43,11 @@ STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 
 @inlined_source
 def fly(flow, motion, remaining, most_proofs, counters):
-    """Fly to the next event, or to the end of the run or of the flow table; return (time, module, boxes, balls).
+    """Advance a motion to the next event, or to the end of the run or of the flow table.
 
-    module: -1 without an event, STUCK_IN_TIME if the time does not advance, OUT_OF_PROOFS after `most_proofs` proofs.
+    Return (time, module, boxes, balls), where `time` is the duration of the flight. `module` is the module (0 or 1)
+    with the event, or -1 without an event. `module` is STUCK_IN_TIME if the time does not advance. It is OUT_OF_PROOFS
+    if the run has used more than `most_proofs` proofs that no event happens.
     """
     q = flow.coefficients
     mode = mode_of(motion.walls)
@@ -59,7 +63,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
         horizon = min(reach - t, LOOKAHEAD * flow.unit)
         bound = remainder(q, mode, jets, horizon * q.growth)
         due, step, width, safe, doubt = _first_event(q, now, jets, bound, horizon, short)
-        step = step if step >= -t else 0.0  # an event dated before the start of the flight happens now
+        step = step if step >= -t else 0.0  # an event before the start of the flight happens now
         met, boxes, end = due >= 0 and abs(step) <= short, now.boxes, t + step
         if met:
             counters[contact.UNDECIDED] += doubt
@@ -78,18 +82,19 @@ def fly(flow, motion, remaining, most_proofs, counters):
 
 @inlined_source
 def _first_event(q, motion, jets, bound, horizon, short):
-    """Return (module, time, width, safe, doubt) for the first event, which is at `time` +- `width`.
+    """Return (module, time, width, safe, doubt) for the first event of both modules.
 
-    No event happens before `safe`. The module is -1 if no event is certainly the first.
+    The event happens in `module` at `time` +- `width`. If it is not certain which event is the first, `module` is -1.
+    No event happens before the time `safe`. `doubt` is True if rounding decides whether the event happens.
     """
-    # first check the module whose ball would hit a wall first at constant relative velocity
+    # Begin with the module whose ball would hit a wall earlier if the relative velocities stayed constant.
     (x1, x2, v1, v2), (y1, y2, u1, u2) = motion.boxes, motion.balls
     gap1, gap2 = 1.0 - math.copysign(1.0, v1 - u1) * (x1 - y1), 1.0 - math.copysign(1.0, v2 - u2) * (x2 - y2)
     one = 0 if gap1 * abs(v2 - u2) <= gap2 * abs(v1 - u1) else 1
     two = 1 - one
     t1, w1, doubt1 = module_time(q, motion, one, jets, bound, horizon, short)
     w, s1 = _bounds(t1, w1, short)
-    # check the other module until slightly after t1, so that no earlier event is missed
+    # Check the other module up to slightly after t1, so that no event before t1 is missed.
     t2, w2, doubt2 = module_time(q, motion, two, jets, bound, min(t1 + w + short, horizon), short)
     v, s2 = _bounds(t2, w2, short)
     if w1 < math.inf and t1 + w <= s2:
@@ -101,14 +106,20 @@ def _first_event(q, motion, jets, bound, horizon, short):
 
 @inlined
 def _bounds(t, width, short):
-    """Return (uncertainty of `t`, end of the interval without events) from the `t` and `width` of `module_time`."""
+    """Return the uncertainty of the event time t, and the time up to which no event happens.
+
+    t, width: from `module_time`.
+    """
     w = 0.0 if width == math.inf or abs(t) <= short else width
     return w, t - w
 
 
 @inlined
 def _refine_impact_time(flow, motion, i, t, low, high):
-    """Refine the guess t of the only impact of module i in [low, high]; return (found, time, boxes)."""
+    """Refine the guess t for the time of the only impact of module i in [low, high].
+
+    Return (found, time, boxes): `found` is True if the method converged to a time in [low, high].
+    """
     mode = mode_of(motion.walls)
     for _ in range(TRIES):
         j = int(t * flow.density + 0.5)
@@ -135,15 +146,15 @@ FAILURES = {
 }
 ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096
 """The initial number of rows for events is ROOM + ROOM_PER_CYCLE * cycles, at most MOST_ROOM. Few runs need more."""
-MOST_AT_ONCE = 8  # for each module an impact, a stick, a release and the end of a chatter
+MOST_AT_ONCE = 8  # events at one instant: at most an impact, a stick, a release and the end of a chatter per module
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 need more."""
-INTERRUPT_INTERVAL = 200_000  # proofs that no event happens, between two checks for an interrupt (20 ms)
-PATIENCE = 100_000  # successive flights of zero duration after which a run is stopped
+INTERRUPT_INTERVAL = 200_000  # number of proofs between two checks for an interrupt by the user; they take 20 ms
+PATIENCE = 100_000  # number of successive flights of zero duration after which a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run may use MOST_PROOFS proofs that no event happens, plus MOST_PROOFS_PER_EVENT per event and MOST_PROOFS_PER_UNIT
 per time `Flow.unit`."""
-ROWS_PER_PIECE = 65536  # rows per array of events: 8 MB, for which the operating system uses large pages
+ROWS_PER_PIECE = 65536  # number of rows in an array of events: an array of 8 MB gets large memory pages
 EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
 """Indices in the array of a run, (RUN_LENGTH,). EARLIER_EVENTS: number of events in earlier rows. SPAN: phase at the
 start, its rounding remainder, number of cycles. CLOCK: start time. The state (`contact.pack`) and the other fields of
@@ -153,8 +164,10 @@ start, its rounding remainder, number of cycles. CLOCK: start time. The state (`
 class Progress(NamedTuple):
     """State of an unfinished run.
 
-    due: module (0 or 1) with an event at this instant, or -1. phase, tail: forcing phase in [0, 2 pi) and its rounding
-    remainder. stalled: number of successive flights of zero duration.
+    motion: the `Motion` at this instant. due: module (0 or 1) with an event at this instant, or -1.
+    phase, tail: forcing phase in [0, 2 pi) and its rounding remainder. revolutions: number of full turns of the phase.
+    elapsed: time since the start. sampled: number of samples taken.
+    stalled: number of successive flights of zero duration.
     """
 
     motion: Motion
@@ -171,14 +184,16 @@ class Progress(NamedTuple):
 def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     """Continue a run to its end or to a pause; return the status.
 
-    numbers, series, rotations: from `flow.tables_of`. run, rows, counters: from `memory`; run[:8] becomes the state
-    reached. times (n,): ascending, from the same origin as run[CLOCK]. samples (n, 8): filled with the states at these
-    times.
+    numbers, series, rotations: from `flow.tables_of`.
+    run, rows, counters: from `memory`. The function updates these arrays; run[:8] becomes the state reached.
+    times: ascending sample times, shape (n,), on the same time scale as the start time run[CLOCK].
+    samples: array of shape (n, 8), filled with the states at the sample times.
 
-    The status is PAUSED if `rows` may be too short for the next instant, or to let the interpreter handle an interrupt.
-    Call the function again to continue. If `rows` may be too short, first add counters[EVENTS] to run[EARLIER_EVENTS],
-    set counters[EVENTS] to 0 and pass new rows. An interrupt could leave a returned tuple incomplete, so that only a
-    number is returned.
+    The status is PAUSED in two cases. Either `rows` may be too short for the events of the next instant, or the
+    interpreter must be able to handle an interrupt. To continue, call the function again. If `rows` may be too short,
+    first add counters[EVENTS] to run[EARLIER_EVENTS], set counters[EVENTS] to 0 and pass new rows.
+
+    Only a number is returned, since an interrupt could leave a returned tuple incomplete.
     """
     boxes, balls = (run[0], run[2], run[4], run[6]), (run[1], run[3], run[5], run[7])
     motion = Motion(boxes, balls, (int(run[8]), int(run[9])), (int(run[10]), int(run[11])), 0.0, 1.0)
@@ -195,9 +210,10 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
 
 
 def memory(state, phase, tail, cycles, clock):
-    """Return new arrays for `integrate`: (run, rows of events, counters).
+    """Return new arrays for `integrate`: the array of the run, the rows of events and the counters.
 
-    phase, tail: initial forcing phase and its rounding remainder. clock: start time.
+    state: initial state, shape (8,). phase, tail: initial forcing phase and its rounding remainder.
+    cycles: number of forcing periods. clock: start time of the run, on the same time scale as the sample times.
     """
     run, room = np.zeros(RUN_LENGTH), min(ROOM + ROOM_PER_CYCLE * cycles, MOST_ROOM)
     run[:8], run[12:15], run[SPAN:] = state, (-1.0, phase, tail), (phase, tail, cycles, clock)
@@ -208,9 +224,12 @@ def memory(state, phase, tail, cycles, clock):
 def run_until(flow, progress, span, sampling, log, earlier, interval):
     """Continue a run to its end or to a pause; return (progress, status).
 
-    The run pauses after `interval` proofs, or if `log.rows` may be too short for the next instant. span: (forcing phase
-    at the start, its rounding remainder, number of cycles). sampling: (start time, ascending sample times (n,), array
-    (n, 8) for the samples). earlier: number of events in earlier rows.
+    The run pauses after `interval` proofs that no event happens. It also pauses if `log.rows` may be too short for the
+    events of the next instant.
+
+    span: forcing phase at the start of the run, its rounding remainder, and the number of cycles.
+    sampling: start time of the run, ascending sample times, shape (n,), and an array for the samples, shape (n, 8).
+    earlier: number of events in earlier arrays of rows.
     """
     q = flow.coefficients
     (first, first_tail, cycles), (start, sample_times, samples) = span, sampling
@@ -259,7 +278,7 @@ def run_until(flow, progress, span, sampling, log, earlier, interval):
 
 @inlined_source
 def _failure(q, boxes, balls, due, stalled, count, most_events):
-    """Return the reason to stop a run after a flight, or FINISHED if there is none."""
+    """Return the reason to stop a run after a flight, or FINISHED if there is no reason to stop."""
     for i in range(2):
         beyond = abs(boxes[i] - balls[i]) - 1.0
         if beyond > 0.0 and beyond > 16.0 * gap_rounding(q, boxes, balls, i):
