@@ -207,8 +207,8 @@ def _end_of_chatter(flow, motion, i, counters):
 
     Each hop of the ball is shorter than the hop before by the factor kappa. With u and a from `_hop`, the chatter ends
     after the time T = 2 u / (a (1 - kappa)). A stick then replaces the remaining impacts. The stick conserves the
-    momentum of box and ball. It neglects that the hops change the spring forces. The neglected effect is of the order
-    u^3 / a^2.
+    momentum of box and ball. The stick neglects that the hops change the spring forces. The neglected effect is of the
+    order u^3 / a^2.
     """
     q, boxes, balls, wall = flow.coefficients, motion.boxes, motion.balls, motion.touching[i]
     u, a = _hop(q, motion, i, wall)
@@ -325,8 +325,8 @@ def _stick_or_release(q, motion, i, pulled, elapsed, log):
 def _complete_both(flow, motion, chatters, elapsed, log):
     """Return the motion after completing the chatters that end soon.
 
+    To complete a chatter, a stick replaces its remaining impacts. The sticks are recorded in order of time.
     chatters: for each ball, True if its chatter would end soon (see `_apply_impact`).
-    The sticks at the ends of the chatters are recorded in order of time.
     """
     boxes, balls = motion.boxes, motion.balls
     ends, inward = (-1.0, -1.0), (abs(boxes[2] - balls[2]), abs(boxes[3] - balls[3]))

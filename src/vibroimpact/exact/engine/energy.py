@@ -85,8 +85,8 @@ UNITS[np.arange(TRIANGLE), ROWS, COLUMNS] = UNITS[np.arange(TRIANGLE), COLUMNS, 
 def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return potentials, drifts and flags for the integrals of z G z along the flights of n systems.
 
-    rates: rate matrices A, shape (n, 4, 6, 6), for each of the four contact states. kernels: matrices G, shape (k, 6,
-    6).
+    rates: rate matrices A for each of the four contact states, shape (n, 4, 6, 6).
+    kernels: matrices G, shape (k, 6, 6).
     The potentials S have shape (n, 4, k, 6, 6), the drifts c shape (n, 4, k) and the flags shape (n,). The flag of a
     system is True if differences of z S z + c t keep enough digits.
     """

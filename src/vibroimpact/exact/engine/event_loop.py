@@ -12,8 +12,8 @@ stick     a ball comes to rest on a wall, for example after a chatter (infinitel
 release   a sticking ball leaves its wall, because its contact force falls to zero or an impact in the other module
           makes this force negative.
 
-A chatter is not simulated to its end. A stick replaces the remaining impacts if this changes the state by less than
-rounding. Long runs lose no digits, because time is represented by the forcing phase, which is reduced to one turn.
+A chatter is not simulated to its end. A stick replaces the remaining impacts as soon as this changes the state by less
+than rounding. Long runs lose no digits, because time is represented by the forcing phase, which is reduced to one turn.
 """
 
 import math
@@ -149,7 +149,7 @@ ROOM, ROOM_PER_CYCLE, MOST_ROOM = 32, 6, 4096
 MOST_AT_ONCE = 8  # events at one instant: at most an impact, a stick, a release and the end of a chatter per module
 MOST_EVENTS, MOST_EVENTS_PER_CYCLE = 1_000_000, 10_000
 """A run may have MOST_EVENTS events plus MOST_EVENTS_PER_CYCLE per cycle; only runs with kappa close to 1 need more."""
-INTERRUPT_INTERVAL = 200_000  # number of proofs between two checks for an interrupt by the user; they take 20 ms
+INTERRUPT_INTERVAL = 200_000  # number of proofs between two checks for an interrupt by the user (about 20 ms)
 PATIENCE = 100_000  # number of successive flights of zero duration after which a run is stopped
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run may use MOST_PROOFS proofs that no event happens, plus MOST_PROOFS_PER_EVENT per event and MOST_PROOFS_PER_UNIT
@@ -189,9 +189,10 @@ def integrate(numbers, series, rotations, run, times, samples, rows, counters):
     times: ascending sample times, shape (n,), on the same time scale as the start time run[CLOCK].
     samples: array of shape (n, 8), filled with the states at the sample times.
 
-    The status is PAUSED in two cases. Either `rows` may be too short for the events of the next instant, or the
-    interpreter must be able to handle an interrupt. To continue, call the function again. If `rows` may be too short,
-    first add counters[EVENTS] to run[EARLIER_EVENTS], set counters[EVENTS] to 0 and pass new rows.
+    The status is PAUSED if `rows` may be too short for the events of the next instant. The status is also PAUSED after
+    INTERRUPT_INTERVAL proofs, so that the interpreter can handle an interrupt. To continue, call the function again. If
+    `rows` may be too short, first add counters[EVENTS] to run[EARLIER_EVENTS], set counters[EVENTS] to 0 and pass new
+    rows.
 
     Only a number is returned, since an interrupt could leave a returned tuple incomplete.
     """

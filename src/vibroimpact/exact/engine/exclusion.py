@@ -1,13 +1,13 @@
 """Prove that the constraints of a flight are satisfied over some time, and bracket the time of the first violation.
 
-A constraint is a smooth function g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. Its Taylor
-polynomial of degree 6 and a bound on its seventh derivative give a lower bound c0 + ... + c7 t^7. This bound is
-positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are positive. Steps of such lengths T converge
-to the first zero of g and never pass it. If the rate of g keeps its sign, there is at most one zero, which can be
-approached from either side.
+A constraint is a smooth function g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. The Taylor
+polynomial of g of degree 6 and a bound on the seventh derivative of g give a lower bound c0 + ... + c7 t^7. This bound
+is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are positive. Steps of such lengths T
+approach the first zero of g and never pass the zero. If the rate of g keeps its sign, g has at most one zero, which can
+be approached from either side.
 
-The proofs use floating-point arithmetic. Callers lower c0 by a margin for the rounding errors of g. "Certain" means
-proved with this margin.
+The proofs use floating-point arithmetic. Callers lower c0 by a margin for the rounding errors of g. In this file,
+"certain" means proved with this margin.
 """
 
 import math
@@ -17,27 +17,33 @@ import numpy as np
 from vibroimpact.exact.engine.compiled import inlined, inlined_source
 from vibroimpact.exact.engine.flow import half_curvature, jet, mode_of, slope, value
 
-SHORTEST_TIME = 1e-300  # if no proof succeeds for a time longer than this, `safe_time` returns 0
+SHORTEST_TIME = 1e-300  # `safe_time` returns 0 if no proof succeeds for a longer time
 
 
 @inlined
 def least(c, t):
-    """Return a lower bound for the polynomial c (8,) on [0, t]: its least coefficient in the Bernstein basis."""
+    """Return a lower bound on [0, t] for the polynomial with the eight coefficients c.
+
+    The bound is the smallest coefficient of the polynomial in the Bernstein basis of [0, t].
+    """
     t2 = t * t
     t3, t4 = t2 * t, t2 * t2
     first = c[0], c[1] * t * (1 / 7), c[2] * t2 * (1 / 21), c[3] * t3 * (1 / 35)
     second = c[4] * t4 * (1 / 35), c[5] * (t2 * t3) * (1 / 21), c[6] * (t3 * t3) * (1 / 7), c[7] * (t3 * t4)
     b = first + second
     low = c[0]
-    for _ in range(7):  # coefficient k is the sum of b, weighted by row k of Pascal's triangle
+    for _ in range(7):  # coefficient k sums b with row k of Pascal's triangle as weights
         b = (b[0] + b[1], b[1] + b[2], b[2] + b[3], b[3] + b[4], b[4] + b[5], b[5] + b[6], b[6] + b[7], b[7])
-        low = low if low < b[0] else b[0]  # nan if a coefficient is nan
+        low = low if low < b[0] else b[0]  # this gives nan if a coefficient is nan
     return low
 
 
 @inlined
 def positive(c, t):
-    """Return True if the polynomial c (8,) is certainly positive on [0, t], by a cheap bound or by `least`."""
+    """Return True if the polynomial with the eight coefficients c is certainly positive on [0, t].
+
+    A cheap lower bound is tried first, then the bound from `least`.
+    """
     t2 = t * t
     line, square = c[1] * t * (1 / 3), c[2] * t2 * (1 / 3)
     first, second, last = c[0] + line, c[0] + 2.0 * line + square, c[0] + 3.0 * (line + square) + c[3] * (t * t2)
@@ -47,10 +53,11 @@ def positive(c, t):
 
 @inlined
 def safe_time(c, horizon):
-    """Return a time in [0, horizon] up to which the polynomial c (8,) is certainly positive; 0 unless c[0] > 0.
+    """Return a time in [0, horizon] up to which the polynomial with the eight coefficients c is certainly positive.
 
-    The time is close to a simple first zero. It is at least half of the longest time t with positive Bernstein
-    coefficients. These are positive if no real or complex zero is in the disc with diameter [0, t].
+    If c[0] is not positive, the time is 0. If the first zero is simple, the time is close to this zero. In every case,
+    the time is at least half of the longest time t for which the Bernstein coefficients on [0, t] are positive. These
+    coefficients are positive if the disc with diameter [0, t] contains no real or complex zero.
     """
     if not c[0] > 0.0:
         return 0.0
@@ -79,10 +86,12 @@ CONVERGING = 1e-8  # after a Newton step shorter than this, the error is below r
 def crossing(c, remainder, margin, horizon, short):
     """Return (certain, time, width) for the first zero of a decreasing constraint.
 
-    If `certain` is True, the zero is at `time` +- `width`, or not before the horizon if `width` is inf. A time up to
-    `short` is exact to rounding.
+    If `certain` is True and `width` is finite, the constraint certainly has its first zero at `time` +- `width`. A time
+    up to `short` is exact to rounding. If `certain` is True and `width` is inf, the constraint certainly has no zero
+    before the horizon. If `certain` is False, nothing is proved.
 
-    c: Taylor polynomial (8,) with c1 < 0. remainder: bound on |seventh derivative| / 5040. margin: error of c0.
+    c: the eight Taylor coefficients of the constraint, with c[1] < 0. remainder: bound on |seventh derivative| / 5040.
+    margin: bound on the rounding error of c[0].
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
     fall = (-c[1], -2.0 * c[2], -3.0 * c[3], -4.0 * c[4], -5.0 * c[5], -6.0 * c[6], -7.0 * remainder, 0.0)
@@ -108,7 +117,10 @@ def crossing(c, remainder, margin, horizon, short):
 
 @inlined
 def nearby_zero(c, t):
-    """Return the zero of the polynomial c (8,) that Newton's method reaches from t, or nan."""
+    """Return the zero of the polynomial with the eight coefficients c that Newton's method reaches from t.
+
+    If Newton's method does not converge, return nan.
+    """
     inverse = 1.0 / c[1]
     near, b, d, e = -c[0] * inverse, c[2] * inverse, c[3] * inverse, c[4] * inverse
     if abs(near * b) < 0.05:  # start from four terms of the series of the inverse function
@@ -123,41 +135,49 @@ def nearby_zero(c, t):
 
 @inlined
 def return_time(c, remainder, horizon):
-    """Return the time, exact to rounding, at which a very short hop ends, or inf if it is uncertain.
+    """Return the time at which a very short hop of a ball from a wall back to this wall ends.
 
-    c, remainder: as for `crossing`, with c0 = 0 and c1 > 0.
+    The time is exact to rounding. If the time is uncertain, return inf.
+
+    c, remainder: as for `crossing`, for the gap to the wall, with c[0] = 0 and c[1] > 0.
     """
     t = -c[1] / c[2] if c[2] < 0.0 else math.inf
     if t > 0.5 * horizon or 8.0 * t * spread(c, remainder, t) > -c[2]:
         return math.inf
-    # division of the polynomial by t keeps the relative accuracy
+    # Division of the polynomial by t removes the zero at t = 0. The other zero then keeps its relative accuracy.
     return nearby_zero((c[1], c[2], c[3], c[4], c[5], c[6], c[7], 0.0), t)
 
 
 @inlined
 def spread(c, remainder, t):
-    """Return a bound on |h(t) - h(0)| / t, where h is half the second derivative of a constraint."""
+    """Return a bound on |h(t) - h(0)| / t, where h is half the second derivative of a constraint.
+
+    c, remainder: Taylor coefficients and remainder bound of the constraint, as for `crossing`.
+    """
     high = 15.0 * abs(c[6]) + t * 21.0 * remainder
     return 3.0 * abs(c[3]) + t * (6.0 * abs(c[4]) + t * (10.0 * abs(c[5]) + t * high))
 
 
 RESOLUTION = 4.0 * np.finfo(float).eps
-ZERO_FACTOR = 2.0  # a constraint of at most 2 rounding errors counts as 0, since proofs would need tiny steps
+ZERO_FACTOR = 2.0  # a constraint below 2 rounding errors counts as 0, since proofs near 0 would need tiny steps
 DOUBT_FACTOR = 2.0 * ZERO_FACTOR
 """Distance, in units of `gap_rounding`, below which rounding decides whether a ball hits or misses a wall. With other
 steps, as in an ensemble, the decision may differ."""
 LOOKAHEAD = 2.5
-ZERO_FORCE_MARGIN = 1e-300  # margin for a force that stays zero
-SHORT = 0.02  # time in `Flow.unit` for which the Taylor polynomials of the boxes are exact to rounding
+ZERO_FORCE_MARGIN = 1e-300  # keeps the margin of a contact force positive if the force stays zero
+SHORT = 0.02  # time (in units of `Flow.unit`) up to which Taylor polynomials of the boxes are exact to rounding
 
 
 @inlined
 def remainder(q, mode, jets, growth):
     """Return a bound on |X_i^(7)| / 7! that holds for both boxes.
 
-    The sixth derivatives of the displacements obey the equations of motion with the sixth derivative of the force as
-    forcing. Their velocities, the seventh derivatives, are at most sqrt(2 E), where E is the energy of this motion.
-    Damping only removes energy. So sqrt(2 E) grows by at most `growth`, a bound on the time integral of this forcing.
+    The sixth derivatives of the displacements obey the equations of motion, with the sixth derivative of the force as
+    forcing. The velocities of this auxiliary motion are the seventh derivatives of the displacements. They are at most
+    sqrt(2 E), where E is the energy of the auxiliary motion. Damping can only reduce E. Therefore sqrt(2 E) grows by at
+    most `growth`.
+
+    growth: bound on the time integral of the sixth derivative of the force.
     """
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
@@ -168,10 +188,12 @@ def remainder(q, mode, jets, growth):
 
 @inlined
 def own_remainder(q, mode, jets, both, i, force, horizon):
-    """Return a bound like `remainder` for box i alone; with weak coupling, it hardly depends on the other box.
+    """Return a bound like that of `remainder`, for box i alone.
 
-    The energy of a box grows by the work of its force and of the coupling. force: bound on the sixth derivative of the
-    force.
+    The energy of a box grows by the work of the force on the box and of the coupling. With weak coupling, the bound
+    therefore hardly depends on the other box.
+
+    both: bound for both boxes, from `remainder`. force: bound on the sixth derivative of the force on box i.
     """
     m, k, p = (q.mass if mode & (i + 1) else 1.0), (q.k11 if i == 0 else q.k22), (jets[0] if i == 0 else jets[1])
     passed = (abs(q.k12) / math.sqrt(q.ground if i == 0 else 1.0) + abs(q.c12)) * both
@@ -198,9 +220,9 @@ def gap_rounding(q, boxes, balls, i):
 
 @inlined
 def gap(p, position, velocity, w):
-    """Return the Taylor polynomial (8,) of the gap between a free ball and wall w.
+    """Return the eight Taylor coefficients of the gap between a free ball and wall w.
 
-    p: Taylor polynomial of the box. position, velocity: those of the ball.
+    p: Taylor coefficients of the box displacement. position, velocity: position and velocity of the ball.
     """
     near, approach = 1.0 - w * (p[0] - position), -w * (p[1] - velocity)
     return near, approach, -w * p[2], -w * p[3], -w * p[4], -w * p[5], -w * p[6], -w * p[7]
@@ -208,9 +230,10 @@ def gap(p, position, velocity, w):
 
 @inlined
 def push(q, mode, jets, i, wall, sine, cosine, horizon):
-    """Return (Taylor polynomial (8,), bound on its remainder) of the wall's force on a sticking ball, per ball mass.
+    """Return (Taylor coefficients, remainder bound) of the force of the wall on the sticking ball i, per ball mass.
 
-    Box accelerations obey the equations of motion with the second derivative of the forcing.
+    Up to its sign, this force is the acceleration of the box. The accelerations of the boxes obey the equations of
+    motion, with the second derivative of the force as forcing.
     """
     one, two = jets
     fall = -wall * q.omega * q.omega
@@ -223,9 +246,11 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
 
 @inlined
 def _safe_time(c, bound, margin, horizon):
-    """Return (time, due): a time over which a constraint certainly holds, and True if an event is due at once.
+    """Return (time, due): the constraint certainly holds up to `time`, and `due` is True if an event is due now.
 
-    An event is due if the constraint is zero within rounding and decreases.
+    An event is due now if the constraint is zero within rounding and decreases.
+
+    c: Taylor coefficients of the constraint. bound: bound on the remainder. margin: rounding error of c[0].
     """
     if c[0] > ZERO_FACTOR * margin:
         return safe_time((c[0] - margin, c[1], c[2], c[3], c[4], c[5], c[6], -bound), horizon), False
@@ -237,10 +262,11 @@ def _safe_time(c, bound, margin, horizon):
 
 @inlined
 def _time_from_zero(c, bound, margin, horizon, rises):
-    """Return a time over which a constraint that is initially zero within rounding is certainly satisfied.
+    """Return a time up to which a constraint that is initially zero within rounding is certainly satisfied.
 
-    If the constraint rises, division by t removes its initial zero. If it does not rise, or if the remainder bound
-    makes the time short, it is only proved to stay above -margin.
+    If the constraint rises, its polynomial is divided by t, which removes the initial zero. In two cases, the
+    constraint is only proved to stay above -margin. Either the constraint does not rise, or the remainder bound more
+    than halves the time.
     """
     time = 0.0
     if rises:
@@ -252,9 +278,9 @@ def _time_from_zero(c, bound, margin, horizon, rises):
 
 @inlined_source
 def _hop_time(c, bound, margin, horizon, short):
-    """Return (time, back) for a hop of a ball from the wall that it touches now.
+    """Return (time, back) for a hop of a ball: a flight from the wall that the ball touches now back to this wall.
 
-    If `back` is True, the hop ends at `time`. Otherwise the hop certainly does not end before `time`.
+    If `back` is True, the hop ends at `time`. If `back` is False, the hop certainly does not end before `time`.
     """
     if c[1] == 0.0:
         rise = safe_time((c[2], c[3], c[4], c[5], c[6], -bound, 0.0, 0.0), horizon)
@@ -269,15 +295,17 @@ def _hop_time(c, bound, margin, horizon, short):
 def module_time(q, motion, i, jets, bound, horizon, short):
     """Return (time, width, undecided) for the next event in module i.
 
-    The event is certainly at `time` +- `width`. If `width` is inf, there is certainly no event before `time`. `time` is
-    slightly negative just after an event. `undecided` is True if rounding decides whether the event happens.
+    If `width` is finite, the event happens at `time` +- `width`. `undecided` is True if rounding decides whether this
+    event happens. If `width` is inf, certainly no event happens before `time`. Just after an event, `time` may be
+    slightly negative.
 
-    jets: Taylor polynomials of both boxes. short: time up to which they are exact to rounding. bound: from `remainder`.
+    jets: Taylor polynomials of both boxes. short: time up to which these polynomials are exact to rounding.
+    bound: bound on the remainders of these polynomials, from `remainder`.
     """
     if motion.walls[i] != 0:
         return _sticking_time(q, motion, i, jets, horizon, short)
     velocity = motion.boxes[2 + i] - motion.balls[2 + i]
-    if velocity != 0.0:  # as long as the velocity keeps its sign, only the wall ahead matters
+    if velocity != 0.0:  # while the velocity keeps its sign, only the wall ahead matters
         ahead = 1.0 if velocity > 0.0 else -1.0
         c = gap(jets[0] if i == 0 else jets[1], motion.balls[i], motion.balls[2 + i], ahead)
         certain, t, width = crossing(c, bound, gap_rounding(q, motion.boxes, motion.balls, i), horizon, short)
@@ -288,9 +316,13 @@ def module_time(q, motion, i, jets, bound, horizon, short):
 
 @inlined_source
 def _sticking_time(q, motion, i, jets, horizon, short):
-    """Return the result of `module_time` for a sticking ball, from its contact force."""
+    """Return the result of `module_time` for a module whose ball sticks.
+
+    The constraint is that the contact force pushes the ball.
+    """
     c, bound = push(q, mode_of(motion.walls), jets, i, motion.walls[i], motion.sine, motion.cosine, horizon)
-    # The second term bounds the rounding error of the change of the force. Without it, the margin could be almost zero.
+    # The second term bounds the rounding error of the change of the force. Without this term, the margin could be
+    # almost zero.
     margin = acceleration_rounding(q, motion.boxes, i) + RESOLUTION * bound * horizon**7 + ZERO_FORCE_MARGIN
     if c[1] < 0.0:
         certain, t, width = crossing(c, bound, margin, horizon, short)
@@ -302,7 +334,7 @@ def _sticking_time(q, motion, i, jets, horizon, short):
 
 @inlined_source
 def _turning_time(q, motion, i, jets, bound, horizon, short):
-    """Return the result of `module_time` for a flying ball that may turn around in its box."""
+    """Return the result of `module_time` for a flying ball whose velocity relative to the box may change sign."""
     boxes, balls = motion.boxes, motion.balls
     margin = gap_rounding(q, boxes, balls, i)
     force = abs(q.f1 if i == 0 else q.f2) * q.omega**6

@@ -1,7 +1,8 @@
 """Tabulate Taylor polynomials of the linear flow z' = A z at equally spaced times.
 
-The matrices exp(A t) are computed in double-double numbers, each a float and its remainder (Dekker 1971). The matrices
-have shape (2, 6, 6, times). The times are the last axis, so that one vector instruction handles several of them.
+The matrices exp(A t) are computed in double-double numbers. A double-double number is a float together with its
+rounding remainder (Dekker 1971). Arrays of such matrices have shape (2, 6, 6, times). The times are the last axis, so
+that one vector instruction computes a matrix entry at several times.
 """
 
 import math
@@ -12,7 +13,7 @@ from vibroimpact.exact.engine.compiled import compiled, inlined, inlined_source
 from vibroimpact.exact.engine.vectors import fused
 
 SIZE, BOXES = 6, 4  # z = [X1, X2, X1', X2', sin, cos] has 6 entries, 4 of them for the boxes
-TERMS = 20  # terms in the series of exp(A h), where h is the table spacing; the next is below 1e-40
+TERMS = 20  # number of terms in the series of exp(A h), where h is the table spacing; the next term is below 1e-40
 ORDERS = 8  # number of coefficients in a Taylor polynomial
 
 
@@ -20,13 +21,13 @@ ORDERS = 8  # number of coefficients in a Taylor polynomial
 def exact_rates(parameters):
     """Return (rate matrices, velocity changes, fastest rates) of n systems.
 
-    parameters (n, 10): in the order of `flow.PARAMETERS`.
-    rate matrices (n, 2, 4, 6, 6): floats and their rounding remainders, for each contact state.
-    velocity changes (n, 2): (1 + kappa) / (1 + epsilon) at an impact, and its rounding remainder.
-    fastest rates (n, 2): due to stiffness and due to damping.
+    parameters: shape (n, 10), in the order of `flow.PARAMETERS`.
+    rate matrices: floats and their rounding remainders, for each contact state, shape (n, 2, 4, 6, 6).
+    velocity changes: the factor (1 + kappa) / (1 + epsilon) of an impact and its rounding remainder, shape (n, 2).
+    fastest rates: fastest rate due to stiffness and fastest rate due to damping, shape (n, 2).
 
-    The forces of a stiff coupling must cancel exactly when both boxes move equally. Without the remainders, the lower
-    natural frequency would shift.
+    If both boxes move equally, the forces of a stiff coupling must cancel exactly. Without the rounding remainders, the
+    forces would not cancel and the lower natural frequency would shift.
     """
     n = len(parameters)
     rates, impulses, fastest = np.zeros((n, 2, 4, SIZE, SIZE)), np.empty((n, 2)), np.empty((n, 2))
@@ -79,10 +80,11 @@ def _ratio(high, low, other, other_low):
 def tables(rates, spacing, count):
     """Return (series, rotations): flow tables for k rate matrices A at the times j h, j < count.
 
-    rates (2, k, 6, 6): the matrices A and their rounding remainders. spacing: h, a power of two. count: at least 2.
-    series (k, count, 6, 16): Taylor coefficients of both boxes for each initial unit vector z. Order m is at index m
-    for X_1 and at 8 + m for X_2.
-    rotations (count, 2): cosine and sine of the change of the forcing phase.
+    rates: the matrices A and their rounding remainders, shape (2, k, 6, 6).
+    spacing: the time step h, a power of two. count: number of times, at least 2.
+    series: Taylor coefficients of both boxes for each initial unit vector z, shape (k, count, 6, 16). The coefficient
+    of order m is at index m for X_1 and at index 8 + m for X_2.
+    rotations: cosine and sine of the change of the forcing phase, shape (count, 2).
     """
     series, rotations = np.empty((rates.shape[1], count, SIZE, 2 * ORDERS)), np.empty((count, 2))
     for mode in range(rates.shape[1]):
@@ -92,16 +94,16 @@ def tables(rates, spacing, count):
 
 @compiled
 def fill_table(rates, mode, spacing, series, rotations, step, change):
-    """Write series[mode] and rotations as in `tables`, and exp(A t) - I at t = step * spacing to `change`.
+    """Fill `series[mode]` and `rotations` as described in `tables`, and write exp(A t) - I to `change`.
 
-    change (2, 6, 6): floats and their rounding remainders.
+    The time in `change` is t = step * spacing. change: floats and their rounding remainders, shape (2, 6, 6).
     """
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
     one, other = np.zeros((2, SIZE, SIZE, 1)), np.zeros((2, SIZE, SIZE, 1))
     _fill_unit(power, 0)
     _fill_exponential(rates, mode, spacing, power, one, other)
-    last = np.intp(1)  # a literal would make Numba compile `_entries` again
+    last = np.intp(1)  # the literal 1 would make Numba compile `_entries` again
     while last < count - 1:
         _multiply(power, last, min(last, count - 1 - last))
         last *= 2
@@ -125,9 +127,9 @@ def _fill_unit(matrices, place):
 
 @inlined_source
 def _fill_exponential(rates, k, spacing, powers, term, after):
-    """Write exp(A_k spacing) to index 1 of `powers`.
+    """Write exp(A_k spacing), the first power, to index 1 of `powers`, for the rate matrix A_k with index k.
 
-    term, after: workspace, (2, 6, 6, 1).
+    term, after: arrays for intermediate results, shape (2, 6, 6, 1).
     """
     _fill_unit(powers, 1)
     _fill_unit(term, 0)
@@ -148,9 +150,11 @@ def _fill_exponential(rates, k, spacing, powers, term, after):
 
 @inlined_source
 def _fill_coefficients(rates, k, rows, power, after):
-    """Write the Taylor coefficients of both boxes to `rows` (6, 16), one row for each initial unit vector.
+    """Write the Taylor coefficients of both boxes to `rows`, shape (6, 16), one row for each initial unit vector.
 
-    Order m is at index m for X_1 and at 8 + m for X_2.
+    The coefficient of order m is at index m for X_1 and at index 8 + m for X_2.
+
+    power, after: arrays for intermediate results, shape (2, 6, 6, 1).
     """
     _fill_unit(power, 0)
     for m in range(ORDERS):
@@ -167,7 +171,11 @@ def _fill_coefficients(rates, k, rows, power, after):
 
 @inlined_source
 def _expand(coefficients, powers, series, mode):
-    """Write series[mode], (count, 6, 16): products of coefficients (6, 16) with powers exp(A j h) (2, 6, 6, count)."""
+    """Write the products of the Taylor coefficients with the powers exp(A j h) to series[mode].
+
+    coefficients: Taylor coefficients at time 0, shape (6, 16). powers: shape (2, 6, 6, count).
+    series[mode]: shape (count, 6, 16).
+    """
     for j in range(powers.shape[3]):
         for m in range(SIZE):
             a, b, c = powers[0, 0, m, j], powers[0, 1, m, j], powers[0, 2, m, j]
@@ -180,32 +188,38 @@ def _expand(coefficients, powers, series, mode):
 
 @inlined_source
 def _multiply(powers, last, many):
-    """Extend the powers P, ..., P^last of P = exp(A h) by `many` more powers."""
+    """Compute `many` more powers of P = exp(A h) from the known powers P, ..., P^last."""
     for i in range(BOXES):
         for j in range(BOXES):
             _entries(powers, last, many, i, j, 0, BOXES)
         for j in range(BOXES, SIZE):
             _entries(powers, last, many, i, j, 0, SIZE)
-    for i in range(BOXES, SIZE):  # the forcing phase does not depend on the boxes: columns j < BOXES are zero
+    for i in range(BOXES, SIZE):  # in these rows of the phase, the columns of the boxes are zero
         for j in range(BOXES, SIZE):
             _entries(powers, last, many, i, j, BOXES, SIZE)
 
 
 @inlined
 def _entries(powers, last, many, i, j, first, end):
-    """Write entry (i, j) of the `many` new powers, as sums over first <= n < end."""
+    """Write entry (i, j) of `many` new powers, which are the products of P^last with P, P^2, ....
+
+    The sum of each matrix product runs over first <= n < end, since all other terms are zero.
+    """
     for time in range(1, many + 1):
         high, low = 0.0, 0.0
         for n in range(first, end):
             a, a_low = powers[0, i, n, time], powers[1, i, n, time]
             high, low = _plus_product(high, low, a, a_low, powers[0, n, j, last], powers[1, n, j, last])
-        there = np.uintp(last + time)  # unsigned, so that the compiler vectorises the loop
+        there = np.uintp(last + time)  # the index is unsigned, so that the compiler vectorises the loop
         powers[0, i, j, there], powers[1, i, j, there] = _normal(high, low)
 
 
 @inlined
 def _plus_product(high, low, a, a_low, b, b_low):
-    """Return (high, low) + (a, a_low) (b, b_low), still to be normalised by `_normal`."""
+    """Return (high, low) + (a, a_low) (b, b_low) as a pair (high, low).
+
+    The pair is not yet normalised (see `_normal`).
+    """
     product = a * b
     total = high + product
     part = total - high

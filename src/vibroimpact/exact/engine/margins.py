@@ -4,8 +4,9 @@ The constraint of a module is the gap between ball and wall while the ball flies
 sticks. A turn is a minimum of a constraint.
 
 To find all turns, a flight is cut into pieces. In a piece, the rate of the constraint or the derivative of this rate
-certainly keeps its sign. A piece therefore has at most one turn. The signs of the rate at both ends show whether there
-is one. The proof uses Bernstein coefficients of Taylor polynomials, as in the module `exclusion`.
+certainly keeps its sign. A piece therefore has at most one turn. The signs of the rate at both ends of a piece show
+whether the piece has a turn. The proof that a sign is kept uses Bernstein coefficients of Taylor polynomials, as in the
+module `exclusion`.
 """
 
 import math
@@ -27,8 +28,8 @@ from vibroimpact.exact.engine.flow import advance, advance_phase, inverse_masses
 from vibroimpact.exact.engine.variation import FORCING, LENGTH, completes_chatter, end_of, start_of
 from vibroimpact.system.state import IMPACT, RELEASE
 
-SHORTEST = 1e-9  # shortest piece of a flight, in `Flow.unit`; shorter motions are lost in rounding errors
-TURN_TOLERANCE = 1e-10  # tolerance for the time of a minimal gap, in `Flow.unit`; the gap is then exact to 1e-20
+SHORTEST = 1e-9  # shortest piece of a flight, in units of `Flow.unit`; rounding hides the motion in a shorter piece
+TURN_TOLERANCE = 1e-10  # tolerance for the time of a turn, in units of `Flow.unit`; the gap is then exact to 1e-20
 NEGLIGIBLE_DOUBT = 1e-17  # truncation errors below 1e-17 in a gap or contact force are lost in rounding
 MOST_STEPS = 60
 GAP, FORCE, DOUBTS = 0, 1, 2
@@ -36,10 +37,12 @@ GAP, FORCE, DOUBTS = 0, 1, 2
 
 @compiled
 def turning_points(flow, flights):
-    """Return the smallest gap, the smallest contact force and the number of doubtful turns of each flight, (m + 1, 3).
+    """Return the smallest gap, the smallest contact force and the number of doubtful turns of each flight.
 
-    A turn is a minimum of a gap or force (per ball mass) in a flight. Gap and force are inf without turns. A turn is
-    doubtful if rounding decides whether the ball misses the wall.
+    flights: rows from `replayed`, shape (m + 1, COLUMNS). The result has shape (m + 1, 3).
+    A turn is a minimum of a gap or of a contact force (per ball mass) in a flight. The smallest values are taken over
+    the turns. They are inf if there is no turn. A turn is doubtful if rounding decides whether the ball misses the
+    wall.
     """
     turns = np.empty((len(flights), 3))
     for n in range(len(flights)):
@@ -57,9 +60,9 @@ def turning_points(flow, flights):
 
 @inlined_source
 def _search(flow, motion, length, least_of):
-    """Update `least_of`, a row of `turning_points`, with a free flight; return the final boxes and balls.
+    """Search a free flight for turns and update `least_of`; return the boxes and balls at the end of the flight.
 
-    length: duration, at most `flow.longest`.
+    length: duration of the flight, at most `flow.longest`. least_of: row of the result of `turning_points`.
     """
     q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
@@ -92,16 +95,19 @@ def _search(flow, motion, length, least_of):
 
 @inlined
 def _rate(q, jets, boxes, balls, walls, i, bound):
-    """Return the polynomial (8,) of a rate in module i, and error bounds (8,) of its coefficients.
+    """Return the eight Taylor coefficients of the rate in module i, and bounds on the errors of the coefficients.
 
-    The rate is X_i' - Y_i' while the ball flies, and X_i''' while the ball sticks.
+    The rate is X_i' - Y_i' while the ball flies, and X_i''' while the ball sticks. Up to its sign, this is the rate of
+    the gap or of the contact force per ball mass.
+
+    bound: bound on |X_i^(7)| / 7!.
     """
     p = jets[0] if i == 0 else jets[1]
     if walls[i] != 0:
         polynomial = 6.0 * p[3], 24.0 * p[4], 60.0 * p[5], 120.0 * p[6], 0.0, 0.0, 0.0, 0.0
         return polynomial, (0.0, 0.0, 0.0, 0.0, 210.0 * bound, 0.0, 0.0, 0.0)
     speed, bend = boxes[2 + i] - balls[2 + i], 2.0 * p[2]
-    if speed == 0.0 and abs(bend) <= acceleration_rounding(q, boxes, i):  # just after a release
+    if speed == 0.0 and abs(bend) <= acceleration_rounding(q, boxes, i):  # this is the case just after a release
         bend = 0.0
     polynomial = speed, bend, 3.0 * p[3], 4.0 * p[4], 5.0 * p[5], 6.0 * p[6], 0.0, 0.0
     return polynomial, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 7.0 * bound, 0.0)
@@ -109,7 +115,10 @@ def _rate(q, jets, boxes, balls, walls, i, bound):
 
 @inlined
 def _turns_once(rate, doubt, t):
-    """Return True if a rate with error bounds `doubt` certainly changes sign at most once on [0, t]."""
+    """Return True if a rate certainly changes its sign at most once on [0, t].
+
+    rate: Taylor coefficients of the rate. doubt: bounds on the errors of these coefficients.
+    """
     if value(doubt, t) * t < NEGLIGIBLE_DOUBT:
         doubt = (0.0,) * 8
     if _one_sign(rate, doubt, t):
@@ -135,9 +144,10 @@ def _derivative(c):
 
 @inlined_source
 def _note(flow, motion, i, times, rates, least_of):
-    """Find the zero of the rate of module i (`_rate`) between two times; record a minimum in `least_of`.
+    """Find the zero of the rate of module i (`_rate`) between two times.
 
-    The rates at both times have opposite signs.
+    times, rates: the two times, and the rates at these times, which have opposite signs.
+    If the constraint has a minimum at the zero, record the minimum in `least_of`.
     """
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
     (low, high), (early, late) = times, rates
@@ -171,25 +181,30 @@ def _note(flow, motion, i, times, rates, least_of):
 
 @compiled
 def margins_of(q, flights, turns, events, start_phase, duration):
-    """Return margins at the start and end of each flight, (m + 1, 2), and depths (m,) and doubts (m,) of events.
+    """Return the margins of the flights, and the depths and doubts of the events.
 
-    A margin is the smallest error of the state that would change the event sequence. Without an impact, the ball would
-    move beyond the wall by the depth u^2 / (2 b), with relative speed u and deceleration b. The depth is inf without
-    deceleration, and for other events. The doubt is 1 if rounding decides whether the ball hits the wall.
+    The margins at the start and at the end of each flight have shape (m + 1, 2). A margin is the smallest error of the
+    state that would change the event sequence.
+
+    The depths have shape (m,). Without an impact, the ball would move beyond the wall by the depth u^2 / (2 b), with
+    the relative speed u and the deceleration b. If there is no deceleration, or if the event is not an impact, the
+    depth is inf.
+
+    The doubts have shape (m,). If rounding decides whether the ball hits the wall, the doubt is 1, otherwise 0.
     """
     margins = np.full((len(flights), 2), math.inf)
     depths, doubts = np.full(len(events), math.inf), np.zeros(len(events))
     for n in range(len(flights)):
         boxes, balls, walls = start_of(flights[n])
         for i in range(2):
-            if walls[i] != 0:  # an additional release at a turn
+            if walls[i] != 0:  # an error may turn a minimum of the contact force into a release
                 _lower(margins[n], turns[n, FORCE] / _force_weight(q, walls, i))
-        _lower(margins[n], turns[n, GAP])  # an additional impact at a turn
+        _lower(margins[n], turns[n, GAP])  # an error may turn a minimum of the gap into an impact
         if n == 0:
             margins[n, 0] = min(margins[n, 0], _at_start(q, boxes, balls, start_phase))
         elif events[n - 1, 3] == IMPACT:
             other = 2 - int(events[n - 1, 1])
-            if walls[other] != 0:  # another decision whether the impact releases the other ball
+            if walls[other] != 0:  # an error may change whether the impact releases the other ball
                 margins[n, 0] = min(margins[n, 0], abs(_force(q, walls, boxes, events[n - 1, PHASE], other)))
         boxes, balls = end_of(flights[n])
         if n < len(events):
@@ -214,26 +229,26 @@ def _lower(margins, margin):
 
 @inlined_source
 def _of_event(q, walls, boxes, balls, events, n, force, left):
-    """Return the error of the state that would move event n to the end of the run, a time `left` later.
+    """Return the smallest error of the state that would delay event n until the end of the run, a time `left` later.
 
-    For a release, a smaller error that prevents the release is returned instead. For a stick without chatter, return
-    inf.
+    For a release, a smaller error may prevent the release; return this smaller error. For a stick that does not
+    complete a chatter, return inf.
     """
     i, wall, kind = int(events[n, 1]) - 1, events[n, 2], events[n, 3]
-    if kind == IMPACT:  # distance beyond the wall at the end of the run, without this impact
+    if kind == IMPACT:  # distance of the ball beyond the wall at the end of the run if this impact did not happen
         return left * (wall * (boxes[2 + i] - balls[2 + i]) + 0.5 * left * max(force, 0.0))
     if kind == RELEASE:
         change, bend = _changes(q, walls, boxes, events[n, PHASE], i)
         depth = 0.5 * change * change / (wall * bend) if wall * bend > 0.0 else math.inf
         return min(left * abs(change), depth) / _force_weight(q, walls, i)
-    if completes_chatter(events, n):  # a chatter from rebound speed u takes 2 u / (force (1 - kappa))
+    if completes_chatter(events, n):  # a chatter with rebound speed u takes the time 2 u / (force (1 - kappa))
         return 0.5 * left * force * (1.0 - q.kappa)
     return math.inf
 
 
 @inlined_source
 def _at_start(q, boxes, balls, phase):
-    """Return the error of the initial state that would change the contact state of a ball."""
+    """Return the smallest error of the initial state that would change the contact state of a ball."""
     margin = math.inf
     for i in range(2):
         gap, speed = 1.0 - abs(boxes[i] - balls[i]), abs(boxes[2 + i] - balls[2 + i])
@@ -246,7 +261,7 @@ def _at_start(q, boxes, balls, phase):
 
 @inlined_source
 def _at_end(q, walls, boxes, balls, phase):
-    """Return the error of the final state that would cause another event before the end of the run."""
+    """Return the smallest error of the final state that would cause another event before the end of the run."""
     margin = math.inf
     for i in range(2):
         relative, speed = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
@@ -260,7 +275,10 @@ def _at_end(q, walls, boxes, balls, phase):
 
 @inlined
 def _force(q, walls, boxes, phase, i):
-    """Return the acceleration of box i divided by `_force_weight`, which converts the acceleration to a state error."""
+    """Return the error of the state that would make the acceleration of box i zero.
+
+    The error is the acceleration divided by `_force_weight`; it has the sign of the acceleration.
+    """
     return box_accelerations(q, walls, boxes, math.sin(phase))[i] / _force_weight(q, walls, i)
 
 
@@ -275,6 +293,6 @@ def _force_weight(q, walls, i):
 
 @inlined
 def _changes(q, walls, boxes, phase, i):
-    """Return the first and second time derivative of the acceleration of box i."""
+    """Return the first and the second time derivative of the acceleration of box i."""
     p = jet(q, mode_of(walls), boxes, math.sin(phase), math.cos(phase))[0 if i == 0 else 1]
     return 6.0 * p[3], 24.0 * p[4]

@@ -33,7 +33,7 @@ WALL_TOLERANCE = 1e-12
 
 
 def checked_state(state) -> np.ndarray:
-    """Return an initial state as an array (8,).
+    """Return an initial state as an array of shape (8,).
 
     Raise ValueError if the state is malformed or a ball is beyond a wall.
     """
@@ -54,7 +54,10 @@ def checked_state(state) -> np.ndarray:
 
 
 def within_walls(states) -> np.ndarray:
-    """Return a mask (n,) of the initial states (n, 8) that `checked_state` would accept."""
+    """Return a boolean array of shape (n,): True for each initial state that `checked_state` would accept.
+
+    states: initial states, shape (n, 8).
+    """
     boxes, balls = states[:, 0:4:2], states[:, 1:4:2]
     with np.errstate(invalid="ignore", over="ignore"):
         slack = WALL_TOLERANCE + 2.0 * np.spacing(np.maximum(abs(boxes), abs(balls)))
@@ -63,9 +66,9 @@ def within_walls(states) -> np.ndarray:
 
 
 def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
-    """Return (exact start time, number of cycles) of a run.
+    """Return the exact start time and the number of cycles of a run.
 
-    Raise ValueError if an argument is malformed, or if |tau| reaches LARGEST_TIME.
+    Raise ValueError if an argument is malformed, or if |tau| reaches LARGEST_TIME during the run.
     """
     cycles = whole("cycles", cycles, 0, MOST_CYCLES)
     if isinstance(tau0, Instant):
@@ -85,7 +88,7 @@ def checked_window(system, cycles, tau0) -> tuple[float | Instant, int]:
 
 
 def checked_times(name, times, start, end) -> np.ndarray:
-    """Return sample times as an array (n,).
+    """Return sample times as an array of shape (n,).
 
     Raise ValueError if the times are not ascending, not finite or not within the run.
     """
@@ -117,11 +120,12 @@ class Run(Representation):
     cycles : int
         Number of forcing periods.
     samples : ndarray
-        States at the sample times, shape (n, 8). At an event, the state after the event.
+        States at the sample times, shape (n, 8). A sample at the time of an event is the state after the event.
     final : ndarray
         Final state, shape (8,).
     pieces, counters : list of ndarray, ndarray
-        Rows of events and counters, defined in `vibroimpact.exact.engine.contact`.
+        Rows of events, as arrays of shape (n, ROW), and counters of the run. `vibroimpact.exact.engine.contact`
+        defines the rows and the counters.
     """
 
     system: System
@@ -153,7 +157,7 @@ class Run(Representation):
 
     @cached_property
     def rows(self) -> np.ndarray:
-        """Rows of the events, as defined in `vibroimpact.exact.engine.contact`, joined into one array (n, ROW)."""
+        """Rows of the events, defined in `vibroimpact.exact.engine.contact`, as one array of shape (n, ROW)."""
         rows = self.pieces[0] if len(self.pieces) == 1 else np.concatenate(self.pieces)
         self.pieces[:] = [rows]
         rows.flags.writeable = False
@@ -161,10 +165,11 @@ class Run(Representation):
 
     @cached_property
     def events(self) -> np.ndarray:
-        """Events in order of time, a structured array (m,) of type EVENT.
+        """Events in order of time, a structured array of type EVENT, shape (m,).
 
-        tau: time. module: 1 or 2. wall: X_i - Y_i, +1 or -1. state: (8,), just after the event. kind, a key of KINDS:
-        0 impact, 1 stick (the ball comes to rest on the wall), 2 release (the ball leaves the wall).
+        tau: time of the event. module: 1 or 2. wall: +1 or -1, the value of X_i - Y_i at the wall.
+        kind: 0 impact, 1 stick (the ball comes to rest on the wall), 2 release (the ball leaves the wall); see KINDS.
+        state: state just after the event, shape (8,).
         """
         rows = self.rows
         if continues(self.begin):  # omit sticks of balls that already stuck in the previous run
@@ -195,7 +200,7 @@ class Run(Representation):
     def jacobian(self) -> np.ndarray:
         """Derivative of the final state with respect to the initial state, shape (8, 8).
 
-        Impacts, chatter, sticking and releases are included.
+        The derivative includes the effects of impacts, chatter, sticking and releases.
         """
         jacobian = propagate(*self.trajectory, np.eye(8)[INNER_ORDER])[PUBLIC_ORDER]
         jacobian.flags.writeable = False
@@ -222,7 +227,7 @@ class Run(Representation):
         Returns
         -------
         ndarray
-            Root mean square errors, shape (n,); inf beyond `certificate.horizon`.
+            Root mean square errors, shape (n,). Errors after the time `certificate.horizon` are inf.
 
         Raises
         ------
@@ -240,27 +245,33 @@ class Run(Representation):
     def section(self) -> np.ndarray:
         """Return the stroboscopic section: the states at the start and after each cycle, shape (cycles + 1, 8).
 
-        The run is simulated again.
+        To compute these states, the run is simulated again.
         """
         return self._sampled(self.system.period * np.arange(self.cycles + 1))
 
     def plot(self):
-        """Return a Matplotlib Figure with X_i and W_i = X_i - Y_i over time; the run is simulated again."""
+        """Return a Matplotlib Figure with X_i and W_i = X_i - Y_i over time.
+
+        To compute the curves, the run is simulated again.
+        """
         samples = min(PLOTTED_PER_CYCLE * self.cycles, MOST_PLOTTED)
         since = np.linspace(0.0, self.cycles * self.system.period, samples + 1)
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
-        """Return the states at the times `since` (n,) after the start of the run.
+        """Return the states at the times `since` after the start of the run, shape (n, 8).
 
-        Such times keep their digits even if tau0 is large.
+        Times since the start keep their digits even if tau0 is large.
         """
         start = self.start.copy()  # a read-only array would trigger another compilation
         return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
 
     @cached_property
     def trajectory(self) -> tuple:
-        """Flow tables, flights between events (see `replayed`) and rows of events (see `contact`), as a tuple."""
+        """Tuple of the flow tables, the flights between events and the rows of events.
+
+        `replayed` describes the flights, and `vibroimpact.exact.engine.contact` describes the rows.
+        """
         flow, duration = flow_of(self.system), self.cycles * self.system.period
         phase = phase_at(self.begin, self.system.Omega)[0]
         return flow, replayed(flow, self.start, self.rows, phase, duration), self.rows
@@ -287,23 +298,25 @@ def simulate(
     cycles : int
         Number of forcing periods, from 0 to ten million. A run stores all its events.
     tau0 : float, Fraction or Instant, default 0.0
-        Dimensionless start time, used without rounding; |tau| must stay below 2**43.
-        To continue a run, start from `run.final` with tau0=run.end. A ball at rest on a wall then already sticks.
+        Dimensionless start time, used without rounding; |tau| must stay below 2**43. To continue a run, start from
+        `run.final` with tau0=run.end. A ball at rest on a wall then already sticks, without a new event.
     sample_times : array_like, optional
         Ascending times in [tau0, tau0 + cycles * system.period] at which to record states.
 
     Returns
     -------
     Run
-        Events, samples and final state. `certificate`, `energy` and `jacobian` are computed on first access.
+        Events, samples and final state. The attributes `certificate`, `energy` and `jacobian` are computed on
+        first access.
 
     Raises
     ------
     ValueError
         If an argument is malformed, or if a ball starts beyond a wall (|X_i - Y_i| > 1).
     ArithmeticError
-        If a ball passes through a wall, or if time does not advance. Also if there are too many events (a million plus
-        ten thousand per cycle), or too many proofs that no event happens (docs/engine.md).
+        If a ball passes through a wall, or if time does not advance. The error is also raised if the run has too many
+        events (more than a million plus ten thousand per cycle), or if the run needs too many proofs that no event
+        happens (docs/engine.md).
 
     Notes
     -----
@@ -330,7 +343,7 @@ def simulate_many(
 ) -> list[Run]:
     """Simulate runs from many initial states on all cores.
 
-    Every run is bit by bit the same as with `simulate`.
+    Each run is identical, bit by bit, to a run of `simulate` from the same state.
 
     Parameters
     ----------
@@ -353,7 +366,7 @@ def simulate_many(
     ValueError
         If an argument is malformed or an initial state is invalid. The message gives the row of the state.
     ArithmeticError
-        As for `simulate`, if one of the runs fails.
+        If one of the runs fails for one of the reasons listed in `simulate`.
 
     Examples
     --------
@@ -380,7 +393,7 @@ def simulate_many(
 def _run(system, state, cycles, begin, times, clock):
     """Return a run, given checked arguments, or raise ArithmeticError if the run fails.
 
-    clock: start time of the run, measured like the sample times.
+    begin: exact start time. times: sample times. clock: start time on the time scale of the sample times.
     """
     status, run = attempt(system, state, cycles, begin, times, clock)
     if status != event_loop.FINISHED:
@@ -392,7 +405,10 @@ def _run(system, state, cycles, begin, times, clock):
 
 
 def attempt(system, state, cycles, begin, times, clock):
-    """Return (status, run), where the run ends early if it fails; the arguments are those of `_run`."""
+    """Return (status, run) from the arguments of `_run`.
+
+    If the simulation fails, the run ends at the failure, and `status` is a key of `event_loop.FAILURES`.
+    """
     run, rows, counters = event_loop.memory(state, *phase_at(begin, system.Omega), cycles, clock)
     tables, samples, pieces = tables_of(system), np.empty((len(times), 8)), []
     while (status := event_loop.integrate(*tables, run, times, samples, rows, counters)) == event_loop.PAUSED:

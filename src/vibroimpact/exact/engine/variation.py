@@ -1,10 +1,11 @@
 """Flights of a finished run, replayed from its events, and their variational flow.
 
-A flight multiplies perturbations by the linear flow. An impact multiplies them by the saltation matrix, which includes
-a release that the impact forces. Any other release leaves perturbations unchanged, since the contact force is then
-zero. For a completed chatter, one matrix replaces infinitely many saltation matrices.
+A flight multiplies perturbations by the linear flow. An impact multiplies perturbations by the saltation matrix. If the
+impact forces a release of the other ball, the saltation matrix includes this release. Any other release leaves
+perturbations unchanged, since the contact force is then zero. For a completed chatter, one matrix replaces infinitely
+many saltation matrices.
 
-States are ordered [boxes, balls] here. PUBLIC_ORDER converts them to [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], and
+In this file, states are ordered [boxes, balls]. PUBLIC_ORDER converts them to [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], and
 INNER_ORDER converts back.
 """
 
@@ -38,10 +39,10 @@ INNER_ORDER = np.argsort(PUBLIC_ORDER)
 
 @compiled
 def replayed(flow, start, events, start_phase, duration):
-    """Return the flights of a run as rows (m + 1, COLUMNS): one before each event and one to the end.
+    """Return the flights of a run as rows: one flight before each event, and one from the last event to the end.
 
-    start: initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
-    The flight before a stick that completes a chatter has zero length.
+    start: initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']. events: rows of m events.
+    The result has shape (m + 1, COLUMNS). The flight before a stick that completes a chatter has zero length.
     """
     q, flights = flow.coefficients, np.zeros((len(events) + 1, COLUMNS))
     leaving = first_departure(start, start_phase)
@@ -80,9 +81,10 @@ def first_departure(start, phase):
 
 @inlined
 def next_departure(q, events, n, leaving, end):
-    """Return the `Departure` after event n, given the one before event n (`leaving`).
+    """Return the `Departure` of the flight after event n.
 
-    end: (time, phase) at the end of the run. Without an event n, `end` replaces time and phase of `leaving`.
+    leaving: `Departure` of the flight before event n. end: (time, phase) at the end of the run.
+    If n is the number of events, return `leaving` with its time and phase replaced by `end`.
     """
     if n == len(events):
         return Departure(leaving.boxes, leaving.balls, leaving.walls, end[0], end[1])
@@ -155,7 +157,10 @@ def walls_after(events, n, walls):
 
 @compiled
 def propagate(flow, flights, events, total):
-    """Propagate perturbations `total` (8, k), rows [boxes, balls], to the end of a run; `total` is overwritten."""
+    """Return perturbations of the initial state after propagation to the end of a run.
+
+    total: perturbations as columns, shape (8, k), with rows in the order [boxes, balls]. This array is overwritten.
+    """
     matrix, later = np.empty((8, 8)), np.empty_like(total)
     for n in range(len(flights)):
         if flights[n, LENGTH] > 0.0:
@@ -171,7 +176,10 @@ def propagate(flow, flights, events, total):
 
 @compiled
 def fill_product(matrix, vectors, product):
-    """Write `matrix` (8, 8) times `vectors` (8, k) to `product`; at this size BLAS has too much overhead."""
+    """Write the product of `matrix`, shape (8, 8), and `vectors`, shape (8, k), to `product`.
+
+    For such small matrices, BLAS has too much overhead.
+    """
     for row in range(8):
         for column in range(vectors.shape[1]):
             total = 0.0
@@ -182,7 +190,10 @@ def fill_product(matrix, vectors, product):
 
 @compiled
 def fill_flight(flow, flight, matrix):
-    """Write the derivative (8, 8) of the state after a flight with respect to the state before."""
+    """Fill `matrix` with the derivative of the final state of a flight with respect to the initial state.
+
+    matrix: shape (8, 8). The flight may be longer than `flow.longest`.
+    """
     _, _, walls = start_of(flight)
     left = min(flight[LENGTH], flow.longest)
     _fill_free(flow, walls, left, matrix)
@@ -196,12 +207,15 @@ def fill_flight(flow, flight, matrix):
 
 @compiled
 def _fill_free(flow, walls, t, matrix):
-    """Write the derivative (8, 8) of the state after a flight with respect to the state before; t <= flow.longest."""
+    """Fill `matrix` with the derivative of the final state of a flight with respect to the initial state.
+
+    matrix: shape (8, 8). t: duration of the flight, at most `flow.longest`.
+    """
     mode = mode_of(walls)
     j = int(t * flow.density + 0.5)
     rest = t - j * flow.spacing
     matrix[:] = 0.0
-    for k in range(4):  # column k: response of the boxes to the k-th unit vector, without force
+    for k in range(4):  # column k is the response of the boxes to unit vector k, without force
         p = flow.series[mode, j, k]
         matrix[0, k], matrix[1, k], matrix[2, k], matrix[3, k] = evaluate((p[:ORDERS], p[ORDERS:]), rest)
     for i in range(2):
@@ -222,7 +236,10 @@ def copy(source, target):
 
 @compiled
 def fill_event(q, flights, events, n, matrix):
-    """Write the derivative (8, 8) of the state after event n with respect to the state before it."""
+    """Fill `matrix` with the derivative of the state after event n with respect to the state before event n.
+
+    matrix: shape (8, 8).
+    """
     i, wall, kind, phase = int(events[n, 1]) - 1, int(events[n, 2]), events[n, 3], events[n, PHASE]
     _, _, walls = start_of(flights[n])
     before = flights[n, AFTER:]
@@ -242,7 +259,10 @@ def fill_event(q, flights, events, n, matrix):
 
 @compiled
 def fill_rate(q, walls, state, phase, field):
-    """Write the time derivative of a state (8,) to `field`, given the walls to which balls stick."""
+    """Write the time derivative of a state to `field`, shape (8,).
+
+    walls: the walls to which balls stick. state: shape (8,). phase: forcing phase.
+    """
     a1, a2 = box_accelerations(q, walls, (state[0], state[1], state[2], state[3]), math.sin(phase))
     field[0], field[1], field[2], field[3] = state[2], state[3], a1, a2
     field[4], field[5] = state[6], state[7]
@@ -252,11 +272,13 @@ def fill_rate(q, walls, state, phase, field):
 
 @compiled
 def _saltation_matrix(q, i, before, after, walls, walls_after, phase, matrix):
-    """Write the saltation matrix (8, 8) of an impact in module i, 0 or 1.
+    """Fill `matrix`, shape (8, 8), with the saltation matrix S of an impact in module i (0 or 1).
 
     S = R + (f+ - R f-) n^T / (n . f-) (Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004). R is the restitution
-    matrix and n the normal of the wall. The vector field is f- before and f+ after the impact. `walls_after` differs
-    from `walls` if the impact releases the other ball.
+    matrix and n the normal of the wall. The vector field is f- before the impact and f+ after the impact.
+
+    before, after: states before and after the impact. `walls_after` differs from `walls` if the impact releases the
+    other ball.
     """
     box, ball = 2 + i, 6 + i
     through, outgoing = np.empty(8), np.empty(8)
@@ -282,18 +304,22 @@ def _fill_identity(matrix):
 
 @compiled
 def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
-    """Write the derivative (8, 8) of the state after a stick of ball i with respect to the state before.
+    """Fill `matrix`, shape (8, 8), with the derivative of the state after a stick of ball i.
 
-    inward, push: rebound speed u and acceleration a of the box towards the ball in a completed chatter, else 0.
+    The derivative is taken with respect to the state before the stick.
+
+    inward, push: for a completed chatter, the rebound speed u and the acceleration a of the box towards the ball. For
+    any other stick, both are 0. other_stuck: True if the other ball sticks.
 
     Box and ball keep their momentum and centre of mass. During a chatter, springs and dampers act on the box, which is
-    not at the centre of mass. The matrix includes this effect to first order. The time integral of the gap is
-    2 u^3 / (3 a^2 (1 - kappa^3)). The time integral of the rate of the gap is minus the initial gap.
+    not at the centre of mass. The matrix includes this effect to first order. The effect depends on two time integrals
+    over the chatter. The integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)). The integral of the rate of the gap is
+    minus the initial gap.
     """
     e = q.epsilon
     share = e / (1.0 + e)
     _fill_identity(matrix)
-    for k in (i, 2 + i):  # position and velocity
+    for k in (i, 2 + i):  # indices of the position and the velocity
         for row in (k, 4 + k):
             matrix[row, :] = 0.0
             matrix[row, k], matrix[row, 4 + k] = 1.0 / (1.0 + e), share
@@ -318,9 +344,10 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
 class Growth(NamedTuple):
     """Growth of k orthonormal perturbations in each of the n cycles of a run.
 
-    factors (n, k): growth factors, 0 up to rounding if sticking removes a perturbation.
-    impacts (n,): number of impacts. stuck (n,): largest number of balls that stick at once.
-    frame (8, k): final perturbations, orthonormal.
+    factors: growth factors, shape (n, k). If sticking removes a perturbation, its factor is 0 up to rounding.
+    impacts: number of impacts in each cycle, shape (n,).
+    stuck: largest number of balls that stick at the same time in each cycle, shape (n,).
+    frame: orthonormal perturbations at the end of the run, shape (8, k).
     """
 
     factors: np.ndarray
@@ -332,7 +359,8 @@ class Growth(NamedTuple):
 def growth(run, frame: np.ndarray) -> Growth:
     """Propagate k orthonormal perturbations along a run, with a QR decomposition after every cycle.
 
-    frame: perturbations (8, k) of [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], zero for an inactive module (`System.modules`).
+    frame: perturbations of [X1, Y1, X2, Y2, X1', Y1', X2', Y2'] as columns, shape (8, k). The rows of an inactive
+    module (`System.modules`) are 0.
     """
     flow, flights, events = run.trajectory
     factors, counts = np.empty((run.cycles, frame.shape[1])), np.zeros((run.cycles, 2), dtype=int)
@@ -343,9 +371,11 @@ def growth(run, frame: np.ndarray) -> Growth:
 
 @compiled
 def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, counts):
-    """Return the perturbations `frame` (8, k) after the last cycle; fill `factors` (n, k) and `counts` (n, 2).
+    """Return the perturbations `frame`, shape (8, k), after the last cycle; fill `factors` and `counts`.
 
-    counts: numbers of impacts and of sticking balls, initially 0. places: rows in which the frame is not 0.
+    factors: growth factors in each cycle, shape (n, k).
+    counts: numbers of impacts and of sticking balls in each cycle, shape (n, 2), initially 0.
+    places: indices of the rows in which the frame is not 0.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(frame)
     cycle, elapsed = 0, 0.0
@@ -378,8 +408,11 @@ def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, 
 
 @compiled
 def _orthonormalize(a, places, sizes):
-    """Replace the rows `places` of `a` (m, k) by the factor Q of their QR decomposition; write |diag R| to `sizes`."""
-    q, r = np.linalg.qr(a[places])  # the other rows are 0, where QR would leave rounding errors
+    """Replace the rows `places` of the array `a`, shape (m, k), by the factor Q of their QR decomposition.
+
+    Write the absolute diagonal of the factor R to `sizes`, shape (k,).
+    """
+    q, r = np.linalg.qr(a[places])  # all other rows are 0; QR would fill them with rounding errors
     for row in range(len(places)):
         for k in range(a.shape[1]):
             a[places[row], k] = q[row, k]

@@ -3,8 +3,9 @@
 Only this file generates code through Numba's internals. It is tested with Numba 0.68 and llvmlite 0.50; pyproject.toml
 excludes later versions.
 
-`Lanes` is the type of eight floats. Operations on `Lanes` round like operations on floats, so a formula gives the same
-bits for both. Comparisons return a `Mask` for `where`.
+`Lanes` is the type of a vector of eight floats. Each float belongs to one lane, that is, to one of eight runs that
+advance together in vector instructions. An operation on `Lanes` rounds like the operation on floats, so a formula gives
+the same bits for both types. Comparisons of `Lanes` return a `Mask`, with which `where` selects values.
 """
 
 import math
@@ -24,9 +25,10 @@ UNDEFINED = ir.Constant(NUMBERS, ir.Undefined)
 
 @intrinsic
 def weighted_sum(_, table, mode, j, weights):
-    """Return the sum of weights[m] * table[mode, j, m] over m as two tuples (8,).
+    """Return the sum of weights[m] * table[mode, j, m] over m as two tuples of eight numbers.
 
-    Product and sum are rounded together if the processor supports it.
+    table: shape (modes, n, len(weights), 16). If the processor supports it, each product is added to the sum with a
+    single rounding.
     """
     eight = types.UniTuple(types.float64, WIDTH)
 
@@ -38,7 +40,7 @@ def weighted_sum(_, table, mode, j, weights):
         )
         weights = [builder.extract_value(arguments[3], m) for m in range(signature.args[3].count)]
         wide, halves = [_in_all(builder, weight) for weight in weights], []
-        for half in range(2):  # vector instructions, since the compiler does not vectorise a loop
+        for half in range(2):  # vector instructions are written here, since the compiler does not vectorise a loop
             total = None
             for m, weight in enumerate(wide):
                 pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * (2 * m + half))])
@@ -59,13 +61,13 @@ def _in_all(builder, number):
 
 
 class Lanes(types.Type):
-    """Type of eight floats."""
+    """Numba type of a vector of eight floats."""
 
     vector = NUMBERS
 
 
 class Mask(types.Type):
-    """Type of eight truth values."""
+    """Numba type of a vector of eight truth values."""
 
     vector = ir.VectorType(ir.IntType(1), WIDTH)
 
@@ -81,14 +83,17 @@ class _Model(models.PrimitiveModel):
 
 
 def _wide(context, builder, value, kind):
-    """Return a value as a vector; a float or integer is copied to all lanes."""
+    """Return a value as a vector of eight floats or truth values; copy a float or integer to all eight entries."""
     if isinstance(kind, Lanes | Mask):
         return value
     return _in_all(builder, context.cast(builder, value, kind, types.float64))
 
 
 def _operation(function, operand, result, generate):
-    """Register code for an operation on one or two operands of a type; LANES combine with scalars."""
+    """Register the code of an operation on one or two operands of the Numba type `operand`.
+
+    If the type is LANES, one of two operands may also be a scalar. result: type of the result.
+    """
     kind, scalar = type(operand), (types.Float | types.Integer if operand is LANES else Mask)
 
     class Typing(AbstractTemplate):
@@ -137,7 +142,10 @@ _operation(operator.or_, MASK, MASK, ir.IRBuilder.or_)
 
 @intrinsic
 def fused(_, a, b, c):
-    """Return a b + c, rounded only once, for floats or in each lane."""
+    """Return a * b + c, rounded only once.
+
+    The arguments are floats or `Lanes`. For `Lanes`, each of the eight entries is computed in this way.
+    """
     if LANES in (a, b, c):
 
         def generate(context, builder, signed, args):
@@ -152,13 +160,13 @@ def fused(_, a, b, c):
 if config.DISABLE_JIT:
 
     def fused(*_):
-        """Raise RuntimeError, since only compiled code can round a b + c once."""
+        """Raise RuntimeError, since only compiled code can compute a * b + c with a single rounding."""
         raise RuntimeError("the simulation requires compiled code; unset NUMBA_DISABLE_JIT")
 
 
 @intrinsic
 def where(_, mask, a, b):
-    """In each lane, return a if the mask is true and b otherwise."""
+    """Return a vector of eight floats, with the entries of a where the mask is true and the entries of b elsewhere."""
 
     def generate(context, builder, signed, args):
         _, one, other = signed.args
@@ -170,7 +178,7 @@ def where(_, mask, a, b):
 
 @intrinsic
 def load(_, array, k):
-    """Return row k of an array (n, 8)."""
+    """Return row k of an array of shape (n, 8) as `Lanes`."""
 
     def generate(context, builder, signed, args):
         return builder.load(_pointer(context, builder, signed, args), align=8)
@@ -180,7 +188,10 @@ def load(_, array, k):
 
 @intrinsic(prefer_literal=True)
 def load_rows(_, array, k, count):
-    """Return rows k to k + count - 1 of an array (n, 8) as a tuple; count is a literal."""
+    """Return rows k to k + count - 1 of an array of shape (n, 8) as a tuple of `Lanes`.
+
+    count: a literal integer.
+    """
     kind = types.UniTuple(LANES, count.literal_value)
 
     def generate(context, builder, signed, args):
@@ -192,7 +203,7 @@ def load_rows(_, array, k, count):
 
 @intrinsic
 def store(_, array, k, value):
-    """Write a value to row k of an array (n, 8)."""
+    """Write `Lanes` or a scalar to row k of an array of shape (n, 8)."""
 
     def generate(context, builder, signed, args):
         value = _wide(context, builder, args[2], signed.args[2])
@@ -204,7 +215,10 @@ def store(_, array, k, value):
 
 @intrinsic
 def replace_rows(_, array, k, mask, values):
-    """Write `values` to rows k, k + 1, ... of an array (n, 8), in the lanes where the mask is true."""
+    """Write the tuple `values` to rows k, k + 1, ... of an array of shape (n, 8).
+
+    In each row, only the entries where the mask is true are replaced.
+    """
 
     def generate(context, builder, signed, args):
         for n, kind in enumerate(signed.args[3]):
@@ -217,7 +231,7 @@ def replace_rows(_, array, k, mask, values):
 
 
 def _pointer(context, builder, signed, args, later=0):
-    """Return a pointer to row k + later, where args begins with (array, k)."""
+    """Return a pointer to row k + later of an array; `args` begins with the array and k."""
     array = context.make_array(signed.args[0])(context, builder, args[0])
     row, zero = builder.add(args[1], context.get_constant(types.intp, later)), context.get_constant(types.intp, 0)
     pointer = cgutils.get_item_pointer(context, builder, signed.args[0], array, [row, zero])
@@ -226,7 +240,7 @@ def _pointer(context, builder, signed, args, later=0):
 
 @intrinsic
 def count(_, mask):
-    """Return the number of lanes in which a mask is true."""
+    """Return the number of true entries of a mask."""
 
     def generate(context, builder, signed, args):
         bits = builder.bitcast(args[0], ir.IntType(WIDTH))
