@@ -32,9 +32,10 @@ class Attractor:
     regime : str
         One of `vibroimpact.studies.regimes.classification.REGIMES`.
     cycles : int or None
-        Forcing periods after which the motion repeats, or None if it does not.
+        Number of forcing periods after which the motion repeats, or None if the motion does not repeat.
     states : ndarray
-        Stroboscopic section, shape (k, 8): `cycles` points, or the points of a window if the motion does not repeat.
+        Stroboscopic section: one state per forcing period, shape (k, 8). If the motion repeats, k = `cycles`.
+        Otherwise, the states are those of the last window of the run (`Observation.window`).
     orbit : PeriodicOrbit or None
         The motion with its multipliers if the regime is periodic, else None.
     """
@@ -47,18 +48,19 @@ class Attractor:
 
 @dataclass(frozen=True, eq=False)
 class Basins:
-    """Attractors, and for each initial state the label of its attractor.
+    """Attractors of a system, and a label that assigns each initial state to an attractor.
 
     Attributes
     ----------
     labels : ndarray
-        Label of each initial state: an integer from 1, or -1 if unsettled, as in Attractors.jl.
+        Label of each initial state. The labels of attractors are 1, 2, and so on. The label -1 means that the motion
+        from an initial state has not settled. The Julia package Attractors.jl uses the same labels.
     attractors : dict of int to Attractor
-        Attractor by label.
+        Attractor of each label.
     shares : dict of int to float
-        Fraction of the initial states by label.
+        Fraction of the initial states with each label.
     axes : dict of str to ndarray
-        Values of the varied coordinates by name; empty for a list of states.
+        Values of the varied coordinates, by name. The dict is empty if the initial states were given as a list.
     """
 
     labels: np.ndarray
@@ -67,12 +69,14 @@ class Basins:
     axes: dict[str, np.ndarray]
 
     def rows(self, number: int = 0) -> list[dict]:
-        """Return one row per initial state: varied coordinates (or position in the list), label and regime.
+        """Return one row per initial state, with the varied coordinates, the label and the regime.
+
+        If the initial states were given as a list, a row has the position in the list instead of coordinates.
 
         Parameters
         ----------
         number : int, default 0
-            Ignored.
+            Ignored. The function `to_frame` passes this argument.
 
         Returns
         -------
@@ -88,7 +92,7 @@ class Basins:
 
 
 def attractors(system: System, states, observation: Observation | None = None, progress: bool = True) -> Basins:
-    """Return the attractors of a list of initial states, with labels and shares.
+    """Return the attractors that the motions from a list of initial states reach.
 
     Two periodic motions are one attractor if their displacements agree after a shift by whole periods. Mirror images
     are two attractors. Motions that do not repeat are distinguished only by their regime. The position of a ball at
@@ -99,18 +103,18 @@ def attractors(system: System, states, observation: Observation | None = None, p
     system : System
         Dimensionless parameters.
     states : array_like
-        Initial states at tau = 0, shape (n, 8). A ball that starts at rest may stay idle. An inactive module
-        (`System.modules`) is put at rest.
+        Initial states at tau = 0, shape (n, 8). A ball that starts at rest may never be hit by a wall. An inactive
+        module (`System.modules`) is put at rest.
     observation : Observation, optional
-        Lengths of the runs. Transients may be long: 210 of 225 motions with equal forces still change by more than 1e-6
-        per period after 400 periods, but none after 2000.
+        Lengths of the runs. Transients may be long. In a test with equal forces on both boxes, 210 of 225 motions still
+        changed by more than 1e-6 per period after 400 periods. After 2000 periods, no motion did.
     progress : bool, default True
-        Count the initial states on standard error, if it is a terminal.
+        If True and standard error is a terminal, show there how many initial states are done.
 
     Returns
     -------
     Basins
-        Labels in the shape (n,), attractors and shares.
+        The attractors, the label of each initial state, and the share of each label. The labels have the shape (n,).
 
     Raises
     ------
@@ -146,17 +150,18 @@ def basins(
     system : System
         Dimensionless parameters.
     axes : mapping
-        Values of one or two coordinates by name: X1, Y1, X2, Y2, their velocities dX1, dY1, dX2, dY2, or W1, W2. Ball i
-        is between its walls if -1 < W_i = X_i - Y_i < 1.
+        Values of one or two coordinates by name. The names of displacements are X1, Y1, X2, Y2, W1 and W2. The names of
+        velocities are dX1, dY1, dX2 and dY2. Ball i is between its walls if -1 < W_i = X_i - Y_i < 1.
     state : array_like, optional
-        State at tau = 0 with all other coordinates, shape (8,); at rest by default.
+        State at tau = 0, shape (8,). It gives the coordinates that are not in `axes`; all are 0 by default.
     observation, progress
         As for `attractors`.
 
     Returns
     -------
     Basins
-        Labels in the shape of the axes, attractors and shares. `to_frame([found])` returns a table.
+        The attractors, the label of each initial state, and the share of each label. The array of labels has one
+        dimension per axis. `to_frame([found])` returns a table.
 
     Raises
     ------
@@ -223,7 +228,7 @@ def _basins(system, states, shape, axes, observation, progress):
 
 
 def _same(one, other):
-    """Return True if two motions, given as Regime objects, are on the same attractor."""
+    """Return True if the motions of two Regime objects are on the same attractor."""
     moving = _moving(one)
     if (one.name, one.repeats) != (other.name, other.repeats) or not np.array_equal(moving, _moving(other)):
         return False
@@ -236,6 +241,6 @@ def _same(one, other):
 
 
 def _moving(regime):
-    """Return the k for which state[k] is the displacement of a box or of a moving ball, without inactive modules."""
+    """Return the indices in the state of the displacements of boxes and moving balls in active modules."""
     samples, moves = regime.run.samples, active_mask(regime.run.system)
     return np.array([k for k in range(4) if moves[k] and (k in (0, 2) or samples[:, 4 + k].any())])

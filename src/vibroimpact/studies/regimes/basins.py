@@ -1,4 +1,4 @@
-"""Compute basins of coexisting regimes in the plane of both ball positions."""
+"""Compute the basins of coexisting regimes in a plane of initial states, with both ball positions as coordinates."""
 
 from itertools import product
 
@@ -13,14 +13,21 @@ MIRRORED = "asymmetric, mirrored"
 
 
 def stable_response(system):
-    """Return the stable asymmetric orbit with the longest flight of the first active ball from wall +1, or None."""
+    """Return a stable asymmetric orbit, or None if there is none.
+
+    Of several orbits, return the one with the longest flight from wall +1 to wall -1. The flight is that of the ball in
+    the first active module.
+    """
     stable = [o for o in orbits(system) if o.admissible and not o.symmetric and abs(o.multipliers[0]) < 1]
     first = system.modules[0] - 1 if stable else None
     return min(stable, key=lambda orbit: orbit.ball_speeds[first, 0] / orbit.ball_speeds[first].sum(), default=None)
 
 
 def plane(state, points: int) -> np.ndarray:
-    """Return `state` with points^2 positions of the balls in -1 < W_i < 1, shape (points^2, 8); W_2 varies fastest."""
+    """Return copies of `state` with the balls at the points of a grid, shape (points^2, 8).
+
+    W_1 and W_2 are the midpoints of `points` equal cells of the interval (-1, 1). W_2 varies fastest.
+    """
     states = np.tile(np.asarray(state, dtype=float), (points**2, 1))
     states[:, [1, 3]] = states[:, [0, 2]] - list(product(centres((-1.0, 1.0), points), repeat=2))
     return states
@@ -29,7 +36,7 @@ def plane(state, points: int) -> np.ndarray:
 def ends(system, states, observation: Observation) -> list[str]:
     """Return the regime in which the motion from each initial state ends.
 
-    An asymmetric response with positive `Regime.flight_asymmetry` is called MIRRORED.
+    If an asymmetric response has a positive `Regime.flight_asymmetry`, its regime is called MIRRORED.
     """
     regimes = settle(system, states, observation)
     return [MIRRORED if one.name == ASYMMETRIC and one.flight_asymmetry > 0 else one.name for one in regimes]

@@ -1,4 +1,4 @@
-"""Continue branches of 1:1 responses along a path through the parameters, with stability and special points."""
+"""Continue branches of 1:1 responses along a line in parameter space, and find their stability and special points."""
 
 import warnings
 from collections import deque
@@ -22,30 +22,34 @@ from vibroimpact.studies.regimes.families import (
 )
 from vibroimpact.system.representation import Representation, brief
 
-_EQUAL = 1e-6  # values of p this close to an end of the interval count as the end
-_APART = 1e-3  # branch points closer than this count as one
+_EQUAL = 1e-6  # a value of p within this distance of an end of the interval counts as the end
+_APART = 1e-3  # two branch points within this distance of each other count as one
 COLUMNS = "family", "branch", "piece", "p", "C1", "C2", "stable", "admissible", "special", "closed"
 """Columns of a table of branches."""
 
 
 @dataclass(frozen=True)
 class Path:
-    """A line in parameter space: all parameters in `names` equal p, and all other parameters are those of `system`."""
+    """A line in parameter space, along which a number p varies.
+
+    All parameters in `names` are equal to p. All other parameters are those of `system`.
+    """
 
     system: object
     names: tuple[str, ...]
 
     def __call__(self, p: float):
-        """Return the system at p."""
+        """Return the system at the point p of the line."""
         return self.system.with_(**dict.fromkeys(self.names, p))
 
 
 @dataclass(frozen=True, eq=False)
 class Node:
-    """A point of a branch.
+    """A computed point of a branch.
 
-    p, x: value of the parameter, and root of the equations. amplitudes: C_1, C_2. kind: type of special point, or "".
-    stable, admissible: None at a special point.
+    p: value of the varied parameter. x: root of the equations at p. amplitudes: saw-tooth amplitudes C_1 and C_2.
+    kind: type of a special point, or "" at any other point. stable: True if the response is stable. admissible: True if
+    the response is a motion of the system. At a special point, `stable` and `admissible` are None.
     """
 
     p: float
@@ -58,9 +62,11 @@ class Node:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch(Representation):
-    """A part of a solution curve, with its nodes in order. If the curve is closed, the last node is also the first.
+    """A part of a solution curve, as a list of its nodes in order along the curve.
 
-    places: points with tangents at the nodes that are not special points. The list may have one more at each end.
+    closed: True if the curve is closed; the last node is then equal to the first one. places: a Place (point of the
+    curve with its tangent) for each node that is not a special point. At each end of the curve, `places` may contain
+    one more Place.
     """
 
     family: object
@@ -76,11 +82,14 @@ class Branch(Representation):
 
     @property
     def special(self) -> list[Node]:
-        """Nodes that are special points."""
+        """Nodes of the branch that are special points."""
         return [node for node in self.nodes if node.kind]
 
     def pieces(self) -> list[tuple[Node, list[Node]]]:
-        """Return the pieces between special points as (inner node, all nodes); the inner node is no special point."""
+        """Return the pieces into which special points divide the branch, each as (inner node, list of all nodes).
+
+        The inner node is not a special point. Its stability is the stability of the whole piece.
+        """
         cuts = [k for k, node in enumerate(self.nodes) if node.kind]
         found, inner = [], None
         for a, b in pairwise([0, *cuts, len(self.nodes) - 1]):
@@ -91,7 +100,10 @@ class Branch(Representation):
         return found
 
     def rows(self, number: int = 0) -> list[dict]:
-        """Return one row per node of each piece; a special point has a row in both pieces that it joins."""
+        """Return one row for each node of each piece of the branch (see `pieces`).
+
+        A special point between two pieces belongs to both pieces. Therefore it has two rows.
+        """
         rows = []
         for piece, (inner, nodes) in enumerate(self.pieces()):
             for node in nodes:
@@ -104,16 +116,17 @@ class Branch(Representation):
 def branches(
     family, path: Path, interval, seeds: Iterable[float], longest: float, symmetric: Iterable[Branch] = ()
 ) -> list[Branch]:
-    """Return the branches of a family through seeds (values of p), and the branches that emanate from these.
+    """Return all branches of a family that pass a seed, and all branches that emanate from these branches.
 
-    Of two mirror images, only one is followed. A seed at which the search for roots fails is skipped with a warning.
+    A seed is a value of p at which all roots are searched. If the search fails, the seed is skipped with a warning. Of
+    two mirror images, only one is followed.
 
     Parameters
     ----------
     longest : float
-        Longest step along the curve.
+        Largest length of a step along the curve.
     symmetric : iterable of Branch, default ()
-        Symmetric orbits from which branches of asymmetric orbits start.
+        Branches of symmetric orbits. Branches of asymmetric orbits emanate from these branches.
     """
 
     def equations(x, p):
@@ -140,11 +153,12 @@ def branches(
         if new and not any(curve.passes(branch.places, z) for branch in found):
             try:
                 nodes, places = curve.both_ways(z, half)
-            except Lost as error:  # for example, if a module is inactive at this p, but active at nearby p
+            except Lost as error:  # this happens, for example, if a module is inactive at p but active at nearby p
                 at = f"{' = '.join(path.names)} = {z[-1]:.6g}"
                 warnings.warn(f"{family.name}: skipped the branch through {at}: {error}", stacklevel=3)
                 continue
-            if len(places) > 1:  # else the seed is a branch point, whose branches are added to `starts` below
+            # If there is only one place, z is a branch point. Points on its branches are added to `starts` below.
+            if len(places) > 1:
                 found.append(Branch(family, nodes, places[-1].closing, places))
             for crossing in (np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT):
                 if all(np.abs(crossing - known).max() > _APART for known in crossings):
@@ -154,9 +168,10 @@ def branches(
 
 
 def images(family, system, x, near) -> list[np.ndarray]:
-    """Return the root `x` and, for asymmetric orbits, that of the mirror image, with angles close to those of `near`.
+    """Return the root x and, for asymmetric orbits, also the root of the mirror image.
 
-    The angles are shifted by whole periods.
+    The angles of each root (impact times or phases) are shifted by whole periods. Each angle then differs from the
+    corresponding angle of the root `near` by at most half a period.
     """
     found, turn = [x.copy()], family.turn(system)
     if family is AsymmetricOrbits:
@@ -167,7 +182,7 @@ def images(family, system, x, near) -> list[np.ndarray]:
 
 
 def _seeds(family, path, seeds):
-    """Yield all roots of `family` as z = (x, p), for each seed p."""
+    """Yield z = (x, p) for each seed p and each root x of `family` at p; skip p with a warning if the search fails."""
     for p in seeds:
         try:
             roots = family.roots(path(p))
@@ -179,7 +194,7 @@ def _seeds(family, path, seeds):
 
 
 def _half(family, path, interval, curve, longest, start):
-    """Follow a branch from the Place `start` along its tangent; return the nodes and the Places."""
+    """Follow a branch from the Place `start` along the tangent there; return the nodes and the Places of the branch."""
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):
@@ -199,7 +214,8 @@ def _half(family, path, interval, curve, longest, start):
             return [*nodes, _node(family, path, end.z, kind=SPEED_ZERO)], places
         member = family.member(system, z[:-1])
         tests = family.tests(system, member)
-        # Tests also change sign at a branch point (`kind` is set just after it).
+        # Test functions also change sign at a branch point. Therefore they are not compared across a branch point. At
+        # the first Place after a branch point, `kind` is not empty.
         if before is not None and not kind:
             nodes += _special(family, path, curve, before, tests_before, place, tests)
         nodes.append(_node(family, path, z, member=member))
@@ -211,7 +227,7 @@ def _half(family, path, interval, curve, longest, start):
 
 
 def _crossing(family, system, z):
-    """Return SYMMETRY_BREAKING for a branch point z where asymmetric orbits become symmetric, else BRANCH_POINT."""
+    """Return SYMMETRY_BREAKING if asymmetric orbits become symmetric at the branch point z, else BRANCH_POINT."""
     merging = family is AsymmetricOrbits and family.is_symmetric(system, z[:-1])
     return SYMMETRY_BREAKING if merging else BRANCH_POINT
 
@@ -223,9 +239,10 @@ def _node(family, path, z, kind="", member=None):
 
 
 def _special(family, path, curve, before, tests, after, values):
-    """Return the special points between two neighbouring Places, in order.
+    """Return the special points between the neighbouring Places `before` and `after`, in order along the curve.
 
-    tests, values: test functions at `before` and at `after`, by kind of special point.
+    tests: value of each test function at `before`. values: value of each test function at `after`. The keys of both
+    dicts are the kinds of special points.
     """
 
     def test(z, kind):

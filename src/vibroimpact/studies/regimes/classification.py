@@ -1,4 +1,4 @@
-"""Recognise the regime of a motion that repeats, from displacements and impacts over a window."""
+"""Recognise the regime of a motion that repeats, from displacements and impacts in some forcing cycles (a window)."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -36,10 +36,10 @@ parameter."""
 
 @dataclass(frozen=True, eq=False)
 class Regime:
-    """A motion observed over a window of whole cycles.
+    """A motion that is observed over some whole forcing cycles (a window), and its regime.
 
-    run: run with samples every half period. name: one of REGIMES. repeats: cycles after which the motion repeats, or
-    None.
+    run: run over the window, with samples every half period. name: name of the regime, one of REGIMES. repeats: number
+    of cycles after which the motion repeats, or None if the motion does not repeat.
     """
 
     run: Run
@@ -48,12 +48,15 @@ class Regime:
 
     @cached_property
     def impacts(self) -> np.ndarray:
-        """Events of the window that are impacts."""
+        """Impacts in the observed window, as an array of events."""
         return self.run.events[self.run.events["kind"] == IMPACT]
 
     @property
     def mean_amplitudes(self) -> np.ndarray:
-        """Amplitude C_i of the saw-tooth in which ball i covers the same mean distance per cycle, shape (2,)."""
+        """Mean saw-tooth amplitude C_i of each ball, shape (2,).
+
+        A ball that moves in a saw-tooth of amplitude C_i covers the same distance per cycle as ball i on average.
+        """
         run, paths = self.run, []
         for module, ball in ((1, 1), (2, 3)):
             turns = run.events[run.events["module"] == module]["state"][:, ball]
@@ -62,7 +65,7 @@ class Regime:
 
     @property
     def flight_asymmetry(self) -> float:
-        """Share of time in flights from wall -1 minus that from wall +1, summed over both balls."""
+        """Share of time in flights from wall -1 minus share of time in flights from wall +1, summed over both balls."""
         total = 0.0
         for module in (1, 2):
             mine = self.impacts[self.impacts["module"] == module]
@@ -72,12 +75,13 @@ class Regime:
 
 
 def classify_after(system, state, window: int, nearness: float) -> Regime:
-    """Return the regime of the motion from `state` (8,) over `window` forcing cycles.
+    """Return the regime of the motion from `state`, shape (8,), over `window` forcing cycles.
 
-    If the run approaches a periodic motion, the periodic motion is classified. So a slow spiral into a 1:1 response is
-    not taken for a modulated motion. Without a periodic motion, the regime is UNSETTLED, unless a ball is idle.
+    If the motion approaches a periodic motion, the periodic motion is classified instead. Therefore a motion that
+    slowly spirals into a 1:1 response is not taken for a modulated motion. If the motion approaches no periodic motion,
+    the regime is UNSETTLED. If a ball is idle (always at rest), the motion itself is classified.
 
-    nearness: largest difference of displacements between a motion and its repetition.
+    nearness: a motion repeats if its displacements after some cycles differ by at most this value.
     """
     run = _window(system, state, window)
     if not _at_rest(run).any():
@@ -91,7 +95,10 @@ def classify_after(system, state, window: int, nearness: float) -> Regime:
 
 
 def _attracting(system, state, cycles, reach):
-    """Return the attracting motion that repeats after `cycles` cycles and is within `reach` of `state`, or None."""
+    """Return an attracting periodic motion near `state`, or None if there is none.
+
+    The motion repeats after `cycles` cycles. Its initial state differs from `state` by less than `reach`.
+    """
     try:
         orbit = refined(system, state, cycles)
     except ValueError:
@@ -101,12 +108,14 @@ def _attracting(system, state, cycles, reach):
 
 
 def _approaches(run, motion, repeats, multiplier):
-    """Return True if a run has reached an attracting periodic motion, or approaches it.
+    """Return True if a run has reached an attracting periodic motion, or approaches this motion.
 
-    A chaotic run can stay close to a periodic motion for some cycles without being in its basin. So the run is
-    continued. The distance must shrink at half of the rate that the largest multiplier predicts, or faster.
+    A chaotic run can stay close to a periodic motion for some cycles without being in the basin of this motion.
+    Therefore the run is continued. Its distance from the periodic motion must shrink at half of the exponential rate
+    that the largest multiplier predicts, or faster.
 
-    motion: a window of the periodic motion that starts near the final state of the run.
+    motion: a run along the periodic motion, which starts near the final state of `run`. repeats: number of cycles after
+    which the periodic motion repeats. multiplier: modulus of the largest multiplier of the periodic motion.
     """
     size = len(run.samples)
     before = _distance(run, motion.samples[(np.arange(size) - size + 1) % (_PER_CYCLE * repeats)])
@@ -120,18 +129,21 @@ def _approaches(run, motion, repeats, multiplier):
 
 
 def _distance(run, samples):
-    """Return the largest difference between displacements in the samples of a run and in `samples`, (n, 8)."""
+    """Return the largest difference between the displacements of a run and those in `samples`, shape (n, 8).
+
+    Row k of `samples` is compared with sample k of the run.
+    """
     return np.abs(run.samples - samples)[:, :4].max()
 
 
 def classify(run: Run) -> tuple[str, int | None]:
-    """Return the regime of a settled motion, and the cycles after which it repeats, or None.
+    """Return the regime of a settled motion, and the number of cycles after which the motion repeats.
 
-    run: a run with samples every half period.
+    The number is None if the motion does not repeat. run: a run along the motion, with samples every half period.
 
-    A ball is idle if it is at rest in all samples, since a slowly drifting ball will hit a wall. A 1:1 response repeats
-    every cycle, with one impact at each wall of each module. A 1:1 response is symmetric if all displacements change
-    sign after half a period.
+    A ball is idle if it is at rest in all samples. A ball that drifts slowly is not idle, since it will hit a wall. A
+    1:1 response repeats every cycle, with one impact at each wall of each module. A 1:1 response is symmetric if all
+    displacements change sign after half a period.
     """
     displacements = run.samples[:, :4]
     repeats = repeats_after(displacements, _PER_CYCLE, _REPEATED)
@@ -144,7 +156,7 @@ def classify(run: Run) -> tuple[str, int | None]:
         return UNSETTLED, None
     impacts = run.events[run.events["kind"] == IMPACT]
     counts = [np.sum((impacts["module"] == i) & (impacts["wall"] == w)) for i in run.system.modules for w in (1, -1)]
-    # An impact at an end of the window can change a count by one.
+    # If an impact is at an end of the run, the number of impacts at a wall can differ from the number of cycles by one.
     once = len(impacts) == len(run.events) and np.all(np.abs(np.array(counts) - run.cycles) <= 1)
     if repeats > 1 or not once:
         return OTHER, repeats
@@ -158,27 +170,27 @@ def _window(system, state, cycles):
 
 
 def _at_rest(run):
-    """Return True for each ball that is at rest at all samples, shape (n,) for n active modules."""
+    """Return a mask of the balls that are at rest in all samples of a run, shape (n,) for n active modules."""
     speeds = np.array([5, 7])
     return ~run.samples[:, speeds[active_mask(run.system)[speeds]]].any(axis=0)
 
 
 def starts(count: int, seed: int = 1, reach: float = 1.0) -> np.ndarray:
-    """Return initial states evenly spread over positions and velocities, the first at rest.
+    """Return initial states that are evenly spread over positions and velocities; only the first one is at rest.
 
     Parameters
     ----------
     count : int
         Number of initial states, at least 1.
     seed : int, default 1
-        Seed of the scrambled Halton points.
+        Seed of the scrambled Halton points that give the initial states.
     reach : float, default 1.0
-        Largest |X_i|, |X_i'| and |Y_i'|.
+        Upper bound of |X_i|, |X_i'| and |Y_i'|, dimensionless.
 
     Returns
     -------
     ndarray
-        Initial states, shape (count, 8), with |W_i| < 1.
+        Initial states, shape (count, 8). Every ball starts between its walls, |W_i| < 1.
 
     Raises
     ------

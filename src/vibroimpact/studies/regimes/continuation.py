@@ -1,16 +1,17 @@
-"""Follow the roots of F(x, p) = 0 over one parameter p by pseudo-arclength continuation (Keller 1977).
+"""Follow the roots of F(x, p) = 0 as a parameter p varies, by pseudo-arclength continuation (Keller 1977).
 
 A step leads from a point z = (x, p) along the tangent. Newton's method then corrects x at constant p. Where the tangent
-has a small component along p, the correction is normal to the tangent instead, so that folds in p can be passed.
+has a small component along p, the correction is normal to the tangent instead. In this way, folds in p can be passed.
 
-At a special point, such as a period doubling, a test function changes sign. Brent's method in the arclength finds its
-zero. The test function is only evaluated at roots that are accurate to rounding, so the zero is as accurate as the
-test function.
+At a special point, such as a period doubling, a test function changes sign. Brent's method in the arclength finds the
+zero of the test function. The test function is only evaluated at roots that are accurate to rounding. Therefore the
+zero is as accurate as the test function.
 
 Branches cross at a branch point, where the determinant of [[dF/dz], [tangent]] changes sign. Newton's method is
-ill-conditioned there, so the point is bracketed by bisection and stepped over. dF/dz has two null vectors and one left
-null vector there. The branches are found on a small circle around the point, in the plane of the null vectors. A branch
-crosses the circle where the component of F along the left null vector vanishes (Lyapunov and Schmidt).
+ill-conditioned near a branch point. Therefore the branch point is bracketed by bisection, and a step passes over it.
+At a branch point, dF/dz has two null vectors and one left null vector. The branches are found on a small circle around
+the branch point, in the plane of the two null vectors. A branch crosses the circle where the component of F along the
+left null vector vanishes (Lyapunov and Schmidt).
 """
 
 from collections.abc import Callable, Iterator
@@ -23,33 +24,38 @@ from scipy.optimize import brentq
 
 from vibroimpact.system.representation import brief
 
-_DIFFERENCE = 1e-6  # step in p, relative to 1 + |p|; dF/dp is then accurate to about 1e-10
+_DIFFERENCE = 1e-6  # step in p of difference quotients, divided by 1 + |p|; dF/dp is accurate to about 1e-10
 _STENCILS = {1: 0.5, -1: -0.5}, {0: -1.5, 1: 2.0, 2: -0.5}, {0: 1.5, -1: -2.0, -2: 0.5}
 _MOST_STEPS = 2000
 _STEPS, _FEET = 12, 4
-# Relative sizes of the last Newton step. The second one applies if rounding keeps the steps from shrinking.
+# Newton's method ends if the relative size of its last step is at most _SETTLED. If rounding keeps the steps from
+# shrinking, a size of at most _STALLED is enough.
 _SETTLED, _STALLED = 1e-13, 1e-7
 _REFINED = 1e-10
-# With a larger component of the tangent along p, Newton's method keeps p, which is cheaper.
+# If the component of the tangent along p is larger than this value, Newton's method keeps p constant, which is cheaper.
 _STEEP = 0.2
-_TURN = 0.15  # radians by which the tangent may turn in one step
-# Shortest step. If it fails, the curve can only go on at a corner.
+_TURN = 0.15  # largest angle [rad] by which the tangent may turn in one step
+# Length of the shortest step. If a step of this length fails, the continuation can only go on past a corner of the
+# curve, where dF/dz jumps.
 _SHORTEST = 1e-7
-# Bisection ends at this arclength. This near to a branch point, Newton's method still gives 10 digits.
+# Bisection ends when its interval is shorter than this arclength. At this distance from a branch point, Newton's method
+# still gives 10 digits.
 _RESOLVED = 1e-6
-_SINGULAR = 1e-5  # largest singular value that counts as 0, relative to 1 + the median one
-_CORNER = 1e-5  # length of a step past a corner, where dF/dz jumps
+# A singular value counts as 0 if it is at most this number times (1 + median of the singular values).
+_SINGULAR = 1e-5
+_CORNER = 1e-5  # length of a step past a corner of the curve, where dF/dz jumps
 _CIRCLE, _ANGLES = 1e-4, np.linspace(0.0, 2 * np.pi, 97)
 
 
 class Lost(ArithmeticError):
-    """Raised if Newton's method finds no root near its guess, or if F is not defined at a point."""
+    """Raised if Newton's method finds no root near the initial guess, or if F is not defined at a point."""
 
 
 class Place(NamedTuple):
-    """A point z = (x, p) of a curve F(z) = 0 and the unit tangent there, both (d + 1,).
+    """A point z = (x, p) of a curve F(z) = 0, with the unit tangent of the curve at this point.
 
-    determinant: of [[dF/dz], [tangent]]; 0 at a branch point. closing: True at the end of a closed curve.
+    z, tangent: vectors of shape (d + 1,). determinant: determinant of the matrix [[dF/dz], [tangent]], which is 0 at a
+    branch point. closing: True for the last Place of a closed curve, where the curve returns to its first Place.
     """
 
     z: np.ndarray
@@ -64,17 +70,21 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """The solution set of F(x, p) = 0.
+    """The curves of solutions z = (x, p) of F(x, p) = 0.
 
-    equations(x, p): residual (d,) and Jacobian (d, d) with respect to x. images(z, near): points equivalent to z,
-    shifted by whole periods to be close to `near`.
+    equations: function of (x, p) that returns the residual F, shape (d,), and the Jacobian dF/dx, shape (d, d).
+    images: function of (z, near) that returns z and the points that are equivalent to z, such as mirror images. Each
+    point is shifted by whole periods to be close to the point `near`.
     """
 
     equations: Callable
     images: Callable = lambda z, near: [z]
 
     def place(self, z: np.ndarray, ahead: np.ndarray) -> Place:
-        """Return the Place at a point z of the curve, with its tangent in the direction of `ahead`, (d + 1,)."""
+        """Return the Place at a point z of the curve.
+
+        The vector `ahead`, shape (d + 1,), selects the sign of the tangent: their scalar product is positive.
+        """
         by_z = self._by_z(z)
         tangent = np.linalg.svd(by_z)[2][-1]
         tangent = np.copysign(1.0, tangent @ ahead) * tangent
@@ -83,13 +93,17 @@ class Curve:
     def singular(self, z: np.ndarray) -> bool:
         """Return True if dF/dz is singular at z, so that the tangent is not unique.
 
-        The scale is the median singular value, since the largest is unbounded near grazing.
+        The smallest singular value is compared with the median singular value. The largest one is not suitable, since
+        it is unbounded near grazing.
         """
         sizes = np.linalg.svd(self._by_z(z), compute_uv=False)
         return bool(sizes[-1] <= _SINGULAR * (1 + np.median(sizes)))
 
     def step(self, place: Place, length: float) -> np.ndarray:
-        """Return the point z after a step of `length` along the tangent of `place`; raise Lost without convergence."""
+        """Return the point z after a step of `length` along the tangent of `place`.
+
+        Raise Lost if Newton's method does not converge.
+        """
         guess = place.z + length * place.tangent
         steep = abs(place.tangent[-1]) > _STEEP
         row = np.eye(len(guess))[-1] if steep else place.tangent
@@ -105,9 +119,10 @@ class Curve:
         raise Lost(f"Newton's method found no point of the branch near {brief(guess)}")
 
     def trace(self, start: Place, longest: float, inside: Callable) -> Iterator[Place]:
-        """Yield the places along the curve from `start`, including branch points, in steps of at most `longest`.
+        """Yield the Places along the curve from the Place `start`, including branch points.
 
-        The last place is the first one with inside(z) False, or the end of the curve.
+        The length of each step along the tangent is at most `longest`. The iteration ends with the first Place for
+        which inside(z) is False. The iteration ends earlier if the curve closes or if no further Place is found.
         """
         place, length = start, longest / 4
         yield place
@@ -131,7 +146,7 @@ class Curve:
                 return
 
     def zero(self, function: Callable, place: Place, end: np.ndarray) -> np.ndarray:
-        """Return the zero of function(z) on the curve between `place` and the later point z = `end`."""
+        """Return the point z of the curve, between `place` and a later point `end`, at which function(z) is 0."""
         steep = abs(place.tangent[-1]) > _STEEP
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
         try:
@@ -141,10 +156,10 @@ class Curve:
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
-        """Return (points, places) of the whole curve through a root z, in order.
+        """Return two lists, the points and the Places of the whole curve through a root z, in order along the curve.
 
-        half(start) returns both lists for the half that starts at the Place `start`. The root z is refined first,
-        since a multiple root has few correct digits.
+        half: function that returns both lists for the part of the curve from a given Place on, in the direction of the
+        tangent there. The root z is refined first, since a multiple root has few correct digits.
         """
         for _ in range(_STEPS):
             change = np.linalg.lstsq(self._by_z(z), self.equations(z[:-1], z[-1])[0])[0]
@@ -159,18 +174,21 @@ class Curve:
         return back[:0:-1] + points, [place.reversed() for place in behind[:0:-1]] + places
 
     def passes(self, places: list[Place], z: np.ndarray) -> bool:
-        """Return True if a root z lies on the curve through the given places."""
+        """Return True if a root z, or a point equivalent to z, lies on the curve through the given Places."""
         return any(self.image_on_segment(*pair, z) is not None for pair in pairwise(places))
 
     def image_on_segment(self, place: Place, after: Place, z: np.ndarray) -> np.ndarray | None:
-        """Return the point between two neighbouring places of the curve that is equivalent to a root z, or None."""
+        """Return the root z, or a point equivalent to z, if it lies on the curve between two neighbouring Places.
+
+        Otherwise, return None. The function `images` of the curve gives the equivalent points.
+        """
         chord = after.z - place.z
         length = np.linalg.norm(chord)
         for image in self.images(z, place.z):
             along = chord @ (image - place.z) / length
             aside = np.linalg.norm(image - place.z - along / length * chord)
             if -_RESOLVED < along < length + _RESOLVED and aside < _TURN * length + _RESOLVED:
-                # Near a branch point, `_place_at` can step to another branch. Bisection then finds the place.
+                # Near a branch point, `_place_at` fails if it steps to another branch. Bisection then finds the Place.
                 found = self._place_at(place, image) or self._bisected(
                     place, after, lambda at, z=image: at.tangent @ (z - at.z) > 0
                 )
@@ -179,14 +197,16 @@ class Curve:
         return None
 
     def arms(self, z: np.ndarray) -> list[np.ndarray]:
-        """Return points on a small circle around a branch point z, one on each branch that leaves it."""
+        """Return the points at which branches cross a small circle around the branch point z."""
         left, _, right = np.linalg.svd(self._by_z(z))
         unbalanced, plane = left[:, -1:], right[-2:]
 
         def at(angle):
-            """Return a point y in the direction `angle` from z, and a number `part` that is 0 if y is on a branch.
+            """Return a point y near the branch point z, and a number `part`.
 
-            They satisfy F(y) + part * unbalanced = 0, with the left null vector `unbalanced` of dF/dz.
+            The projection of y onto the plane of the null vectors is the point of the circle in the direction `angle`.
+            The results satisfy F(y) + part * unbalanced = 0, where `unbalanced` is the left null vector of dF/dz. If
+            `part` is 0, y is on a branch.
             """
             guess = z + _CIRCLE * np.array([np.cos(angle), np.sin(angle)]) @ plane
             y, part = guess, 0.0
@@ -201,11 +221,14 @@ class Curve:
             signs = [np.sign(at(angle)[1]) for angle in _ANGLES]
             turns = [_ANGLES[k : k + 2] for k in np.flatnonzero(np.diff(signs))]
             return [at(brentq(lambda angle: at(angle)[1], *ends, xtol=1e-9))[0] for ends in turns]
-        except Lost:  # F is not defined all around z
+        except Lost:  # F is undefined at some points of the circle
             return []
 
     def _by_p(self, z):
-        """Return dF/dp, shape (d,), at z, by central differences, or one-sided ones at the edge of the domain of F."""
+        """Return the derivative dF/dp at z, shape (d,), by central differences.
+
+        If F is not defined on one side of p, use one-sided differences.
+        """
         x, p = z[:-1], z[-1]
         h = _DIFFERENCE * (1 + abs(p))
         for stencil in _STENCILS:
@@ -216,14 +239,14 @@ class Curve:
         raise lost
 
     def _by_z(self, z):
-        """Return dF/dz, shape (d, d + 1)."""
+        """Return the derivative dF/dz at z, shape (d, d + 1)."""
         return np.column_stack([self.equations(z[:-1], z[-1])[1], self._by_p(z)])
 
     def _ahead(self, place, length):
-        """Return the places that one step from `place` reaches, in order, or [] if the step fails.
+        """Return the Places that one step from `place` reaches, in order along the curve, or [] if the step fails.
 
-        A branch point in the step is in the list. If the determinant changes sign without a branch point, the step has
-        jumped to another curve and fails.
+        If there is a branch point within the step, the list contains this point and Places close to it on both sides.
+        If the determinant changes sign without a branch point, the step has jumped to another curve. It then fails.
         """
         after = self._next(place, length)
         if after is None or after.determinant * place.determinant > 0:
@@ -241,7 +264,10 @@ class Curve:
         ]
 
     def _next(self, place, length):
-        """Return the place after one step, or None if the step fails or the curve turns too much."""
+        """Return the Place after one step of `length` from `place`.
+
+        If the step fails or the curve turns too much, return None.
+        """
         try:
             after = self.place(self.step(place, length), place.tangent)
         except Lost:
@@ -249,7 +275,7 @@ class Curve:
         return after if place.tangent @ after.tangent > np.cos(_TURN) else None
 
     def _place_at(self, place, z):
-        """Return a list with the place at z, or [] if z is not on the curve; the search starts from `place`."""
+        """Return a list with the Place at the point z, or [] if a search from `place` does not find z on the curve."""
         for _ in range(_FEET):
             place = self._next(place, place.tangent @ (z - place.z))
             if place is None:
@@ -259,9 +285,10 @@ class Curve:
         return []
 
     def _past_corner(self, place):
-        """Return a list with the place beyond a corner just ahead, or [] without a corner.
+        """Return a list with the Place beyond a corner just ahead of `place`, or [] if there is no corner.
 
-        At a corner dF/dz jumps, for example where impacts of both modules change their order.
+        At a corner of the curve, dF/dz jumps. An example is an orbit at which impacts of both modules change their
+        order.
         """
         try:
             across = self.place(place.z + _CORNER * place.tangent, place.tangent)
@@ -271,10 +298,11 @@ class Curve:
         return [one for one in after if one and abs(place.tangent @ one.tangent) < np.cos(_TURN)][:1]
 
     def _bisected(self, place, after, before: Callable):
-        """Bisect the curve; return two places between which before(place) changes from True to False.
+        """Bisect the curve between two Places; return two close Places between which `before` changes.
 
-        They are at most _RESOLVED apart, or the first one is singular. The result is None if the curve does not join
-        `place` and `after`.
+        The function `before` returns True for the first of the close Places, and False for the second. The close Places
+        are at most _RESOLVED apart. Bisection ends earlier if dF/dz is singular at the first one and no step succeeds.
+        If the curve does not join `place` and `after`, return None.
         """
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
@@ -289,7 +317,10 @@ class Curve:
 
 
 def _solve(blocks, right):
-    """Solve the linear system with the matrix in `blocks` (rows of blocks); raise Lost if it is singular."""
+    """Return the solution of the linear system with the matrix in `blocks` and the right side `right`.
+
+    blocks: rows of blocks of the matrix. Raise Lost if the matrix is singular.
+    """
     try:
         return np.linalg.solve(np.vstack([np.hstack(row) for row in blocks]), right)
     except np.linalg.LinAlgError:

@@ -32,22 +32,25 @@ _SAME_BRANCH, _AT_THE_END = 0.1, 5e-3
 
 
 def coupled(system, alpha12_hat: float):
-    """Return the system with another coupling spring; the coupling damper changes in proportion."""
+    """Return `system` with another coupling spring; the coupling damper changes in proportion to the spring."""
     scale = alpha12_hat / system.alpha12_hat if system.alpha12_hat else 1.0
     return system.with_(alpha12_hat=alpha12_hat, gamma12_hat=system.gamma12_hat * scale)
 
 
 def flight_asymmetry(orbit) -> np.ndarray:
-    """Return the flight asymmetries (v_1, v_2).
+    """Return the flight asymmetries (v_1, v_2) of both balls, shape (2,).
 
-    They are the time from wall -1 to +1 minus that from +1 to -1, divided by the period.
+    v is the flight time from wall -1 to wall +1, minus the flight time from wall +1 to wall -1, divided by the period.
     """
     plus, minus = orbit.ball_speeds.T
     return (plus - minus) / (plus + minus)
 
 
 def pattern(orbit) -> str | None:
-    """Return IN_PHASE or ANTIPHASE, or None if the flight asymmetry of a ball is below LEAST_ASYMMETRY."""
+    """Return the pattern of an orbit, IN_PHASE or ANTIPHASE.
+
+    If |v_i| of a ball is below LEAST_ASYMMETRY, return None.
+    """
     v = flight_asymmetry(orbit)
     return None if not _both_asymmetric(v) else IN_PHASE if v.prod() > 0 else ANTIPHASE
 
@@ -57,8 +60,9 @@ def _both_asymmetric(v):
 
 
 def patterns(system) -> dict[str, np.ndarray]:
-    """Return one stable orbit of each pattern by name, as a root (6,) of `AsymmetricConditions`.
+    """Return one stable orbit of each pattern, as a dict from the name of the pattern to the orbit.
 
+    Each orbit is a root of `AsymmetricConditions`, shape (6,). A pattern without a stable orbit is missing in the dict.
     Of two mirror images, the one with the flight asymmetry v_1 > 0 is returned.
     """
     roots = [
@@ -70,12 +74,14 @@ def patterns(system) -> dict[str, np.ndarray]:
 
 
 def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
-    """Yield each pattern with a stable orbit at a coupling in SOUGHT, and the range in which this orbit is stable.
+    """Yield the ranges of the coupling in which a pattern has a stable orbit.
 
-    limits: smallest and largest coupling alpha12_hat.
+    limits: smallest and largest coupling alpha12_hat. At each coupling in SOUGHT, stable orbits of all patterns are
+    searched. Each orbit is then followed to smaller and to larger couplings.
 
-    Each yielded tuple is (pattern, coupling in SOUGHT, orbits, reasons). The orbits are a list of (alpha12_hat, Orbit)
-    in ascending order. The two reasons explain the ends of the range; a reason is "" at a limit.
+    Each yielded tuple has four entries: the pattern, the coupling in SOUGHT, the orbits and two reasons. The orbits are
+    a list of (alpha12_hat, Orbit) in ascending order of alpha12_hat. The reasons explain the lower and the upper end of
+    the range. If the range ends at a limit, the reason is "".
     """
     seen = []
     for start in SOUGHT:
@@ -91,7 +97,11 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
 
 
 def _followed(system, root, value, name, limit):
-    """Yield (coupling, Orbit) from `value` to `limit`, while the orbit is stable and has the pattern `name`."""
+    """Follow an orbit from the coupling `value` to `limit`; yield (coupling, Orbit) after each step.
+
+    The iteration ends early if the orbit is no longer stable or no longer has the pattern `name`. root: root of the
+    orbit at `value`.
+    """
     way, step = np.sign(limit - value), STEP
     while step > SHARP and value != limit:
         reached = value * np.exp(way * step)
@@ -107,7 +117,7 @@ def _followed(system, root, value, name, limit):
 
 
 def _end(orbit):
-    """Return the reason why a pattern ends, from its last stable orbit."""
+    """Return the reason why the range of a pattern ends, given the last stable orbit of the range."""
     mu = orbit.multipliers[0]
     if np.abs(flight_asymmetry(orbit)).min() < LEAST_ASYMMETRY + _AT_THE_END:
         return VANISHES

@@ -1,4 +1,4 @@
-"""Compare the theory with exact orbits as epsilon tends to 0: distance, slow and fast multipliers."""
+"""Compare fixed points of the slow flow with exact orbits as epsilon tends to 0: their distance and multipliers."""
 
 from dataclasses import dataclass
 
@@ -13,15 +13,17 @@ from vibroimpact.theory.masri import multipliers
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """A fixed point and the exact orbit next to it, at one epsilon.
+    """Differences between a fixed point of the slow flow and an exact orbit near this point, at one epsilon.
 
-    offset: orbit minus fixed point; for a symmetric orbit, C and the impact phase [rad] of each module, (4,).
-    multipliers: multipliers of the orbit, (8,) complex. Entry k is paired with `predicted_multipliers[k]`.
-    predicted_multipliers: the slow flow predicts the first four, the impact map the last four.
-    rates: log(mu) / (epsilon 2 pi / Omega) for the first four multipliers mu of the orbit.
-    predicted: eigenvalues of the slow flow, which predict `rates`.
+    offset: coordinates of the orbit minus coordinates of the fixed point. For a symmetric orbit, the coordinates are
+    the amplitude C and the impact phase [rad] of each module, shape (4,).
+    multipliers: multipliers of the orbit, shape (8,) complex. Entry k is paired with `predicted_multipliers[k]`.
+    predicted_multipliers: predictions of the multipliers, shape (8,) complex. The slow flow predicts the first four,
+    and the impact map predicts the last four.
+    rates: log(mu) / (epsilon 2 pi / Omega) for the first four multipliers mu of the orbit, shape (4,).
+    predicted: eigenvalues of the slow flow, which are predictions of `rates`, shape (4,).
 
-    For a single machine all arrays have half as many entries.
+    If only one module is active, all arrays have half as many entries.
     """
 
     epsilon: float
@@ -33,17 +35,17 @@ class Comparison:
 
     @property
     def distance(self) -> float:
-        """Euclidean distance between fixed point and orbit."""
+        """Euclidean distance between the fixed point and the orbit."""
         return float(np.linalg.norm(self.offset))
 
     @property
     def slow_error(self) -> float:
-        """Largest |`rates` - `predicted`|."""
+        """Largest difference between an entry of `rates` and the eigenvalue of the slow flow that predicts it."""
         return float(np.abs(self.rates - self.predicted).max())
 
     @property
     def fast_error(self) -> float:
-        """Largest error of the fast multipliers, which the impact map predicts."""
+        """Largest difference between a fast multiplier of the orbit and the prediction of the impact map."""
         return float(np.abs(self.multipliers - self.predicted_multipliers)[len(self.predicted) :].max())
 
 
@@ -66,13 +68,15 @@ def distance_to_orbit(system, point) -> Comparison:
 
 
 def paired(system, offset, exact, slow, fast) -> Comparison:
-    """Pair the multipliers of an exact orbit with predicted ones.
+    """Pair each multiplier of an exact orbit with a predicted multiplier, and return the Comparison.
 
-    slow: eigenvalues of the slow flow. fast: multipliers of the impact map over a cycle.
+    offset: as in `Comparison`. exact: multipliers of the orbit. slow: eigenvalues of the slow flow. fast: multipliers
+    of the impact map over a cycle.
     """
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
-    # Errors are of order epsilon^2 for slow and epsilon for fast multipliers, so they need weights.
+    # Errors of slow multipliers are of order epsilon^2, and errors of fast ones are of order epsilon. The weights make
+    # both errors comparable.
     weights = np.repeat([1 / slow_time, 1.0], len(slow))
     pairs = linear_sum_assignment(weights[:, None] * np.abs(np.log(predicted[:, None] / exact)))[1]
     return Comparison(
@@ -86,7 +90,10 @@ def paired(system, offset, exact, slow, fast) -> Comparison:
 
 
 def order(epsilon, errors) -> tuple[float, float]:
-    """Return the exponent p of errors ~ epsilon^p by least squares, and its standard error (nan for 2 points)."""
+    """Fit errors ~ epsilon^p by least squares; return the exponent p and the standard error of p.
+
+    With two points, the standard error is nan.
+    """
     if len(epsilon) < 2:
         raise ValueError(f"epsilon: got {len(epsilon)} values, expected at least 2 to fit an order")
     if len(epsilon) == 2:

@@ -1,14 +1,17 @@
 """Families of motions for continuation: equations, members, and test functions that vanish at special points.
 
-The test functions of an orbit, except that for grazing, are symmetric polynomials in its multipliers mu. So they are
-real and change sign at their zeros. prod (1 + mu) vanishes at a period doubling. prod (1 - mu_i mu_j), i < j, vanishes
-where two multipliers have the product 1. If these are complex, they are on the unit circle (Neimark-Sacker). For a
-symmetric orbit, mu are the multipliers of the map over half a period, followed by state -> -state. The symmetry breaks
-where such a mu is -1. A symmetric orbit cannot double its period before its symmetry breaks (Swift and Wiesenfeld
-1984). The continuation itself finds folds and branch points (mu = 1).
+The test functions of an orbit are symmetric polynomials in the multipliers mu of the orbit. Only the test function for
+grazing is not. Symmetric polynomials in mu are real, and these polynomials change sign at their zeros. The product of
+all (1 + mu) vanishes at a period doubling. The product of all (1 - mu_i mu_j) with i < j vanishes where two multipliers
+have the product 1. If these two multipliers are complex, they are on the unit circle (Neimark-Sacker).
 
-The unknowns of an inactive module are constant: 0 for phases or impact times, and 1 for the amplitude C_i or the
-velocity change I_i of the ball. So C_i = 0 or I_i = 0 always means that ball i has the speed 0.
+For a symmetric orbit, mu are the multipliers of a map that consists of two steps. The map follows the motion for half a
+period, and then replaces the state by -state. The symmetry breaks where such a mu is -1. A symmetric orbit cannot
+double its period before its symmetry breaks (Swift and Wiesenfeld 1984). The continuation itself finds folds and branch
+points (mu = 1).
+
+The unknowns of an inactive module are constant. Phases and impact times are 0. The amplitude C_i and the velocity
+change I_i of the ball at an impact are 1. Therefore C_i = 0 or I_i = 0 always means that ball i has the speed 0.
 """
 
 from itertools import combinations
@@ -32,7 +35,7 @@ SYMMETRY_BREAKING, PERIOD_DOUBLING = "symmetry breaking", "period doubling"
 NEIMARK_SACKER, HOPF = "Neimark-Sacker", "Hopf"
 GRAZING, SPEED_ZERO, MANIFOLD_FOLD = "grazing", "speed zero", "fold of the SIM"
 _PAIR = 1e-6
-_EQUAL = 1e-6  # largest difference of a flight fraction from 1/2 that counts as 0
+_EQUAL = 1e-6  # a flight fraction (flight time divided by the period) within this distance of 1/2 counts as 1/2
 _HELD = 1e-12
 
 
@@ -55,7 +58,9 @@ class SymmetricOrbits:
 
     @classmethod
     def equations(cls, system, x):
-        """Return the residual (d,) and Jacobian (d, d) of the conditions of exact orbits at x, (d,).
+        """Return the residual and the Jacobian of the conditions for an exact orbit with the unknowns x.
+
+        With x of shape (d,), the residual has the shape (d,), and the Jacobian has the shape (d, d).
 
         Raises
         ------
@@ -68,9 +73,9 @@ class SymmetricOrbits:
 
     @classmethod
     def speed(cls, x) -> float:
-        """Return min(C_i), or min(I_i) for asymmetric orbits; the result is 0 if a ball has the speed 0.
+        """Return min(C_1, C_2) for symmetric orbits, and min(I_1, I_2) for asymmetric orbits.
 
-        I_i is the velocity change of ball i at an impact.
+        If a ball has the speed 0, the result is 0. I_i is the velocity change of ball i at an impact.
         """
         return x[cls.angles.stop :].min()
 
@@ -102,8 +107,9 @@ class SymmetricOrbits:
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Return True if `orbit`, a zero of the test function of `kind`, is a special point of this kind."""
-        mu = orbit.multipliers  # the test function also vanishes if two real multipliers have the product 1
+        """Return True if `orbit`, at which the test function of `kind` is 0, is a special point of this kind."""
+        # The test function of NEIMARK_SACKER is also 0 if two real multipliers have the product 1.
+        mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
 
 
@@ -119,7 +125,7 @@ class AsymmetricOrbits(SymmetricOrbits):
 
     @classmethod
     def roots(cls, system) -> np.ndarray:
-        """Return the roots of the asymmetric orbits that are found, shape (n, 6); some may be missed."""
+        """Return the roots of asymmetric orbits, shape (n, 6). The search may miss some orbits."""
         return np.where(_inactive(cls, system), cls.rest, asymmetric_solutions(system)[0])
 
     @classmethod
@@ -164,7 +170,9 @@ class FixedPoints:
 
     @classmethod
     def equations(cls, system, x):
-        """Return the residual (4,) of (10.23), D_1 B_i and D_1 psi_i, and its Jacobian (4, 4) at x, (4,).
+        """Return the residual of (10.23) at x, shape (4,), and its Jacobian, shape (4, 4).
+
+        The residual contains the rates D_1 B_i and D_1 psi_i of the slow flow, which are 0 at a fixed point.
 
         Raises
         ------
@@ -196,7 +204,8 @@ class FixedPoints:
     def tests(system, point) -> dict[str, float]:
         """Return, for each kind of special point, the value of the test function that vanishes there."""
         r = rho(system.kappa)
-        # The power of det M removes the pole of HOPF at a fold of the manifold.
+        # At a fold of the manifold, det M is 0, and an eigenvalue of the slow flow is infinite. Therefore the test
+        # function of HOPF has a power of det M as a factor, which removes the pole.
         M = linearisation(system, point.psi, point.C)[1]
         finite = np.isfinite(point.slow_eigenvalues).all()
         sums = [a + b for a, b in combinations(point.slow_eigenvalues, 2)] if finite else [0.0]
@@ -219,8 +228,9 @@ class FixedPoints:
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Return True if `point`, a zero of the test function of `kind`, is a special point of this kind."""
-        values = point.slow_eigenvalues  # the test function also vanishes if two real eigenvalues have the sum 0
+        """Return True if `point`, at which the test function of `kind` is 0, is a special point of this kind."""
+        # The test function of HOPF is also 0 if two real eigenvalues have the sum 0.
+        values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())
 
 
@@ -232,36 +242,48 @@ FAMILIES = {
 
 
 def flight_fractions(system, x) -> np.ndarray:
-    """Return the time from wall +1 to wall -1 divided by the period, (2,); 1/2 for an inactive module."""
+    """Return the flight time from wall +1 to wall -1 of each module, divided by the period, shape (2,).
+
+    x: root of `AsymmetricConditions`, shape (6,). For an inactive module, the result is 1/2.
+    """
     u = wrapped(x[1:4:2] - x[0:4:2], system.period) / system.period
     return np.where(np.isin([1, 2], system.modules), u, 0.5)
 
 
 def _inactive(family, system):
-    """Return True for each unknown of an inactive module, shape (d,)."""
+    """Return a mask of the unknowns that belong to an inactive module, shape (d,)."""
     return ~np.isin(family.modules, system.modules)
 
 
 def _of_modules(system, values):
-    """Return the values of both modules, (2,), with NaN for an inactive one."""
+    """Return the values of both modules, shape (2,), with NaN for an inactive module."""
     return np.where(np.isin([1, 2], system.modules), values, np.nan)
 
 
 def _require_both_modules(family, system, x):
-    """Raise Lost if x has impacts in only one of two active modules; the unknowns of the other are `family.rest`."""
+    """Raise Lost if both modules are active, but only one module has impacts in the response x.
+
+    In such a response, the unknowns of the module without impacts are equal to those in `family.rest`.
+    """
     held = np.abs(x - family.rest) < _HELD
     if system.modules == (1, 2) and any(held[family.modules == module].all() for module in (1, 2)):
         raise Lost("only one of the two modules has impacts in this response")
 
 
 def asymmetric_root(system, x) -> np.ndarray:
-    """Convert the root x = (tau_1, tau_2, C_1, C_2) of a symmetric orbit to the root (6,) of `AsymmetricConditions`."""
+    """Convert a root of symmetric orbits to the root of `AsymmetricConditions` for the same orbit, shape (6,).
+
+    x: root of symmetric orbits, (tau_1, tau_2, C_1, C_2).
+    """
     times = np.stack([x[:2], x[:2] + system.period / 2], axis=1).ravel()
     root = np.append(times, 4 * path_of(system.epsilon, x[2:]) / system.period)
     return np.where(_inactive(AsymmetricOrbits, system), AsymmetricOrbits.rest, root)
 
 
 def _tests(mu, at_minus_one):
-    """Return the test functions of the multipliers `mu` by kind; `at_minus_one` is the kind for a multiplier -1."""
+    """Return the values of the test functions of the multipliers `mu`, by kind of special point.
+
+    at_minus_one: kind of the special point at which a multiplier is -1.
+    """
     found = {at_minus_one: 1 + mu, NEIMARK_SACKER: np.array([1 - a * b for a, b in combinations(mu, 2)])}
     return {name: float(np.prod(factors).real) for name, factors in found.items()}

@@ -1,9 +1,9 @@
 """Compute Lyapunov exponents from the exact Jacobian through impacts, chatter and sticking.
 
-The Jacobian of every cycle, saltation matrices included (Müller 1995), propagates a frame of perturbations. QR
-orthonormalises the frame (Benettin et al. 1980; Geist, Parlitz and Lauterborn 1990). The logarithms of the diagonal of
-R are the growth in the cycle. The initial time is not perturbed. As a further coordinate, it would add an exponent 0
-and increase the dimension by one.
+A frame is a set of perturbations of the state. The Jacobian of every cycle, saltation matrices included (Müller 1995),
+propagates the frame. A QR decomposition then orthonormalises the frame (Benettin et al. 1980; Geist, Parlitz and
+Lauterborn 1990). The logarithms of the diagonal of R are the growth in the cycle. The initial time is not perturbed. If
+the time were a further coordinate, there would be a further exponent 0, and the dimension would be larger by one.
 
 When a ball sticks, perturbations in two directions of the state space vanish. When both balls stick at the same time
 (a double stick), perturbations in four directions vanish. If double sticks occur with a positive frequency, four
@@ -26,18 +26,19 @@ from vibroimpact.system.state import active_mask, inactive_at_rest
 BOTH = 2
 CYCLES_PER_RUN = 1000
 """Number of forcing cycles that are simulated in one run."""
-# Initial perturbations. Most are random, since regular vectors may have no component in a direction of growth.
+# Initial perturbations. All vectors except the first are random, since vectors with a regular pattern may have no
+# component in a direction of growth.
 _VECTORS = np.column_stack([np.ones(8), np.random.default_rng(1).normal(size=(8, 7))])
 _MOST = 10_000_000
 _RESAMPLES = 200  # number of draws of the bootstrap
 
 
 class Exponent(NamedTuple):
-    """Mean growth rate of a perturbation per forcing period, in nats, and its error.
+    """Mean growth rate of a perturbation per forcing period, in nats, and the error of this mean.
 
-    The error is sqrt(a^2 + b^2). Here a is the standard error of the mean over blocks, and b = ln(t1 / t0) / (t1 - t0)
-    for an average from t0 to t1. A perturbation that grows in proportion to time has the mean b instead of 0. An
-    example is a small velocity of a ball that is otherwise at rest.
+    The error is sqrt(a^2 + b^2). Here a is the standard error of the mean over blocks of cycles. For an average from
+    the time t0 to the time t1, b = ln(t1 / t0) / (t1 - t0). A perturbation that grows in proportion to time has the
+    exponent 0, but its mean growth rate is b. An example is a small velocity of a ball that is otherwise at rest.
     """
 
     mean: float
@@ -45,7 +46,7 @@ class Exponent(NamedTuple):
 
 
 class Measured(Exponent):
-    """An `Exponent` with its `scatter`, the standard error of the mean over blocks of cycles."""
+    """An `Exponent` with the further attribute `scatter`, the standard error of the mean over blocks of cycles."""
 
     scatter: float
 
@@ -55,29 +56,31 @@ def largest_lyapunov(
 ) -> Measured:
     """Return the largest Lyapunov exponent of the motion reached from an initial state, in nats per period.
 
-    An exponent above about three times its error indicates chaos. For a periodic motion, the exponent is ln |mu| / n,
-    with the largest Floquet multiplier mu and the period of n forcing periods.
+    An exponent above about three times its error indicates chaos. If a motion repeats after n forcing periods, the
+    exponent is ln |mu| / n, where mu is the largest Floquet multiplier.
 
     Parameters
     ----------
     system : System
         Dimensionless parameters.
     state : array_like
-        Initial state at tau = 0, shape (8,). A ball that starts at rest may stay idle.
+        Initial state at tau = 0, shape (8,). A ball that starts at rest may never be hit by a wall.
     cycles : int, default 2000
-        Forcing periods to average over, a multiple of `blocks`.
+        Number of forcing periods over which the growth rate is averaged, a multiple of `blocks`.
     settle : int, default 1000
-        Forcing periods of the transient. With several attractors, the initial state selects one (`basins`).
+        Number of forcing periods of the transient. If there are several attractors, the initial state selects one of
+        them (`basins`).
     blocks : int, default 20
-        Number of blocks for the standard error, at least 2.
+        Number of blocks into which `cycles` are divided for the standard error, at least 2.
     discarded : int, default 10
-        Number of discarded blocks after the transient, in which the perturbation turns to the direction of largest
-        growth.
+        Number of blocks after the transient that are not used. In these blocks, the perturbation turns to the direction
+        of largest growth.
 
     Returns
     -------
     Measured
-        .mean, the exponent; .scatter, its standard error; .error, which also allows for growth in proportion to time.
+        The exponent is .mean, and its standard error is .scatter. The larger .error also allows for perturbations that
+        grow in proportion to time.
 
     Raises
     ------
@@ -120,12 +123,13 @@ class Spectrum:
     Attributes
     ----------
     growth : ndarray
-        Logarithm of the growth in each direction in each of n cycles, (n, 8), or (n, 4) if one module is active. If a
-        ball sticks, two values are -inf, or four if both balls stick at the same time.
+        Logarithm of the growth in each direction in each of n cycles. The shape is (n, 8), or (n, 4) if only one module
+        is active. If a ball sticks in a cycle, two values of this cycle are -inf. If both balls stick at the same time,
+        four values are -inf.
     contraction : ndarray
-        Logarithm of the contraction of volume in each cycle, (n,).
+        Logarithm of the factor by which a volume in state space changes in each cycle, shape (n,).
     stuck : ndarray
-        Largest number of balls that stick at the same time in each cycle, (n,).
+        Largest number of balls that stick at the same time in each cycle, shape (n,).
     """
 
     growth: np.ndarray
@@ -138,33 +142,37 @@ class Spectrum:
         return int(np.count_nonzero(self.stuck == BOTH))
 
     def without_double_sticks(self) -> "Spectrum":
-        """Return the spectrum over the cycles in which the balls do not stick at the same time.
+        """Return the spectrum without the cycles in which both balls stick at the same time.
 
-        After an excluded cycle, the perturbations need about ten cycles to align again. These cycles are included,
-        since they change the result little.
+        After an excluded cycle, the perturbations need about ten cycles to turn to the directions of the exponents
+        again. These ten cycles are included, since they change the result little.
         """
         others = self.stuck < BOTH
         return Spectrum(_largest_first(self.growth[others]), self.contraction[others], self.stuck[others])
 
     @property
     def exponents(self) -> np.ndarray:
-        """Lyapunov exponents, (8,), or (4,) if one module is active, per forcing period, in nats."""
+        """Lyapunov exponents per forcing period, in nats, largest first.
+
+        The shape is (8,), or (4,) if only one module is active.
+        """
         return self.growth.mean(axis=0)
 
     @property
     def dimension(self) -> float:
-        """Kaplan-Yorke dimension of the attractor of the map from one forcing cycle to the next, see `kaplan_yorke`."""
+        """Kaplan-Yorke dimension of the attractor of the map from one forcing cycle to the next."""
         return kaplan_yorke(self.exponents)
 
     def errors(self, block: int) -> tuple[np.ndarray, float]:
-        """Return the standard errors of the exponents (nan for an exponent of -inf) and of the dimension.
+        """Return the standard errors of all exponents, and the standard error of the dimension.
 
-        The circular block bootstrap (Politis and Romano 1992) preserves the correlation of successive cycles.
+        The error of an exponent of -inf is nan. The circular block bootstrap (Politis and Romano 1992) preserves the
+        correlation of successive cycles.
 
         Parameters
         ----------
         block : int
-            Cycles per block, from 1 to half of all cycles.
+            Number of cycles per block, from 1 to half of the number of all cycles.
 
         Raises
         ------
@@ -186,10 +194,10 @@ class Spectrum:
 def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000, discarded: int = 100) -> Spectrum:
     """Return all Lyapunov exponents of the motion reached from an initial state, in nats per period.
 
-    The exponents are those of the map from one forcing period to the next, without the exponent 0 along the flow. If a
-    ball sticks, two exponents are -inf, or four if both balls stick at the same time. The computed exponent of a
-    perturbation that grows in proportion to the time t is about ln(t) / t instead of 0. The errors do not include this
-    deviation.
+    The exponents are those of the map from one forcing period to the next. Therefore they do not include the exponent 0
+    of a perturbation along the flow. If a ball sticks, two exponents are -inf. If both balls stick at the same time,
+    four exponents are -inf. A perturbation that grows in proportion to the time t has the exponent 0, but its computed
+    exponent is about ln(t) / t. The computed errors do not include this deviation.
 
     Parameters
     ----------
@@ -198,14 +206,14 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     state, cycles, settle
         As for `largest_lyapunov`.
     discarded : int, default 100
-        Discarded forcing periods after the transient, in which each perturbation turns to the direction of its
-        exponent.
+        Number of forcing periods after the transient that are not used. In these periods, each perturbation turns to
+        the direction of its exponent.
 
     Returns
     -------
     Spectrum
-        .exponents, largest first, (8,), or (4,) if one module is active; .errors(block), their standard errors;
-        .dimension (Kaplan-Yorke); .without_double_sticks().
+        The exponents are .exponents, largest first. Their shape is (8,), or (4,) if only one module is active. The
+        standard errors are .errors(block). The Kaplan-Yorke dimension is .dimension.
 
     Raises
     ------
@@ -236,13 +244,14 @@ def _largest_first(rates):
 
 
 def contraction(system, impacts, stuck) -> np.ndarray:
-    """Return the logarithm of the contraction of volume in state space in each cycle, shape (n,).
+    """Return the logarithm of the factor by which a volume in state space changes in each cycle, shape (n,).
 
-    impacts, stuck: number of impacts, and largest number of balls that stick at the same time, in each cycle.
+    impacts: number of impacts in each cycle. stuck: largest number of balls that stick at the same time in each cycle.
 
-    A flight of time t contracts the volume by exp(-tr(D) t), with the damping matrix D of the active modules. An impact
-    contracts the volume by kappa^2. The saltation matrix is triangular in the coordinates W = X - Y, W', and position
-    and velocity of the centre of mass. Its diagonal is (-kappa, -kappa, 1, 1). A stick contracts the volume to 0.
+    A flight of time t multiplies the volume by exp(-tr(D) t), with the damping matrix D of the active modules. An
+    impact multiplies the volume by kappa^2, for the following reason. The saltation matrix is triangular in the
+    coordinates W = X - Y, W', and position and velocity of the centre of mass. The diagonal of this matrix is
+    (-kappa, -kappa, 1, 1). If a ball sticks, the volume becomes 0.
     """
     damping = np.diag(damping_matrix(system))[active_mask(system)[[0, 2]]].sum()
     volume = 2 * np.asarray(impacts) * np.log(system.kappa) - damping * system.period
@@ -250,9 +259,10 @@ def contraction(system, impacts, stuck) -> np.ndarray:
 
 
 def kaplan_yorke(exponents) -> float:
-    """Return the Kaplan-Yorke dimension (1979) of exponents (n,), largest first.
+    """Return the Kaplan-Yorke dimension (1979) for the given exponents, shape (n,), largest first.
 
-    The dimension is the number k, by linear interpolation, for which the k largest exponents have the sum 0.
+    The dimension is the number k for which the k largest exponents have the sum 0. Between whole numbers k, the sum is
+    interpolated linearly.
     """
     exponents = np.asarray(exponents)
     sums = np.cumsum(exponents)
@@ -263,7 +273,10 @@ def kaplan_yorke(exponents) -> float:
 
 
 def _frame_growth(system, state, runs, directions):
-    """Simulate consecutive runs of `runs` cycles; yield the growth of a frame of perturbations in each run."""
+    """Simulate consecutive runs; yield the growth of a frame of perturbations in each run.
+
+    runs: number of cycles of each run. directions: number of perturbations in the frame.
+    """
     places = np.flatnonzero(active_mask(system))
     frame, state = np.zeros((8, directions)), inactive_at_rest(system, state)
     frame[places] = np.linalg.qr(_VECTORS[: len(places), : len(places)])[0][:, :directions]
@@ -275,6 +288,6 @@ def _frame_growth(system, state, runs, directions):
 
 
 def _settled(system, state, settle):
-    """Return the state (8,) after a transient of `settle` forcing periods from `state`."""
+    """Return the state after a transient of `settle` forcing periods from `state`, shape (8,)."""
     instance("system", system, System)
     return finals(system, checked_state(state)[None], whole("settle", settle, 0, _MOST))[0]

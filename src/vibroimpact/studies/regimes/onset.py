@@ -1,4 +1,4 @@
-"""Find the forces along a path at which the response is modulated, by the slow flow and by simulation."""
+"""Find the forces at which the response is modulated, once by the slow flow and once by simulation."""
 
 import numpy as np
 
@@ -15,9 +15,9 @@ for good."""
 
 
 def predicted(path, values) -> np.ndarray:
-    """Return a mask (n,) of the values at which the slow flow predicts a modulated response.
+    """Return a mask of the entries of `values` at which the slow flow predicts a modulated response, shape (n,).
 
-    Only forces vary along `path`.
+    path: function from an entry of `values` to the system. Only the forces may vary along the path.
     """
     forces = [(system.f10_hat, system.f20_hat) for system in map(path, values)]
     share = relax(path.system, *_WINDOW_AND_TRANSIENT, forces=forces).share
@@ -25,16 +25,19 @@ def predicted(path, values) -> np.ndarray:
 
 
 def observed(values, p, names) -> np.ndarray:
-    """Return a mask (n,) of the values at which a run ends modulated or chaotic.
+    """Return a mask of the entries of `values` at which a run ends in a modulated or chaotic response, shape (n,).
 
-    The regime of the run at p[k] is names[k].
+    p: value of the parameter in each run. names: regime at the end of each run.
     """
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
 
 
 def longest_range(values, flags) -> tuple[float, float]:
-    """Return the ends of the longest range of `values` in which all `flags` are True, or (nan, nan)."""
+    """Return the first and the last entry of the longest unbroken part of `values` in which all `flags` are True.
+
+    If no flag is True, return (nan, nan).
+    """
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
     if not len(edges):
         return np.nan, np.nan
@@ -43,9 +46,10 @@ def longest_range(values, flags) -> tuple[float, float]:
 
 
 def onsets(path, values, p, names) -> list[tuple]:
-    """Return two rows with the modulated range of `values`, one by the slow flow and one by simulation.
+    """Return two rows with the columns COLUMNS: one for the slow flow and one for simulation.
 
-    The list is empty if any parameter other than the forces varies.
+    Each row contains the first and the last entry of the longest unbroken part of `values` with modulated responses. If
+    a parameter other than the forces varies along the path, the list is empty. p, names: as for `observed`.
     """
     if not set(path.names) <= FORCES:
         return []

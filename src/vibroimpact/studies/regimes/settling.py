@@ -1,6 +1,7 @@
 """Find the regime that each initial state ends in.
 
-A motion runs in rounds until it repeats. If it does not repeat, it is classified, and a longer run tests the result.
+A motion is simulated in runs of equal length (rounds) until it repeats. If the motion does not repeat after the last
+round, quantities such as the Lyapunov exponent determine its regime. A longer run then tests this regime.
 """
 
 from dataclasses import dataclass, replace
@@ -33,20 +34,21 @@ class Observation:
     Parameters
     ----------
     cycles, rounds : int, default 250 and 3
-        Each initial state runs in up to `rounds` rounds of `cycles` forcing periods, until the motion repeats.
+        From each initial state, there are up to `rounds` runs (rounds) of `cycles` forcing periods each, until the
+        motion repeats.
     window : int, default 24
-        Forcing periods after each round that are searched for a repetition of the motion.
+        Number of forcing periods after each round in which a repetition of the motion is searched.
     nearness : float, default 0.02
-        Largest difference of displacements that counts as a repetition, dimensionless.
+        A motion repeats if its displacements after some periods differ by at most this value, dimensionless.
     blocks, block : int, default 6 and 20
-        Number of blocks for the Lyapunov exponent, and forcing periods per block.
+        Number of blocks from which the Lyapunov exponent is estimated, and number of forcing periods per block.
     retest : int, default 10000
-        Forcing periods of the run that tests the regime of a motion without repetition.
+        Number of forcing periods of the longer run that tests the regime of a motion that does not repeat.
 
     Raises
     ------
     ValueError
-        If a setting is not a number, or out of range.
+        If a setting is not a number or is out of range.
 
     Examples
     --------
@@ -68,11 +70,15 @@ class Observation:
 
 
 def settle(system, states, observation: Observation, progress: bool = False) -> list[Regime]:
-    """Return the final regime of the motion from each of `states`, (n, 8); an inactive module is put at rest."""
+    """Return the regime in which the motion from each initial state ends, in the order of `states`.
+
+    states: initial states, shape (n, 8). An inactive module is put at rest.
+    """
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        # The kind of chaos before all tests counts, so that no chaotic motion is tested twice.
+        # A test can change the kind of chaos of a motion. Chaotic motions are selected by their regimes before all
+        # tests, so that no motion is tested twice.
         now = first if name in CHAOS else regimes
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
@@ -81,18 +87,21 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
 
 
 def _rounds(system, states, observation, progress):
-    """Return the regime of the motion from each state, when the motion repeats or after the last round."""
+    """Return the regime of the motion from each state.
+
+    A motion runs in rounds of equal length until it repeats, or until the last round.
+    """
     found: list[Regime | None] = [None] * len(states)
     waiting, now = np.arange(len(states)), states
     for number in range(1, observation.rounds):
         now = finals(system, now, observation.cycles)
         for place, state in track([*zip(waiting, now, strict=True)], f"initial states, round {number}:", progress):
             found[place] = classify_after(system, state, observation.window, observation.nearness)
-        # these motions may still end in another regime
+        # Motions continue if they are unsettled, or if a ball is idle and the motion does not repeat.
         regimes = [found[place] for place in waiting]
         open_ones = [one.name == UNSETTLED or (one.name == IDLE and one.repeats is None) for one in regimes]
         waiting, now = waiting[open_ones], now[open_ones]
-    # the last round also keeps the events, which are needed for the classification
+    # The runs of the last round also keep their events, which are needed for the classification.
     for place, state in track([*zip(waiting, now, strict=True)], "initial states, last round:", progress):
         found[place] = named(simulate(system, state, observation.cycles), observation)
         if found[place].name == UNSETTLED:
@@ -101,7 +110,10 @@ def _rounds(system, states, observation, progress):
 
 
 def named(run, observation: Observation) -> Regime:
-    """Return the regime at the end of a run, also for a motion that does not repeat."""
+    """Return the regime at the end of a run.
+
+    If the motion does not repeat, `name_aperiodic` determines the regime.
+    """
     regime = classify_after(run.system, run.final, observation.window, observation.nearness)
     if regime.name == UNSETTLED:
         return replace(regime, name=name_aperiodic(run, observation.blocks, observation.block))
@@ -113,19 +125,25 @@ def _continued(regime, observation):
 
 
 def _test_classification(regimes, members, observation, progress):
-    """Test the regime of the motions with indices `members` by longer runs; update `regimes` in place."""
+    """Test by longer runs whether motions stay in their regime; update `regimes` in place.
+
+    members: indices in `regimes` of the motions in the tested regime.
+    """
     before = regimes[members[-1]].name
-    # If some motions are periodic, others may be chaotic transients. Several witnesses are then needed.
+    # One or more motions of the regime (witnesses) continue in longer runs. If other motions are periodic, the motions
+    # of the regime may be chaotic transients. In this case, several witnesses are needed.
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
     _continue(regimes, witnesses, observation, progress)
-    # If all witnesses stay in the regime, the other motions get the name of the last witness.
+    # If all witnesses stay in the regime, the other motions are not continued. They get the name of the last witness,
+    # which may have changed to another kind of chaos.
     if all(_same_kind(before, regimes[k].name) for k in witnesses):
         for k in set(members) - set(witnesses):
             regimes[k] = replace(regimes[k], name=regimes[members[-1]].name)
         return
     _continue(regimes, set(members) - set(witnesses), observation, progress)
-    # A witness has left the regime, so that motions that stay are unsettled.
+    # A witness has left the regime. Therefore motions that stay in the regime may still leave it later, and they are
+    # called unsettled.
     for k in members:
         if _same_kind(before, regimes[k].name):
             regimes[k] = replace(regimes[k], name=UNSETTLED)

@@ -1,4 +1,4 @@
-"""Compute Lyapunov spectra of motions, and the rows of their table."""
+"""Compute Lyapunov spectra of motions, and the rows of a table with these spectra."""
 
 from typing import NamedTuple
 
@@ -12,7 +12,11 @@ DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 
 
 class MotionSpectrum(NamedTuple):
-    """Spectrum of a motion without its double sticks (cycles in which both balls stick), with bootstrap errors."""
+    """Spectrum of a motion without double sticks (cycles in which both balls stick at the same time).
+
+    errors: standard errors of the exponents, by bootstrap. dimension_error: standard error of the dimension, by
+    bootstrap. double_sticks: number of double sticks that are left out.
+    """
 
     spectrum: Spectrum
     errors: np.ndarray
@@ -21,7 +25,11 @@ class MotionSpectrum(NamedTuple):
 
 
 def spectra_of(system, states, cycles: int, block: int) -> list[MotionSpectrum]:
-    """Return the spectrum of each motion over `cycles` cycles, after a transient of ten bootstrap blocks."""
+    """Return the spectrum of the motion from each initial state, over `cycles` cycles after a transient.
+
+    block: number of cycles per block of the bootstrap, which is reduced to half of `cycles` if it is larger. The
+    transient is as long as ten blocks.
+    """
     found, block = [], max(1, min(block, cycles // 2))
     for state in states:
         one = lyapunov_spectrum(system, state, cycles, 0, 10 * block)
@@ -32,7 +40,10 @@ def spectra_of(system, states, cycles: int, block: int) -> list[MotionSpectrum]:
 
 
 def rows(key: dict, found) -> list[dict]:
-    """Return the rows of the table for motions of one regime, one per quantity; all rows contain `key`."""
+    """Return the rows of the table for the motions of one regime, with one row per quantity.
+
+    key: columns that all rows share. found: MotionSpectrum of each motion.
+    """
     size = found[0].spectrum.growth.shape[1]
     columns = {f"exponent {k + 1}": [(one.spectrum.exponents[k], one.errors[k]) for one in found] for k in range(size)}
     columns[DIMENSION] = [(one.spectrum.dimension, one.dimension_error) for one in found]
@@ -44,13 +55,19 @@ def rows(key: dict, found) -> list[dict]:
 
 
 def _rate(count, others):
-    """Return the rate per OF_CYCLES cycles, with Poisson error, of an event in `count` cycles but not in `others`."""
+    """Return the number of events per OF_CYCLES cycles, and the Poisson error of this rate.
+
+    count: number of cycles with an event. others: number of cycles without an event.
+    """
     scale = OF_CYCLES / (count + others)
     return {"mean": scale * count, "uncertainty": scale * np.sqrt(max(count, 1)), "bootstrap": np.nan}
 
 
 def _mean_without_sticks(one, values):
-    """Return the mean of `values`, one per cycle of the Spectrum `one`, over the cycles in which no ball sticks."""
+    """Return the mean of `values` over those cycles of the Spectrum `one` in which no ball sticks.
+
+    values: one value per cycle of the Spectrum.
+    """
     return values[one.stuck == 0].mean()
 
 
