@@ -16,14 +16,14 @@ MOST_TILES = 10_000
 
 
 def points(axes: list[Mapping]) -> int:
-    """Return the number of points of a grid, from its axes as written in the configuration."""
+    """Return the number of points of a grid; `axes` is the list of its axes in the configuration."""
     return math.prod(_values(axis) for axis in axes)
 
 
 def core_seconds(request: Mapping) -> float:
-    """Predict the core seconds of a sweep, within a factor of about two.
+    """Predict the core seconds that a sweep takes, within a factor of about two.
 
-    `request` contains "axes" and "spec", as for `vibroimpact.studies.sweeps.spec.parsed`.
+    request: mapping with the keys "axes" and "spec", as for `vibroimpact.studies.sweeps.spec.parsed`.
     """
     spec, observation = request["spec"], request["spec"].get("observation")
     starts, cycles = spec.get("starts", 0), spec.get("cycles", 0)
@@ -37,7 +37,10 @@ def core_seconds(request: Mapping) -> float:
 
 
 def tiles(request: Mapping, seconds: float) -> int:
-    """Return the number of tiles, at most one per point, so that each takes about `seconds` core seconds."""
+    """Return the number of tiles of a sweep for which each tile takes about `seconds` core seconds.
+
+    The number is at most MOST_TILES. It is also at most the number of points of the sweep.
+    """
     return max(1, min(math.ceil(core_seconds(request) / seconds), points(request["axes"]), MOST_TILES))
 
 

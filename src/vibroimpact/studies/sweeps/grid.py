@@ -16,7 +16,11 @@ SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
 
 @dataclass(frozen=True)
 class Axis:
-    """Axis of a sweep: at each point, one number for all parameters in `along`, or a tuple with a number for each."""
+    """Axis of a sweep, along which one or more parameters of System vary together.
+
+    along: names of the parameters. values: value of the parameters at each point of the axis. A value is one number for
+    all parameters, or a tuple with one number per parameter.
+    """
 
     along: tuple[str, ...]
     values: tuple[float | tuple[float, ...], ...]
@@ -31,26 +35,26 @@ def axis(
     cells: int | None = None,
     tuples=None,
 ) -> Axis:
-    """Return the axis of one parameter, or of several that vary together.
+    """Return the axis along which one parameter varies, or several parameters vary together.
 
-    Give `range` with `values` or `cells`, or give `listed`, or `tuples`.
+    There are four ways to give the points: `range` and `values`, `range` and `cells`, `listed`, or `tuples`.
 
     Parameters
     ----------
     along
-        Names of parameters of System.
+        Names of the parameters of System.
     range
-        Lower and upper end.
+        Lower and upper end of the axis.
     values
-        Number of points in `range`, both ends included.
+        Number of points from the lower end to the upper end. Both ends are points.
     scale
-        Spacing of these points, a key of SPACED.
+        Spacing of the points that `range` and `values` give, a key of SPACED.
     listed
-        One number per point, for all parameters.
+        List with one number per point. All parameters get this number.
     cells
-        Number of equal cells of `range`; the points are their midpoints.
+        Number of equal cells of `range`. The midpoints of the cells are the points.
     tuples
-        For each point, one number per parameter.
+        List with one tuple per point. A tuple has one number per parameter.
     """
     if tuples is not None:
         return Axis(tuple(along), tuple(tuple(map(float, values)) for values in tuples))
@@ -60,7 +64,10 @@ def axis(
 
 
 class Grid:
-    """Points of a sweep: `system` with one or two axes of varied parameters; the last axis varies fastest."""
+    """Points of a sweep, numbered from 0; the last axis varies fastest.
+
+    system: gives the parameters that no axis varies. axes: one or two axes.
+    """
 
     def __init__(self, system: System, axes: Sequence[Axis]):
         self.base, self.axes = system, tuple(axes)
@@ -70,19 +77,19 @@ class Grid:
         return math.prod(self.shape)
 
     def place(self, number: int) -> dict[str, float]:
-        """Return the value of each varied parameter by name, at a point."""
+        """Return the values of the varied parameters at the point with this number, by name of the parameter."""
         place = {}
         for axis, k in zip(self.axes, np.unravel_index(number, self.shape), strict=True):
             place |= zip(axis.along, np.broadcast_to(axis.values[k], len(axis.along)).tolist(), strict=True)
         return place
 
     def system(self, number: int) -> System:
-        """Return the system at a point.
+        """Return the system at the point with this number.
 
         Raises
         ------
         ValueError
-            If the system is not valid; the message names the point.
+            If the point does not give a valid system. The message names the values of the varied parameters.
         """
         place = self.place(number)
         try:
@@ -92,5 +99,8 @@ class Grid:
             raise ValueError(f"at {where}: {error}") from None
 
     def tile(self, number: int, tiles: int) -> range:
-        """Return every `tiles`-th point from point `number` - 1, so that all tiles take about the same time."""
+        """Return the numbers of the points in tile `number`, which is counted from 1.
+
+        Points are dealt to the `tiles` tiles in turn, so that all tiles take about the same time.
+        """
         return range(number - 1, len(self), tiles)

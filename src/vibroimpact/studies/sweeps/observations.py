@@ -19,7 +19,10 @@ FROM_REST = "from_rest"
 
 
 def observed(system, spec: Spec) -> dict:
-    """Return the values of all observations at one point by column; an inactive module is put at rest."""
+    """Return the values of all observations at one point, by name of the column.
+
+    An inactive module is put at rest.
+    """
     simulates = not {"peaks", "regimes", *RUNS}.isdisjoint(spec.observe)
     states = inactive_at_rest(system, spread_starts(spec.starts, spec.seed)) if simulates else None
     row = {}
@@ -29,13 +32,16 @@ def observed(system, spec: Spec) -> dict:
 
 
 def _regimes(system, states, spec):
-    """Return the share of starts that end in each regime, and the regime of the start at rest."""
+    """Return the share of initial states that end in each regime, and the regime in which the state at rest ends."""
     names = [regime.name for regime in settle(system, states, Observation(**spec.observation))]
     return *(names.count(name) / len(names) for name in REGIMES), names[0]
 
 
 def _amplitudes(system, states, spec):
-    """Return the largest |X_i|, rms X_i and mean ball speeds of finished runs, and the number of other runs."""
+    """Return three quantities of each module from all finished runs, and the number of unfinished runs.
+
+    The quantities are the largest |X_i|, the root mean square of X_i, and the mean speed of ball i.
+    """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle)
     done = runs[runs["status"] == FINISHED]
     if not len(done):
@@ -45,7 +51,11 @@ def _amplitudes(system, states, spec):
 
 
 def _peaks(system, states, spec):
-    """Return the highest peak in a band, the largest rms, the parameter at the peak, and a count of unfinished runs."""
+    """Return the highest peak of a displacement over the parameter values in `spec.band`, and three more values.
+
+    The three values are the largest root mean square of X_1 or X_2, the parameter value at the highest peak, and the
+    number of unfinished runs.
+    """
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
     runs = by_cycle(systems, states, spec.cycles, spec.settle)
@@ -57,9 +67,9 @@ def _peaks(system, states, spec):
 
 
 def _energy(system, states, spec):
-    """Return the share of the work of the forces that impacts dissipate, and the number of runs without impacts.
+    """Return (energy that impacts dissipate) / (work of the forces), and the number of runs without impacts.
 
-    Only finished runs count, and the share is that of runs with impacts.
+    Energy and work are summed over all finished runs with impacts. Unfinished runs are not counted.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]

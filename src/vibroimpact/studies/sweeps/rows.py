@@ -14,7 +14,9 @@ def columns(grid: Grid, spec: Spec) -> list[str]:
 
 
 def rows(grid: Grid, spec: Spec, numbers: Iterable[int]) -> Iterator[dict]:
-    """Yield one row for each point in `numbers`; if an observation fails, the column FAILED has the error.
+    """Yield one row for each point in `numbers`.
+
+    If an observation fails at a point, the column FAILED of this row contains the error message.
 
     Raises
     ------

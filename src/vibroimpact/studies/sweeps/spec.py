@@ -1,4 +1,4 @@
-"""Settings of a sweep, and their conversion from plain data (a request).
+"""Define the settings of a sweep, and convert plain data (a request) to these settings.
 
 Importing this module does not load the simulation engine.
 """
@@ -15,13 +15,13 @@ POINT, FAILED = "point", "failed"
 
 @dataclass(frozen=True)
 class Spec:
-    """Names of the observations at every point of a sweep, and their settings."""
+    """Names of the observations at every point of a sweep, and settings of these observations."""
 
     observe: tuple[str, ...]
-    starts: int = 1  # number of initial states, drawn with `seed`
+    starts: int = 1  # number of initial states, which are drawn with `seed`
     seed: int = 0
-    cycles: int = 0  # forcing periods of a run
-    settle: int = 0  # forcing periods before the observation begins
+    cycles: int = 0  # number of forcing periods of a run
+    settle: int = 0  # number of forcing periods of a run before the observation begins
     band: dict | None = None  # arguments of `grid.axis` for the observation "peaks"
     observation: dict | None = None  # arguments of `Observation` for the observation "regimes"
 
