@@ -1,15 +1,16 @@
-"""Find all fixed points of the slow flow with an asymmetric module, by Newton's method from a grid of starts.
+"""Find all fixed points of the slow flow with unequal flights in a module, by Newton's method from a grid of starts.
 
 The manifold of a module has three parts, called charts (see `branch`). On a chart, a parameter x_i in [-1, 1] describes
 module i. The complex amplitude of the module is z_i u_i / beta_i with |u_i| = 1, where z_i and beta_i are polynomials
-in x_i. The balance of the slow flow is linear in u_i / beta_i, with coefficients that depend on x_1 and x_2 alone
-(docs/derivation.md, section 11). Cramer's rule gives u_i / beta_i = m_i / Delta; in the code, m_i is n1 or n2. Since
-|u_i| = 1, a fixed point satisfies |Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2. `completeness.points` can prove for a
-system that no fixed point is missed.
+in x_i. The balance of the slow flow is a linear system for u_1 / beta_1 and u_2 / beta_2. The coefficients of this
+system depend on x_1 and x_2 alone (docs/derivation.md, section 11). Cramer's rule gives u_i / beta_i = m_i / Delta,
+with the determinant Delta. In the code, m_1 and m_2 are called n1 and n2. Since |u_i| = 1, a fixed point satisfies
+|Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2. For a given system, `completeness.points` can prove that no fixed point is
+missed.
 
 On the asymmetric chart, x_i = v^2, where v is the difference of the two flight times of a cycle, divided by the period.
-A fixed point with v^2 < 0 is not a motion at leading order. It is kept, since terms of order epsilon may raise v^2
-above 0. A motion then exists close to the point.
+A fixed point with v^2 < 0 is not a motion at leading order. Such a point is kept, since terms of order epsilon may
+raise v^2 above 0. A motion then exists close to the point.
 """
 
 import itertools
@@ -40,15 +41,16 @@ _ROUNDING = 1e-10  # rounding error of an eigenvalue, relative to the largest ei
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AsymmetricPoint(Representation):
-    """A fixed point of the slow flow with unequal flights in one or both modules, and its mirror images.
+    """A fixed point of the slow flow with unequal flights in one or both modules.
 
-    `squared`, `C`, `B`, `psi` and `middle` are NaN for an inactive module. `C`, `B`, `psi` and `slow_eigenvalues` are
-    as in FixedPoint.
+    The point also represents its mirror images, in which the long and the short flight of a module are exchanged. For
+    an inactive module, `squared`, `C`, `B`, `psi` and `middle` are NaN. The attributes `C`, `B`, `psi` and
+    `slow_eigenvalues` have the same meaning as in FixedPoint.
     """
 
-    charts: tuple[str, str]  # part of the manifold for each module, see `branch`
-    x: np.ndarray  # parameter of each module in its chart
-    asymmetric: np.ndarray  # True for a module on the asymmetric branch
+    charts: tuple[str, str]  # name of the chart (part of the manifold) of each module, see `branch`
+    x: np.ndarray  # parameter that describes each module in its chart
+    asymmetric: np.ndarray  # True for each module on the asymmetric branch
     squared: np.ndarray  # v^2, where v is the difference of the two flight times divided by the period
     C: np.ndarray
     B: np.ndarray
@@ -57,11 +59,17 @@ class AsymmetricPoint(Representation):
     slow_eigenvalues: np.ndarray
 
     def fast(self, kappa) -> np.ndarray:
-        """Return the multipliers of the impact maps over a cycle at constant B and phi, two per active module."""
+        """Return the multipliers of the impact maps over a cycle, two for each active module.
+
+        The amplitude B and the phase phi of U are constant in these maps.
+        """
         return np.concatenate([one[1] for one in self._modules(kappa)])
 
     def fast_verdict(self, kappa) -> str:
-        """Return "stable", "unstable" or "undecided" by the impact maps; v^2 < 0 in a module gives "unstable"."""
+        """Return the stability of the impact maps: "stable", "unstable", or "undecided" because of rounding.
+
+        If v^2 < 0 in a module, the result is "unstable".
+        """
         return all_stable(one[0] for one in self._modules(kappa))
 
     def _modules(self, kappa):
@@ -70,12 +78,15 @@ class AsymmetricPoint(Representation):
             yield theory.stable(x, kappa), theory.multipliers(x, kappa)
 
     def _active(self):
-        """Return an iterator over (asymmetric, C, v^2) of each active module."""
+        """Return an iterator over the active modules, with the values (asymmetric, C, v^2) of each module."""
         part = np.isfinite(self.C)
         return zip(self.asymmetric[part], self.C[part], self.squared[part], strict=True)
 
     def slow_verdict(self) -> str:
-        """Return "stable", "unstable" or "undecided" by the real parts of the eigenvalues of the slow flow."""
+        """Return the stability of the point in the slow flow: "stable", "unstable", or "undecided" because of rounding.
+
+        The real parts of the eigenvalues decide.
+        """
         values = self.slow_eigenvalues
         return all_stable(verdict(-value.real, _ROUNDING * np.abs(values).max()) for value in values)
 
@@ -97,7 +108,10 @@ class AsymmetricPoint(Representation):
 
 
 class Balance:
-    """Conditions on (x_1, x_2) at a fixed point, for one chart per module; x_i = 0 for an inactive module i."""
+    """The two conditions for the parameters (x_1, x_2) of a fixed point, if the chart of each module is given.
+
+    For an inactive module i, condition i is x_i = 0.
+    """
 
     def __init__(self, system: System, pair: tuple[str, str]):
         one, two = (charts(system.kappa)[name] for name in pair)
@@ -113,7 +127,10 @@ class Balance:
         self._functions = [(function, function.deriv(), side) for function, side in sides]
 
     def __call__(self, x):
-        """Return the residuals (n, 2) and the Jacobians (n, 2, 2) of the conditions at x, shape (n, 2)."""
+        """Return the residuals of the conditions, shape (n, 2), and their Jacobians, shape (n, 2, 2).
+
+        x: n pairs of parameters (x_1, x_2), shape (n, 2).
+        """
         q1, q2, z1, z2, n1, n2, b1, b2 = (
             np.array([f(x[:, side]), (1 - side) * slope(x[:, side]), side * slope(x[:, side])])
             for f, slope, side in self._functions
@@ -123,34 +140,43 @@ class Balance:
         return np.where(self._idle, x, residual), np.where(self._idle[:, None], np.eye(2), np.stack(slopes, axis=-1))
 
     def phasors(self, x):
-        """Return the complex amplitudes b_i = B_i exp(-i psi_i) at x, shape (2,)."""
+        """Return the complex amplitudes b_i = B_i exp(-i psi_i) of both modules at x = (x_1, x_2), shape (2,)."""
         q1, q2, z1, z2, n1, n2, _, _ = (f(x[side]) for f, _, side in self._functions)
         return np.array([z1 * n1, z2 * n2]) / (q1 * q2 + self.K * (z1 * q2 + q1 * z2))
 
 
 def _product(one, other):
-    """Return the product of two functions of (x_1, x_2); arrays (3, n) contain values and both derivatives."""
+    """Return the product of two functions of (x_1, x_2).
+
+    Each function is an array of shape (3, n). The rows are its values at n points, its derivatives with respect to x_1,
+    and its derivatives with respect to x_2.
+    """
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])
 
 
 def _size(function):
-    """Return the squared modulus of a function of (x_1, x_2); arrays (3, n) contain values and both derivatives."""
+    """Return the squared modulus of a function of (x_1, x_2), as an array of shape (3, n) like `function`.
+
+    The rows are the values at n points, the derivatives with respect to x_1, and the derivatives with respect to x_2.
+    """
     return (function[0].conj() * function).real * np.array([[1], [2], [2]])
 
 
 def fixed_points(system: System) -> list[AsymmetricPoint]:
-    """Return all fixed points with an asymmetric module and C_1, C_2 >= 0, ascending in C_1, also with v^2 < 0.
+    """Return all fixed points with unequal flights in at least one module and with C_1, C_2 >= 0.
+
+    The points are in ascending order of C_1. Points with v^2 < 0 are included.
 
     Raises
     ------
     ValueError
-        If system is not a System, or if its fixed points need not be isolated.
+        If `system` is not a System, or if the fixed points may form a continuum.
     """
     return [point for point in search(system) if not (point.C < 0).any()]
 
 
 def search(system: System) -> list[AsymmetricPoint]:
-    """Return all fixed points with an asymmetric module, for any real C_i.
+    """Return all fixed points with unequal flights in at least one module, also those with negative C_i.
 
     Raises
     ------
@@ -163,7 +189,10 @@ def search(system: System) -> list[AsymmetricPoint]:
 
 
 def pairs_of(system, pairs) -> list[tuple[str, str]]:
-    """Return those of `pairs` that a system can use; an inactive module only has the chart of small C."""
+    """Return the entries of `pairs` (one chart per module) for which the system can have fixed points.
+
+    An inactive module only has the chart of small C.
+    """
     idle = {1, 2} - set(system.modules)
     return [pair for pair in pairs if system.modules and all(pair[module - 1] == SMALL for module in idle)]
 

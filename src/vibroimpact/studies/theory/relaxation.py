@@ -1,9 +1,10 @@
 """Compute the strongly modulated response by the slow flow: drift along the manifold, loss of resonance, return.
 
-A ball in resonance is on the stable part of the manifold, which is asymmetric beyond symmetry breaking. At the fold,
-B = B_min, the ball leaves resonance. The model assumes that the ball then rests in the middle of its box and has no
-effect on the box. When B has grown to 1, the walls reach the ball, which is in resonance again (docs/derivation.md,
-section 12). No parameter is fitted.
+A ball in resonance is on the stable part of the manifold. Beyond symmetry breaking, the motions on this part are
+asymmetric. When the amplitude B of the box has fallen to the fold of the manifold, B = B_min, the ball leaves
+resonance. The model assumes that the ball then rests in the middle of its box and has no effect on the box. When B has
+grown to 1, the walls reach the ball. Then the ball is in resonance again (docs/derivation.md, section 12). No parameter
+is fitted.
 """
 
 from dataclasses import dataclass
@@ -27,14 +28,18 @@ _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 
 @dataclass(frozen=True, eq=False)
 class Relaxation:
-    """Share of the time in resonance, and largest amplitude B, of both modules, each (..., 2)."""
+    """Results of `relax` for both modules.
+
+    share: fraction of the time in which each ball is in resonance, shape (..., 2). largest: largest amplitude B of each
+    box, shape (..., 2).
+    """
 
     share: np.ndarray
     largest: np.ndarray
 
 
 def describing_function(kappa: float):
-    """Return the describing function of a ball on the stable part of the manifold, as a function of B."""
+    """Return a function of the amplitude B: the describing function of a ball on the stable part of the manifold."""
     r, chart = rho(kappa), charts(kappa)[ASYMMETRIC]
     squared = np.linspace(0.0, _LARGEST_SQUARED, _NODES)
     skewed = np.abs(chart.z(squared) / chart.beta(squared))
@@ -48,8 +53,9 @@ def describing_function(kappa: float):
 def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Relaxation:
     """Follow the slow flow for `cycles` forcing periods after a transient of `settle` periods.
 
-    Both balls start in resonance, with complex amplitudes `start`. Each pair in `forces`, (..., 2), replaces the forces
-    of the system.
+    start: initial complex amplitudes b_i = B_i exp(-i psi_i) of both modules. Both balls start in resonance.
+    forces: pairs (f10_hat, f20_hat) that replace the forces of the system, shape (..., 2). Each pair is followed
+    separately.
     """
     e, K = impedances(system)
     forces = np.array([system.f10_hat, system.f20_hat] if forces is None else forces)
@@ -71,9 +77,10 @@ def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Re
 
 
 def lost_at(system, point) -> float:
-    """Return the factor on both forces, below 1, at which the symmetric module of `point` leaves resonance.
+    """Return the factor on both forces at which the symmetric module of a fixed point leaves resonance.
 
-    C of this module then falls to the fold of the manifold. The result is nan if no such factor above 0.5 is found.
+    point: fixed point with one symmetric and one asymmetric module. As the factor decreases from 1, the amplitude C of
+    the symmetric module falls to the fold of the manifold. If no such factor above 0.5 is found, return nan.
     """
     symmetric = np.flatnonzero(~point.asymmetric & np.isfinite(point.C))
     if len(symmetric) != 1 or not point.asymmetric.any():
