@@ -1,4 +1,4 @@
-"""Linear systems for comparison: without balls, and with tuned linear absorbers as heavy as the balls."""
+"""Linear systems to compare with the balls: boxes alone, and boxes with linear absorbers as heavy as the balls."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,8 @@ In a band that is narrow or contains no resonance, the best damping ratio or fre
 class Tuning:
     """Linear absorbers, one on each box, each with the mass epsilon of a ball.
 
-    frequency: sqrt(stiffness / epsilon), dimensionless. damping: ratio damping / (2 epsilon frequency).
+    frequency: natural frequency of each absorber on a box at rest, sqrt(stiffness / epsilon), dimensionless.
+    damping: damping ratio of each absorber, c / (2 epsilon frequency), with the damper coefficient c.
     """
 
     frequency: tuple[float, float]
@@ -27,12 +28,18 @@ class Tuning:
 
 
 def without_balls(system, scale=np.ones_like) -> Linear:
-    """Return the linear system of the boxes, each of mass 1, without balls; `scale` as in `Linear`."""
+    """Return the linear system of the boxes without balls.
+
+    Each box has the dimensionless mass 1. `scale` is passed to `Linear`.
+    """
     return Linear(np.diag(masses(system)), damping_matrix(system), stiffness_matrix(system), system.forcing, scale)
 
 
 def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
-    """Return the linear system of boxes and absorbers, with coordinates (X1, X2, Y1, Y2); `scale` as in `Linear`."""
+    """Return the linear system of the boxes with their absorbers.
+
+    The coordinates are X1 and X2 of the boxes, then Y1 and Y2 of the absorbers. `scale` is passed to `Linear`.
+    """
     frequency, damping = np.array(tuning.frequency), np.array(tuning.damping)
     spring, damper = system.epsilon * frequency**2, 2 * system.epsilon * frequency * damping
     return Linear(
@@ -47,12 +54,13 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
 def textbook_tuning(system) -> Tuning:
     """Return the linear absorbers tuned by Den Hartog's rule, each with the mass of a ball.
 
-    On a single undamped box, all response curves pass through the same two points, for every damping of the absorber.
-    The rule makes both points equally high, sqrt(1 + 2 / epsilon) times the static deflection. The peaks become almost
-    as low. For damped or coupled boxes, the rule is approximate.
+    The response curve of a single undamped box passes through the same two points for every damping of its absorber.
+    The rule makes both points equally high: sqrt(1 + 2 / epsilon) times the static deflection. The peaks of the curve
+    are then only slightly higher than these points. For damped or coupled boxes, the rule is approximate.
 
-    The textbook prints c / (2 m Omega_n) = sqrt(3 epsilon / (8 (1 + epsilon)^3)), with the frequency Omega_n of the
-    box. `Tuning.damping` refers to the frequency of the absorber, Omega_n / (1 + epsilon), instead.
+    For an absorber of mass m with the damper coefficient c, the textbook prints c / (2 m Omega_n) =
+    sqrt(3 epsilon / (8 (1 + epsilon)^3)). Here Omega_n is the natural frequency of the box. `Tuning.damping` is
+    c / (2 m omega), where omega = Omega_n / (1 + epsilon) is the natural frequency of the absorber.
 
     References
     ----------
@@ -67,8 +75,8 @@ def textbook_tuning(system) -> Tuning:
 def best_tuning(system, band: tuple[float, float], scale=np.ones_like) -> Tuning:
     """Return the linear absorbers with the lowest peak in a band of frequencies, each with the mass of a ball.
 
-    The peak is not smooth. Therefore an upper bound on the response is minimised. ArithmeticError is raised if the
-    optimisation fails.
+    The peak is not a smooth function of the tuning. Therefore the optimisation minimises an upper bound on the response
+    at all frequencies of the band. If it converges from none of its starting points, ArithmeticError is raised.
     """
     book, frequencies = textbook_tuning(system), np.linspace(*band, POINTS)
     textbook = np.log([*book.frequency, *book.damping])
@@ -97,9 +105,9 @@ def best_tuning(system, band: tuple[float, float], scale=np.ones_like) -> Tuning
 
 
 def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
-    """Return the linear systems for comparison by name; the best absorbers are tuned for `band`.
+    """Return three linear systems by name: without balls, with textbook absorbers and with the best absorbers.
 
-    If this tuning fails, ArithmeticError is raised.
+    The best absorbers are tuned for `band` by `best_tuning`. If `best_tuning` fails, ArithmeticError is raised.
     """
     return {
         "without balls": without_balls(system),
@@ -109,18 +117,21 @@ def compared(system, band: tuple[float, float]) -> dict[str, Linear]:
 
 
 def _attached(matrix, links):
-    """Return the stiffness or damping matrix (4, 4) of the boxes with their absorbers.
+    """Return the stiffness or damping matrix of the boxes with their absorbers, shape (4, 4).
 
-    matrix: that of the boxes, (2, 2). links: constants of the absorbers, (2,).
+    matrix: stiffness or damping matrix of the boxes alone, shape (2, 2).
+    links: stiffness of the spring, or coefficient of the damper, between each box and its absorber, shape (2,).
     """
     link = np.diag(links)
     return np.block([[matrix + link, -link], [-link, link]])
 
 
 def _levels(logarithms, system, frequencies, scale):
-    """Return the logarithms of the amplitudes of both boxes at all `frequencies`, as one array.
+    """Return the logarithms of the amplitudes of both boxes at all `frequencies`, as one flat array.
 
-    Amplitudes are at least 1e-12 times the largest one, since a box may be at rest.
+    logarithms: logarithms of `Tuning.frequency` and `Tuning.damping`, shape (4,).
+
+    An amplitude below 1e-12 times the largest amplitude is raised to this bound, since a box may be at rest.
     """
     amplitudes = tuned(system, _tuning(logarithms), scale).amplitudes(frequencies)
     return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
