@@ -17,13 +17,17 @@ _TERMS = {"one term": "distance", "two terms": "two terms"}
 
 
 def small_balls(evidence):
-    """Check the printed condition M << m and the corrected one, epsilon = m / M << 1."""
+    """Check the printed condition M << m and its correction m / M << 1, for the masses M of a box and m of a ball."""
     epsilon = evidence.system.epsilon
     return as_printed(1 / epsilon < 1, epsilon < 1, **{"M / m": 1 / epsilon, "m / M": epsilon})
 
 
 def weak_coupling(evidence):
-    """Compare the coupling spring and damper with the softer spring and the weaker damper to ground."""
+    """Check that the coupling is weaker than the connection of each box to ground.
+
+    The coupling spring must be softer than both springs to ground. The coupling damper must be weaker than both
+    dampers to ground.
+    """
     system = evidence.system
     spring = system.alpha12 / min(1.0, system.stiffness2)
     damper = system.gamma12 / min(system.gamma1, system.gamma2)
@@ -34,7 +38,8 @@ def weak_coupling(evidence):
 def own_frequency(evidence):
     """Check the frequency of the first force in (10.1) against (10.5).
 
-    The printed frequency is omega_10, which has the dimensionless value 1.
+    (10.1) prints omega_10, the natural frequency of box 1, whose dimensionless value is 1. By (10.5), the dimensionless
+    frequency of the force is 1 + epsilon sigma_e_hat.
     """
     system = evidence.system
     corrected = abs(system.Omega - (1 + system.epsilon * system.sigma_e_hat)) < ROUNDING
@@ -67,7 +72,7 @@ def common_impact_instants(evidence):
 def equations_in_U_and_W(evidence):
     """Check the lines of (10.3) at a random state, and the jumps in (10.3) at random impacts.
 
-    Line W1 is printed with the force on box 2; its correction has the force on box 1.
+    The line for W_1 is printed with the force on box 2. The corrected line has the force on box 1.
     """
     system = evidence.system.with_(f10_hat=1.0, f20_hat=0.89)
     rng = np.random.default_rng(1)
@@ -81,7 +86,7 @@ def equations_in_U_and_W(evidence):
     stiffness, damping = np.array([1, system.stiffness2]), np.array([system.gamma1, system.gamma2])
     left = damping * speed + stiffness * place + system.gamma12 * (speed - speed[::-1])
     left += system.alpha12 * (place - place[::-1])
-    printed = {"U1": f[0], "W1": f[1], "U2": f[1], "W2": f[1]}  # force in each printed line
+    printed = {"U1": f[0], "W1": f[1], "U2": f[1], "W2": f[1]}  # amplitude of the force in each line as printed
     # Between impacts the ball flies freely, so that U'' = W'' = X''.
     both = dict(zip("12", ddX + left, strict=True))
     residual = {line: both[line[1]] - amplitude * phase[0] for line, amplitude in printed.items()}
@@ -96,7 +101,10 @@ def equations_in_U_and_W(evidence):
 
 
 def _errors_of_jumps(system):
-    """Return the largest errors of the two printed jumps, 0 in U' and -(1 + kappa) W' in W', at random impacts."""
+    """Return the largest errors of the printed jumps of U' and W' at random impacts.
+
+    As printed, U' does not jump, and W' jumps by -(1 + kappa) W'.
+    """
     box, ball = np.random.default_rng(2).uniform(-1, 1, (2, 100))
     X, Y = after_impact(system.epsilon, system.kappa, box, ball)
     U = np.abs(X + system.epsilon * Y - box - system.epsilon * ball).max()
@@ -105,7 +113,10 @@ def _errors_of_jumps(system):
 
 
 def leading_order_solution(evidence):
-    """Check that (10.9)-(10.11) with (10.16) and (10.17) solve (10.8), and check (10.19) by quadrature."""
+    """Check that the leading-order solution, (10.9)-(10.11) with (10.16) and (10.17), solves (10.8).
+
+    The Fourier coefficients in (10.19) are checked by quadrature.
+    """
     t, found = np.linspace(0.1, np.pi - 0.1, 50), []
     for kappa, C in product(KAPPAS, (0.3, 0.9, 1.1, 1.6)):
         B, phase, slope = B_of_C(C, rho(kappa)), impact_phase(C, rho(kappa)), 2 * C / np.pi
@@ -117,9 +128,11 @@ def leading_order_solution(evidence):
 
 
 def _vanish(found, **others):
-    """Return a Finding with one part per name, which holds if the largest residual is below ROUNDING.
+    """Return a Finding with one part for each name of a residual.
 
-    found: dictionaries name -> residuals. others: name -> residual.
+    A part holds if the largest residual of its name is below ROUNDING.
+
+    found: list of dictionaries name -> residuals, all with the same names. others: further residuals by name.
     """
     worst = {name: max(np.abs(residuals[name]).max() for residuals in found) for name in found[0]} | others
     parts = {f"{name} holds": value < ROUNDING for name, value in worst.items()}
@@ -136,7 +149,8 @@ def manifold_from_impact_conditions(evidence):
             cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # B cos(phase), by (10.14)
             B = np.hypot(sine, cosine)
             residuals = {"(10.16)": B**2 - (1 - 2 * C + (1 + r**2) * C**2)}
-            # Close to the fold the square root in (10.15) loses half of the digits.
+            # Close to the fold, the square root in (10.15) loses half of the digits. The distance from the fold, as a
+            # factor, makes up for this loss.
             residuals["(10.15)"] = min(abs(arm - C) for arm in C_of_B(B, r)) * min(1, abs(C - C_min(r)))
             residuals["(10.17)"] = [sine - B * np.sin(impact_phase(C, r)), cosine - r * C]
             found.append(residuals)
@@ -145,7 +159,7 @@ def manifold_from_impact_conditions(evidence):
 
 
 def _error_of_the_harmonics():
-    """Return the largest error of the coefficients n = 1, ..., 7 of (10.19), by quadrature."""
+    """Return the largest difference between the coefficients n = 1, ..., 7 of (10.19) and their quadrature."""
     off = 0.0
     for n in range(1, 8):
         found = 2 / np.pi * quad(lambda t, n=n: float(sawtooth(t, 1.0, 0.0)) * np.cos(n * t), 0, np.pi)[0]
@@ -154,9 +168,10 @@ def _error_of_the_harmonics():
 
 
 def orders_of_the_expansion(evidence):
-    """Check the orders of (10.7): the error is O(epsilon) with one term, O(epsilon^2) with two.
+    """Check the expansion (10.7): its error must be O(epsilon) with one term and O(epsilon^2) with two terms.
 
-    The first term is the fixed point. The second is linear in epsilon, with the slope of the orbit at epsilon = 0.
+    The first term is the fixed point. The second term is epsilon times the derivative of the exact orbit with respect
+    to epsilon at epsilon = 0.
     """
     table = evidence.epsilon_orders
     orders = {name: table.loc[table["panel"] == panel, "order"] for name, panel in _TERMS.items()}

@@ -1,4 +1,4 @@
-"""Results of a build for the checks of claims: the cases, and tables from the pipeline."""
+"""Results of a build that the checks of claims use: the systems of the cases, and tables of the pipeline."""
 
 from dataclasses import dataclass, field
 
@@ -10,7 +10,10 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 
 @dataclass(frozen=True, eq=False)
 class Simulation:
-    """Part of a simulation after the transient: tables with one row per sample or event, and a summary."""
+    """Simulation of a case after the transient.
+
+    samples: table with one row per sample time. events: table with one row per event. summary: settings and results.
+    """
 
     samples: pd.DataFrame
     events: pd.DataFrame
@@ -26,7 +29,7 @@ class Simulation:
 class Evidence:
     """Results of a build with the parameters of the chapter.
 
-    Data frames are the result tables of the same names. Dictionaries have the cases as keys.
+    Each data frame is the result table with the name of the field. Each dictionary has the cases as keys.
     """
 
     fixed_points: pd.DataFrame
@@ -51,12 +54,12 @@ class Evidence:
         return self.fixed_points.query("case == @case").set_index("label")
 
     def motions(self, case: str) -> pd.DataFrame:
-        """Return the exact orbits of a case that stay between the walls."""
+        """Return the admissible exact orbits of a case, on which the balls stay between the walls."""
         orbits = self.orbits.query("case == @case")
         return orbits[orbits["admissible"].astype(bool)]
 
     def measured(self, case: str, start: str, quantity: str) -> pd.DataFrame:
-        """Return the rows of `modulation` for a case, a start ("spread" or "rest") and a quantity."""
+        """Return the rows of the table `modulation` for a case, a kind of start ("spread" or "rest") and a quantity."""
         return self.modulation.query("case == @case and start == @start and quantity == @quantity")
 
     def shares(self, case: str) -> pd.Series:

@@ -14,8 +14,9 @@ VERDICTS = (HOLDS, IN_PART, REFUTED, OPEN, MISPRINT)
 class Finding:
     """The outcome of one check.
 
-    parts: assertion -> True, False, or None if the text is ambiguous. numbers: name -> measured value. corrected: True
-    if the corrected statement holds; None without a correction.
+    parts: for each assertion of the claim, True, False, or None if the text of the chapter is ambiguous.
+    numbers: measured values by name.
+    corrected: True if the claim holds once a misprint is corrected, else False. If there is no correction, it is None.
     """
 
     parts: dict[str, bool | None]
@@ -31,10 +32,15 @@ class Finding:
 
     @property
     def verdict(self) -> str:
-        """One of VERDICTS.
+        """Verdict on the claim, one of VERDICTS.
 
-        It is OPEN if any part is None; else HOLDS if all parts hold; else MISPRINT if the corrected statement holds;
-        else IN_PART if any part holds; else REFUTED.
+        The first of these conditions that is met decides:
+
+        - OPEN: a part is None.
+        - HOLDS: all parts hold.
+        - MISPRINT: the corrected claim holds.
+        - IN_PART: at least one part holds.
+        - REFUTED: no part holds.
         """
         found = list(self.parts.values())
         if None in found:
@@ -51,6 +57,10 @@ def _plain(value):
 
 
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
-    """Return the Finding on a statement as printed; `numbers` also contains the verdict on the corrected statement."""
+    """Return the Finding on a printed statement.
+
+    holds: True if the printed statement holds. corrected: True if the corrected statement holds. The verdict on the
+    corrected statement is added to `numbers`.
+    """
     numbers["verdict on the corrected statement"] = HOLDS if corrected else REFUTED
     return Finding({"the statement holds as printed": holds}, numbers, corrected=bool(corrected))

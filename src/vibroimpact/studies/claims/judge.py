@@ -25,7 +25,10 @@ OPTIONAL = ("arguments", "central", "fact")
 
 
 def problems(claims: list[dict]) -> list[str]:
-    """Return the missing or unknown fields, repeated ids and unknown checks in a list of claims, one line each."""
+    """Return one line of text for each problem in a list of claims.
+
+    A problem is a missing or unknown field, a repeated id, or an unknown check.
+    """
     found = []
     ids = [claim.get("id") for claim in claims]
     for place, claim in enumerate(claims, start=1):

@@ -18,7 +18,7 @@ TOLERANCE = 1e-9
 
 
 def fold_of_the_manifold(evidence):
-    """Check (10.25) against a minimisation of (10.16)."""
+    """Check the fold of the manifold, (10.25), against a numerical minimisation of B in (10.16)."""
     place, level = 0.0, 0.0
     for kappa in KAPPAS:
         r = rho(kappa)
@@ -31,7 +31,10 @@ def fold_of_the_manifold(evidence):
 
 
 def no_penetration(evidence):
-    """Check that max |W_0| > 1 for C < 0, and |W_0| <= 1 at the fixed points and for C >= 0."""
+    """Check that the ball leaves the box for C < 0, and stays inside for C >= 0 and at the fixed points.
+
+    The ball is inside if |W_0| <= 1 during the whole cycle. W_0 is the relative displacement at leading order.
+    """
     kappa = evidence.system.kappa
     points = evidence.fixed_points[["C1", "C2"]].to_numpy()
     end = largest_C(kappa)
@@ -51,9 +54,9 @@ def _furthest(C, kappa):
 
 
 def printed_condition(evidence):
-    """Check (10.26), a lower limit on C, against the multipliers of the impact map.
+    """Check (10.26), the lower limit of C for stable impacts, against the multipliers of the impact map.
 
-    (10.26) is a misprint if it holds with other exponents p and q in 4 / (4 + pi^p rho^q).
+    The limit is called a misprint if 4 / (4 + pi^p rho^q) is a correct limit for other exponents p and q.
     """
     kappa = evidence.system.kappa
     limit, squared = printed_limit(rho(kappa)), 4 / (4 + (np.pi * rho(kappa)) ** 2)
@@ -91,13 +94,14 @@ def printed_condition(evidence):
 
 
 def _limits_of_the_captions(evidence):
-    """Return the open interval of lower limits of C, in place of (10.26), that agree with all CAPTIONS.
+    """Return both ends of the open interval of lower limits on C that agree with all CAPTIONS.
 
-    A limit agrees if exactly the points with min(C_1, C_2) above the limit are stable by the captions. All limits in
-    the interval are also below the fold of the manifold, so that a part of the left arm is stable.
+    Such a limit replaces (10.26). It calls a fixed point stable if C_1 and C_2 are above the limit. It agrees if the
+    captions call the same fixed points stable. All limits in the interval are also below the fold of the manifold, so
+    that a part of the left arm is stable.
 
-    If labels of fixed points were exchanged, the interval would stay the same or become empty: every limit selects the
-    points with the largest min(C_1, C_2).
+    If the labels of fixed points were exchanged, the interval would stay the same or become empty. The reason is that
+    every limit calls the fixed points with the largest min(C_1, C_2) stable.
     """
     smallest = {True: [], False: []}
     for case, captions in CAPTIONS.items():
@@ -112,12 +116,18 @@ def _largest_multiplier(C, kappa):
 
 
 def _stable(C, kappa):
-    """Return True where the impact map is stable, shape (n,); C and kappa are arrays (n,) or numbers."""
+    """Return an array of shape (n,) that is True where the impact map is stable.
+
+    C, kappa: arrays of shape (n,), or numbers.
+    """
     return np.array([_largest_multiplier(*one) < 1 for one in np.broadcast(C, kappa)])
 
 
 def _stable_above(limit, kappa):
-    """Return True where the impact map is stable, at 499 values of C from `limit` to the largest admissible C."""
+    """Return an array that is True where the impact map is stable.
+
+    The array has an entry for each of 499 values of C between `limit` and the largest admissible C.
+    """
     return _stable(np.linspace(limit, largest_C(kappa), 500)[1:], kappa)
 
 
@@ -142,7 +152,7 @@ def right_arm_is_stable(evidence):
 
 
 def left_arm_has_a_stable_piece(evidence):
-    """Check for stable motions on the left arm, and on its piece between the limit (10.26) and the fold."""
+    """Check whether the left arm has stable motions, in particular between the limit (10.26) and the fold."""
     kappa = evidence.system.kappa
     limit, fold = printed_limit(rho(kappa)), lower_limit(kappa)
     piece = _stable(np.linspace(limit, fold, 502)[1:-1], kappa)
@@ -154,7 +164,8 @@ def left_arm_has_a_stable_piece(evidence):
 def stability_regions(evidence):
     """Check the shaded (stable) and the white (unstable) region of Fig. 10.5 against the impact map.
 
-    All points of a grid of C and kappa must have the drawn stability. The border, (10.26), must lie below C_min.
+    Every point of a grid of C and kappa must have the stability that the figure shows. The border between the regions,
+    (10.26), must be below C_min for every kappa.
     """
     kappa, C = (values.ravel() for values in np.meshgrid(KAPPAS, np.linspace(0.5, 1.1, 61)))
     border, stable = printed_limit(rho(kappa)), _stable(C, kappa)

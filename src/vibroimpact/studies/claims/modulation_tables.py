@@ -1,4 +1,4 @@
-"""Tabulate measures of the modulation and Lyapunov spectra of the motions in each regime, with uncertainties."""
+"""Tabulate, for the motions in each regime, Lyapunov spectra and measures of the modulation with uncertainties."""
 
 import numpy as np
 import pandas as pd
@@ -27,18 +27,20 @@ def modulation_tables(
 ) -> dict:
     """Return measures of the modulation and Lyapunov exponents for each case and regime.
 
-    Spread starts (evenly spread initial states) of a case that end in the same regime are evaluated together. The start
-    from rest is evaluated separately.
+    Spread starts are evenly spread initial states. Those spread starts of a case that end in the same regime are
+    evaluated together. The start from rest is evaluated separately. All lengths are in forcing periods.
 
-    starts: number of spread starts. cycles: length of the runs for the measures. windows: lengths of windows for which
-    measures of the envelope are compared. All lengths are in forcing periods.
+    starts: number of spread starts. cycles: length of the runs from which the measures are computed.
+    windows: lengths of windows. Measures of the envelope are compared between these windows.
+    blocks, block: number and length of the blocks of the runs from which Lyapunov exponents are computed. If a spread
+        start ends in a regime of CHAOS, its run has `blocks` blocks. All other runs have the length `cycles`.
 
-    blocks, block: number and length of the blocks of the runs for Lyapunov exponents. Only spread starts that end in a
-    regime of CHAOS use `blocks`; the runs of all other starts have the length `cycles`.
+    The tables are "measures", "windows" and "spectra". The table "windows" is about strongly modulated spread starts.
+    Module 0 stands for both modules.
 
-    The tables are "measures", "windows" (strongly modulated spread starts) and "spectra". Module 0 means both modules.
-    An uncertainty is the standard error over starts, and the binomial standard error for the share of starts. For a
-    single start, the measures have no uncertainty; that of the Lyapunov exponent comes from the blocks of the run.
+    The uncertainty of a share of starts is its binomial standard error. All other uncertainties are standard errors
+    over the starts. If there is a single start, only its Lyapunov exponent has an uncertainty. It comes from the blocks
+    of the run.
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)
@@ -88,7 +90,7 @@ def _case(case, system, starts, seed, cycles, blocks, block, windows, observatio
 
 
 def _windows(case, system, states, windows):
-    """Return the measures of the envelope over windows of several lengths that start at the same instant."""
+    """Return measures of the envelope for windows of several lengths; all windows start at the same instant."""
     runs = [sampled(system, state, max(windows)) for state in states]
     rows = []
     for module in (1, 2):

@@ -35,14 +35,14 @@ def steady_two_impacts(evidence, case):
     alternate = all((np.diff(impacts.loc[impacts["module"] == i, "wall"]) != 0).all() for i in (1, 2))
     parts = {
         "the motion repeats every cycle": change < 1e-6,
-        # One impact may be at the edge of the observed window.
+        # The count may differ by one, since an impact may be at the edge of the observed window.
         "each ball impacts twice a cycle": all(abs(count - PER_CYCLE * cycles) <= 1 for count in counts) and alternate,
     }
     return Finding(parts, {"change after a cycle": change, "impacts of each ball": counts, "cycles observed": cycles})
 
 
 def numerical_results_are_similar(evidence, case, label):
-    """Compare the simulated response of a case with that predicted at a fixed point: C, B and the symmetry."""
+    """Check that C, B and the symmetry of the simulated response are as predicted at the fixed point `label`."""
     row, simulation = evidence.points(case).loc[label], evidence.simulations[case]
     tau, displacements = (simulation.samples.iloc[:-1][names].to_numpy() for names in ("tau", DISPLACEMENTS))
     measured = measure(evidence.systems[case], tau, displacements, simulation.impacts)
@@ -97,9 +97,10 @@ def no_practical_importance(evidence, case, label):
 
 
 def resonant_intervals(evidence, case):
-    """Check that bursts of resonance last longer than a cycle and than the pauses, and that the motion is chaotic.
+    """Check that bursts of resonance are longer than a cycle and than the pauses between bursts.
 
-    A motion is chaotic if its largest Lyapunov exponent exceeds five times the uncertainty.
+    The motion must also be chaotic: its largest Lyapunov exponent must exceed five times the uncertainty of this
+    exponent.
     """
     share, burst = (
         evidence.measured(case, "spread", quantity).set_index("module")["mean"].loc[[1, 2]].to_numpy()
@@ -118,7 +119,10 @@ def resonant_intervals(evidence, case):
 
 
 def beating(evidence, case):
-    """Check that the amplitude of each box varies more than in a beat, by more than two uncertainties."""
+    """Check that the amplitude of each box varies more than the amplitude of a beat.
+
+    The amplitude variation must exceed BEAT_VARIATION by more than two uncertainties.
+    """
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
     lowest = rows["mean"] - 2 * rows["uncertainty"]
     parts = {f"the amplitude of box {i} varies more than in a beat": lowest[i] > BEAT_VARIATION for i in (1, 2)}
@@ -147,9 +151,9 @@ def lower_amplitudes_end_stable_responses(evidence, sequence):
 
 
 def unstable_means_modulated(evidence, case):
-    """Check that all fixed points of a case are unstable.
+    """Check that all fixed points of a case are unstable, and that its motions end strongly modulated.
 
-    All motions from evenly spread initial states must end strongly modulated.
+    The motions start from evenly spread initial states.
     """
     observed = evidence.modulation["case"].unique()
     unstable = [name for name in observed if (evidence.points(name)["exact"] == UNSTABLE).all()]
@@ -161,7 +165,8 @@ def unstable_means_modulated(evidence, case):
 def periodic_solutions(evidence, f10_hat, f20_hat):
     """Check that every fixed point of the cases and of a grid of forces has an admissible exact orbit.
 
-    f10_hat, f20_hat: forces at which fixed points and exact orbits are counted.
+    f10_hat, f20_hat: one more pair of forces. At these forces, `numbers` has the numbers of fixed points and of exact
+    orbits.
     """
     both = evidence.fixed_points.merge(
         evidence.orbits, left_on=["case", "orbit"], right_on=["case", "label"], suffixes=("", "_exact")
@@ -196,8 +201,9 @@ def _at_epsilon(evidence):
 def assesses_stability(evidence):
     """Measure the share of right verdicts of each criterion over a grid of forces.
 
-    A verdict on a fixed point is right if its exact orbit has the same verdict. The rows of the confusion matrices are
-    verdicts of the criterion.
+    A verdict on a fixed point is right if it equals the verdict on the exact orbit of this point. For each criterion
+    and epsilon, `numbers` has a confusion matrix. Its rows are the verdicts of the criterion. Its columns are the
+    verdicts on the exact orbits.
     """
     grid = evidence.verdict_grid
     parts, shares = {}, {}
@@ -224,8 +230,9 @@ def assesses_stability(evidence):
 def restitution_far_from_unity(evidence, kappas, forces):
     """Compare fixed points with exact orbits at each restitution coefficient of `kappas` and each force of `forces`.
 
-    Fixed points and symmetric orbits must form pairs, at distances proportional to epsilon. The balls must stay between
-    the walls. Each restitution coefficient needs a force with a fixed point.
+    Both boxes have the same force. Each fixed point must belong to one symmetric orbit, and each symmetric orbit to one
+    fixed point. The distance between them must be proportional to epsilon. At each fixed point, the balls must stay
+    between the walls. For each restitution coefficient, at least one force must give a fixed point.
     """
     parts, numbers = {}, {}
     for kappa in kappas:
@@ -241,7 +248,10 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
 
 def _points_beside_orbits(system, kappa, force):
-    """Return the fixed points, and True if they are the limits of all symmetric exact orbits for epsilon -> 0."""
+    """Return the fixed points, and True if the symmetric exact orbits tend to exactly these points.
+
+    The limit is epsilon -> 0. Both boxes have the force `force`.
+    """
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)
     roots = symmetric_solutions(system.with_(epsilon=SMALL[-1]))

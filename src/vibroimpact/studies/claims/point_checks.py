@@ -35,7 +35,7 @@ def number_of_fixed_points(evidence, case, number):
 def phases_can_be_eliminated(evidence):
     """Check that equations in B_i and C_i alone, without the phases, lead to all fixed points.
 
-    The solutions must satisfy (10.23), and their list must be proved complete.
+    The solutions of these equations must satisfy (10.23). The list of solutions must be proved complete.
     """
     worst, complete = 0.0, True
     for case, system in evidence.systems.items():
@@ -47,7 +47,10 @@ def phases_can_be_eliminated(evidence):
 
 
 def label_of_a_point(evidence, case, label, says):
-    """Check a caption's verdict `says` on a fixed point against the theory and against the point's exact orbit."""
+    """Check what a caption says about the stability of a fixed point.
+
+    The verdict `says` must agree with the theory and with the exact orbit of the fixed point.
+    """
     row = evidence.points(case).loc[label]
     orbits = evidence.orbits.query("case == @case").set_index("label")
     verdicts = {"both time scales": row["theory"], "its exact orbit": row["exact"]}
@@ -63,8 +66,9 @@ def label_of_a_point(evidence, case, label, says):
 def stable_points(evidence, case, number):
     """Count the stable fixed points of a case by each criterion of the theory, and by their exact orbits.
 
-    The chapter uses the fast criterion: the impacts must be stable at constant B and phase. Here this criterion has the
-    condition derived in this project; the printed (10.26) is counted separately.
+    The chapter uses the fast criterion: the impacts must be stable at constant B and phase. Here the fast criterion
+    uses the condition that this project derives. Fixed points that are stable by the printed condition, (10.26), are
+    counted separately.
     """
     points = evidence.points(case)
     counts = {
@@ -91,7 +95,10 @@ def on_the_left_arm(evidence, case, label, modules):
 
 
 def points_move_left(evidence, before, after):
-    """Check that each C_i of each fixed point is smaller in the case `after` than in the case `before`."""
+    """Check that each C_i of each fixed point is smaller in the case `after` than in the case `before`.
+
+    Fixed points with the same label are compared.
+    """
     first, last = (evidence.points(case)[NAMES] for case in (before, after))
     parts = {f"P{i} of {x} moves left": last.at[x, f"C{i}"] < first.at[x, f"C{i}"] for x in first.index for i in (1, 2)}
     pairings = [int((last.loc[list(order)].to_numpy() < first.to_numpy()).sum()) for order in permutations(last.index)]
@@ -102,7 +109,8 @@ def points_move_left(evidence, before, after):
 def stable_point_moves_down_the_right_arm(evidence, before, after, label):
     """Check that the stable fixed point moves down the right arm from the case `before` to the case `after`.
 
-    Two points in `after` are checked: that with the same letter in the captions, and that found by continuation.
+    Two fixed points of the case `after` are checked. One has the same letter in the captions. The other one is found by
+    continuation as f20_hat changes.
     """
     fold, r = C_min(rho(evidence.system.kappa)), rho(evidence.system.kappa)
     first, named = (evidence.points(case).loc[label, NAMES].to_numpy(float) for case in (before, after))
@@ -117,7 +125,10 @@ def stable_point_moves_down_the_right_arm(evidence, before, after, label):
 
 
 def _followed(evidence, before, after, C):
-    """Follow the fixed point with amplitudes `C` to the case `after` in small steps of f20_hat; return its C there."""
+    """Follow a fixed point from the case `before` to the case `after`; return its C in the case `after`.
+
+    C: amplitudes of the fixed point in the case `before`. The force f20_hat changes in small steps.
+    """
     start, end = evidence.systems[before], evidence.systems[after]
     for f20 in np.linspace(start.f20_hat, end.f20_hat, CONTINUATION_VALUES)[1:]:
         points = np.array([point.C for point in fixed_points(end.with_(f20_hat=f20))])
@@ -128,7 +139,7 @@ def _followed(evidence, before, after, C):
 def singular_and_bifurcating(evidence, case, f20_range):
     """Check whether fixed points bifurcate where a fixed point P_i coincides with a singular point S_i.
 
-    The force there is compared with the force at which two fixed points merge.
+    The force at which P_i and S_i coincide is compared with the force at which two fixed points merge.
     """
     system = evidence.systems[case]
 
@@ -159,15 +170,18 @@ def singular_and_bifurcating(evidence, case, f20_range):
 
 
 def _nearest_singular(system, point):
-    """Return the smallest difference in C_i between a fixed point and a singular point S_i, over i = 1, 2."""
+    """Return the distance of a fixed point from the nearest singular point.
+
+    The distance from a singular point S_1 is measured in C_1, the distance from a singular point S_2 in C_2.
+    """
     gaps = [np.abs(singular_points(system, point, i)[:, 0] - point.C[i - 1]) for i in (1, 2)]
     return np.concatenate(gaps).min(initial=np.inf)
 
 
 def places_of_singular_points(evidence, case, label):
-    """Compare the singular points S_1 from two ways of eliminating the phases from (10.23).
+    """Compare the singular points S_1 that result from two ways of eliminating the phases from (10.23).
 
-    The chapter does not print h_1 and h_2 of (10.24), so that either way may be meant.
+    The chapter does not print the functions h_1 and h_2 of (10.24). Therefore it may mean either way.
     """
     system = evidence.systems[case]
     point = next(point for point in fixed_points(system) if point.label == label)
@@ -181,9 +195,9 @@ def places_of_singular_points(evidence, case, label):
 
 
 def _other_determinant(system, C):
-    """Return (|K|^4 - |a_1 a_2|^2) |z_1 z_2|^2, see docs/derivation.md, section 8.
+    """Return the determinant for the second way of eliminating the phases, (|K|^4 - |a_1 a_2|^2) |z_1 z_2|^2.
 
-    The factor |z_1 z_2|^2 keeps the value finite.
+    The symbols are those of docs/derivation.md, section 8. The factor |z_1 z_2|^2 keeps the determinant finite.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)

@@ -17,10 +17,10 @@ NO_MOTION = {"admissible": False, EXACT: NO_ORBIT}
 
 
 def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> pd.DataFrame:
-    """Return a table with a row per fixed point and epsilon, at the centres of `points` x `points` cells of forces.
+    """Return a table with one row for each fixed point and each epsilon, over a grid of forces.
 
-    "admissible" is True if the exact orbit stays between the walls. "exact" is the verdict on this orbit, or
-    "no orbit".
+    The grid consists of the centres of `points` x `points` cells. The column "admissible" is True if the balls stay
+    between the walls on the exact orbit. The column "exact" is the verdict on this orbit, or "no orbit".
     """
     forces = list(product(centres(f10_range, points), centres(f20_range, points)))
     plane = [system.with_(f10_hat=f10, f20_hat=f20) for f10, f20 in forces]
@@ -41,7 +41,8 @@ def compute(system, f10_range, f20_range, points: int, epsilon: list[float]) -> 
 def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
     """Return a table with a row for each epsilon and each fixed point of a system.
 
-    "exact" is the verdict on the exact orbit, or "no orbit". "multiplier" is the largest modulus of its multipliers.
+    The column "exact" is the verdict on the exact orbit of the fixed point, or "no orbit". The column "multiplier" is
+    the largest modulus of the multipliers of this orbit.
     """
     points, rows = fixed_points(system), []
     for value in epsilon:
@@ -56,9 +57,10 @@ def by_epsilon(system, epsilon: list[float]) -> pd.DataFrame:
 
 
 def exact_orbits(system, points, roots):
-    """Yield the exact symmetric Orbit of each fixed point, or None if it has none.
+    """Yield the exact symmetric Orbit of each fixed point, or None for a fixed point without an orbit.
 
-    points: C of the fixed points, (n, 2). roots: result of `symmetric_solutions`.
+    points: amplitudes C of the fixed points, shape (n, 2).
+    roots: all symmetric orbits, as returned by `symmetric_solutions`.
     """
     for partner in partners(points, roots[:, 2:]):
         yield None if partner is None else symmetric_orbit(system, roots[partner])
