@@ -13,10 +13,11 @@ one equation for delta alone,
     F(delta) = |P_k . N + i D|^2 - |a_k|^2 D^2 = 0.
 
 Where D is not 0, the roots of F are exactly the solutions, each with one C and one phase. F is smooth on [0, T/2] and
-on [T/2, T]. Both halves are bisected until every interval is decided. An interval has no root if the enclosure of F
-excludes 0. If the enclosures of F' and D exclude 0, F is monotonic: its signs at the two ends show whether it has one
-root or none. The proof covers any lag, any phase and any real C. Undecided intervals of the smallest width are
-reported, for example at a double root of F, or at delta = T/2, where F has a kink.
+on [T/2, T], where T is the forcing period. Both halves of the period are bisected until every interval is decided. An
+enclosure is an interval that contains all values of a function. If the enclosure of F excludes 0, F has no root in the
+interval of delta. If the enclosures of F' and D exclude 0, F is monotonic. Then its signs at the two ends show whether
+F has one root or none. The proof covers any lag, any phase and any real C. Undecided intervals of the smallest width
+are reported. They occur, for example, at a double root of F, or at a root at delta = T/2, where F has a kink.
 
 For a single machine, |P_kk C_k + i| = |a_k| is a quadratic equation for C_k.
 """
@@ -35,7 +36,7 @@ need("reference", "flint")
 
 from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the dependency check)
 
-_NARROWEST = 2.0**-24  # smallest width of an interval of delta / (T/2), which the 53 bits of arb resolve
+_NARROWEST = 2.0**-24  # smallest width of an interval of delta / (T/2); the 53-bit numbers of arb resolve it
 _FIRST = 8
 _MOST = 10_000  # largest number of intervals that are examined; all others are reported as undecided
 _TERMS = 3
@@ -47,7 +48,8 @@ class Proof:
 
     isolated: ascending intervals with exactly one symmetric response each. They are intervals of the lag
         (tau_2 - tau_1) / T, or of C for a single machine.
-    undecided: intervals in which nothing is proved. No symmetric response exists outside both lists.
+    undecided: intervals in which nothing is proved. Outside the isolated and the undecided intervals, no symmetric
+        response exists.
     complete: True if nothing is undecided, and `symmetric_solutions` lists exactly one response per isolated interval.
     """
 
@@ -59,7 +61,7 @@ class Proof:
 def certify(system) -> Proof:
     """Prove how many symmetric 1:1 responses a system has, including those that are not admissible.
 
-    A system without forcing has none.
+    A system without forcing has no symmetric 1:1 response.
 
     Raises
     ------
@@ -126,7 +128,10 @@ class _Condition:
         self.larger = int(abs(self.amplitude[1]).mid() > abs(self.amplitude[0]).mid())
 
     def count(self, lower, upper, half):
-        """Return the number of roots of F (0, 1, or None if undecided) for delta in (half + [lower, upper]) T/2."""
+        """Return the number of roots of F in an interval of delta: 0, 1, or None if the number is undecided.
+
+        The interval is (half + [lower, upper]) T/2, where T is the forcing period and `half` is 0 or 1.
+        """
         radius = (upper - lower) / 2
         step = arb(0, radius) * self.half_period
         F0, _ = self._at(arb((lower + upper) / 2), half)
@@ -140,9 +145,9 @@ class _Condition:
         return int((ends[0] > 0) != (ends[1] > 0))
 
     def _at(self, position, half):
-        """Return the Taylor coefficients 0, 1, 2 of F and D at delta = (half + position) T/2.
+        """Return the Taylor coefficients of orders 0, 1 and 2 of F and of D at delta = (half + position) T/2.
 
-        half: 0 or 1. position: a number or an interval in [0, 1].
+        half: half of the forcing period T, 0 or 1. position: a number or an interval in [0, 1].
         """
         sign = 1 - 2 * half
         forward = (self.rate * (self.half_period * position)).exp() * self.start

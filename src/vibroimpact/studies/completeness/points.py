@@ -1,18 +1,21 @@
 """Prove in interval arithmetic (python-flint's arb) that the lists of fixed points are complete.
 
-One parameter x_i describes module i. It is C_i, 1 / C_i or v_i^2, where v_i is the flight asymmetry; this choice is
-called the chart of the module. On each pair of charts, the fixed points are the zeros of |Delta|^2 - |beta_i m_i|^2 for
-i = 1, 2 (docs/derivation.md, section 11; in the code, m_1 and m_2 are n1 and n2). Together, the squares |x_i| <= 1 of
-all pairs of charts cover every real C_i, and v_i^2 from -1 to 1.
+One parameter x_i describes module i. It is C_i, 1 / C_i or v_i^2. Here v_i is the flight asymmetry, the difference of
+the two flight times divided by the period. The choice of x_i is called the chart of the module. On each pair of charts,
+the fixed points are the zeros of |Delta|^2 - |beta_i m_i|^2 for i = 1, 2. docs/derivation.md, section 11, defines these
+functions; in the code, m_1 and m_2 are n1 and n2. Together, the squares |x_i| <= 1 of all pairs of charts cover every
+real C_i, and v_i^2 from -1 to 1.
 
-Each square is quartered into interval boxes (an interval of x_1 and one of x_2). An interval box is decided if the
-interval of |Delta|^2 - |beta_i m_i|^2 excludes 0 for an i. It is also decided by a contraction (Krawczyk's test,
-Neumaier 1990). The contraction proves that the interval box has no zero, or that the interval box of twice the width
-has exactly one zero. Interval boxes that are undecided at the smallest width are reported.
+Each square is quartered into interval boxes: an interval of x_1 and one of x_2. If the interval of
+|Delta|^2 - |beta_i m_i|^2 excludes 0 for one i, the interval box has no zero. Otherwise a contraction is tried
+(Krawczyk's test, Neumaier 1990). It may prove that the interval box has no zero, or that the interval box of twice the
+width has exactly one zero. If the interval box is still undecided, it is quartered again. Interval boxes that are
+undecided at the smallest width are reported.
 
 The functions of a chart are computed in interval arithmetic and expanded to second order about the centre of an
-interval box. The remainder holds in the interval box of twice the width. Where the interval of Delta excludes 0, the
-phases are unique. An inactive module i has the condition x_i = 0 instead, and q_i = 1.
+interval box. The remainder of the expansion holds in the interval box of twice the width. Where the interval of Delta
+excludes 0, the phases are unique. An inactive module i (uncoupled and without force) has the condition x_i = 0 instead,
+and q_i = 1.
 """
 
 import functools
@@ -36,10 +39,10 @@ SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
 _BITS = 128
 _REACH = 2  # factor that enlarges a tested interval box, so that a zero on its edge is inside
 _NARROWEST = 2.0**-24
-_ISOLATED_WIDTH = 2.0**-20  # half-width of the narrowed interval box around a zero
-_MOST = 20_000  # number of interval boxes per pair of charts, after which no more are quartered
+_ISOLATED_WIDTH = 2.0**-20  # half-width to which the interval box around a zero is narrowed
+_MOST = 20_000  # after so many interval boxes per pair of charts, no further ones are quartered
 _TERMS = 30
-# Remainder for |v^2| <= 2: omitted terms of the series and their derivatives are below 5^30 100^2 / 60!.
+# Remainder of the series in v^2 for |v^2| <= 2. The omitted terms and their derivatives are below 5^30 100^2 / 60!.
 _TAIL = arb(0, 2.0**-150)
 _ORDERS = 3
 _REAL, _IMAGINARY = (np.frompyfunc(lambda z, part=part: getattr(z, part), 1, 1) for part in ("real", "imag"))
@@ -51,11 +54,12 @@ Box = tuple[tuple[float, float], ...]
 class Proof:
     """Result of the proof for the fixed points of a system, whose float64 hatted parameters are taken as exact.
 
-    isolated: interval boxes ((C_1 from, to), (C_2 from, to)), ascending, each with exactly one fixed point. An entry
-        for asymmetric fixed points is (pair of charts, intervals of the parameters x_i); see the module docstring. A
-        single machine has one interval and one chart.
-    undecided: interval boxes in which nothing is proved, in the same format. Outside both lists, no fixed point exists
-        for any real C_i and v_i^2 in [-1, 1].
+    isolated: interval boxes in ascending order, each with exactly one fixed point. An interval box is a pair of
+        intervals (lower end, upper end), one of C_1 and one of C_2. For asymmetric fixed points, each entry is (pair of
+        charts, intervals of the parameters x_i) instead; see the module docstring. For a single machine, each entry
+        has one interval, and one chart, instead of two.
+    undecided: interval boxes in which nothing is proved, in the format of `isolated`. Outside the isolated and the
+        undecided interval boxes, no fixed point exists for any real C_i and v_i^2 in [-1, 1].
     motions: number of isolated fixed points with C_i > 0 for each symmetric module and v_i^2 > 0 for each asymmetric
         module. A fixed point is not counted if one of its intervals contains 0.
     complete: True if nothing is undecided, and the numerical search finds exactly one fixed point per isolated entry.
@@ -70,8 +74,9 @@ class Proof:
 def certify(system) -> Proof:
     """Prove how many fixed points a system has, with C_i of either sign.
 
-    A system without forces has no fixed point: impacts dissipate mu rho C_i^2. Only a free motion with C_i = 0 could
-    persist; `symmetric_points.search` raises ValueError for such a system.
+    A system without forces has no fixed point, since no force compensates the dissipation mu rho C_i^2 of the impacts.
+    Only a free motion with C_i = 0 could persist. If a system has such a free motion, `symmetric_points.search` raises
+    ValueError.
 
     Raises
     ------
@@ -113,7 +118,7 @@ def _proof(isolated, undecided, boxes, matched):
 
 
 def _matched(boxes, points):
-    """Return True if each box contains exactly one of the points and each point is in exactly one box."""
+    """Return True if each interval box contains exactly one point, and each point is in exactly one interval box."""
     inside = [[all(low <= x <= high for (low, high), x in zip(box, at, strict=True)) for at in points] for box in boxes]
     counts = np.reshape(inside, (len(boxes), len(points)))
     return bool((counts.sum(axis=0) == 1).all() and (counts.sum(axis=1) == 1).all())
@@ -137,9 +142,9 @@ def _same(box, known):
 
 
 def _all_zeros(system, pairs):
-    """Return the interval boxes with exactly one zero, and the undecided ones, each with its charts.
+    """Return the interval boxes with exactly one zero, and the undecided interval boxes.
 
-    Zeros outside |x_i| <= 1 are left out.
+    Each entry is (charts of the active modules, interval box). Zeros outside the square |x_i| <= 1 are left out.
     """
     found, undecided = [], []
     with ctx.workprec(_BITS):
@@ -177,7 +182,7 @@ def _subdivide(conditions):
     distinct = []
     for zero in sorted(found):
         gaps = [max(abs(zero[0] - x), abs(zero[1] - y)) / half for x, y, half in distinct]
-        # Zeros this close are the same: the enlarged interval box of a zero contains no other.
+        # Zeros this close are the same zero, since the enlarged interval box of a zero contains no other zero.
         if any(gap < 0.5 for gap in gaps):
             continue
         (undecided if any(gap < 2 * _REACH for gap in gaps) else distinct).append(zero)
@@ -185,9 +190,10 @@ def _subdivide(conditions):
 
 
 def _narrowed(conditions, x, y, half):
-    """Return the centre and half-width of a small interval box about the only zero of a wide one, or None.
+    """Return the centre and half-width of a small interval box about the only zero in a wide interval box, or None.
 
-    None means that the wide one cannot be narrowed, or that the phases at the zero are not unique.
+    x, y, half: centre and half-width of the wide interval box. None means that the wide interval box cannot be
+    narrowed, or that the phases at the zero are not unique.
     """
     while half > _ISOLATED_WIDTH:
         _, (x, y, half) = conditions.count(x, y, half)
@@ -206,8 +212,9 @@ def _box(x, y, half) -> Box:
 class _Conditions:
     """The conditions |Delta|^2 - |beta_i m_i|^2 = 0 in one pair of charts, as polynomials on an interval box.
 
-    The variables of the polynomials are t = (x - centre) / half, |t| <= _REACH. A polynomial is an array of intervals:
-    entry [j, k] is the coefficient of t_1^j t_2^k.
+    The variables of the polynomials are t_i = (x_i - centre_i) / half, with the centre and the half-width of the
+    interval box. The polynomials are valid for |t_i| <= _REACH. A polynomial is an array of intervals: entry [j, k] is
+    the coefficient of t_1^j t_2^k.
     """
 
     def __init__(self, system, pair):
@@ -220,10 +227,11 @@ class _Conditions:
         self._chart = functools.lru_cache(maxsize=None)(self._expanded)
 
     def count(self, x, y, half):
-        """Return the number of zeros in an interval box, and the position of the zero.
+        """Return the number of zeros in an interval box (0, 1 or None), and an interval box around a single zero.
 
-        x, y, half: centre and half-width of the interval box. The number 1 means exactly one zero in the interval box
-        enlarged by _REACH; None means undecided. The position is (centre x, centre y, half-width) if the number is 1.
+        x, y, half: centre and half-width of the interval box. If the number is 1, the interval box enlarged by the
+        factor _REACH has exactly one zero. The number None means that the number is undecided. If the number is 1, the
+        second result is (centre x, centre y, half-width), otherwise None.
         """
         delta, one, two = self.sides(x, y, half)
         local = np.array([delta - one, delta - two])
@@ -235,7 +243,8 @@ class _Conditions:
         (a, b), (c, d) = (map(float, (polynomial[1, 0], polynomial[0, 1])) for polynomial in local)
         if (determinant := a * d - b * c) == 0:
             return None, None
-        # t - Y F(t), with F = `local` and Y = `inverse`, maps |t| <= s into -Y F(0) +- all other terms.
+        # The map t - Y F(t) has F = `local` and Y = `inverse`. It maps |t| <= s into -Y F(0) plus or minus a bound on
+        # all other terms.
         inverse = np.array([[d, -b], [-c, a]]) / determinant
         mapped = np.tensordot(inverse.astype(object), local, 1)
         mapped[0, 1, 0] -= 1
@@ -251,7 +260,7 @@ class _Conditions:
         return 1, (x + centre[0], y + centre[1], radius + rounding)
 
     def sides(self, x, y, half):
-        """Return the local polynomials of |Delta|^2, |beta_1 m_1|^2 and |beta_2 m_2|^2."""
+        """Return |Delta|^2, |beta_1 m_1|^2 and |beta_2 m_2|^2 as polynomials on an interval box."""
         (z1, q1, beta1, n2), (z2, q2, beta2, n1) = (self._chart(i, at, half) for i, at in enumerate((x, y)))
         delta = np.multiply.outer(q1, q2 + self.K * z2) + np.multiply.outer(self.K * z1, q2)
         return _modulus_squared(delta), np.multiply.outer(beta1, n1), np.multiply.outer(n2, beta2)
