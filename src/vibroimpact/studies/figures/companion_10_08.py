@@ -45,11 +45,12 @@ def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.Data
     Parameters
     ----------
     points : DataFrame
-        Fixed points; columns label, C1, C2, B1, B2, psi1, psi2.
+        Fixed points of the theory, with the columns label, C1, C2, B1, B2, psi1, psi2.
     samples : DataFrame
-        Simulated states, evenly spaced from the start of a forcing period; columns tau, X1, Y1, X2, Y2.
+        Simulated states at evenly spaced times, with the columns tau, X1, Y1, X2, Y2. The first sample is at the start
+        of a forcing period.
     events : DataFrame
-        Simulated events; columns tau, module, wall, kind, X2, Y2.
+        Simulated events, with the columns tau, module, wall, kind, X2, Y2.
 
     Returns
     -------
@@ -61,7 +62,7 @@ def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.Data
     sampled = pd.DataFrame({"phase": (samples["tau"] - start) / period, "W2": samples["X2"] - samples["Y2"]})
     impacts = pd.DataFrame({"phase": (hits["tau"] - start) / period, "W2": hits["wall"].astype(float)})
     motion = pd.concat([sampled, impacts]).drop_duplicates("phase").sort_values("phase")
-    # Half a period later with all signs changed, a motion still solves the equations.
+    # A motion that is shifted by half a period, with all signs changed, still solves the equations.
     image = motion.assign(phase=motion["phase"] - 0.5, W2=-motion["W2"])
     return join(
         [

@@ -111,9 +111,10 @@ def compute(system, response, clearance, design, band: dict, seed: int, cycles: 
     response
         Table of a sweep over sigma_e_hat and the pair of forces, with regimes, amplitudes and energy.
     clearance, design
-        Tables of the peaks along `band`, over the pair of forces; `design` also varies kappa.
+        Tables of two sweeps that observe the peaks in the band. Both sweeps vary the pair of forces. The sweep `design`
+        also varies kappa.
     band : dict
-        Arguments of `sweeps.grid.axis`, along sigma_e_hat.
+        Arguments of `sweeps.grid.axis` for the band of detunings sigma_e_hat.
     seed : int
         Seed of the starts in the sweeps.
     cycles, settle : int
@@ -148,13 +149,16 @@ def compute(system, response, clearance, design, band: dict, seed: int, cycles: 
 
 
 def _peaks(system, table):
-    """Return the table with the clearance 1 / f and the peaks divided by f = epsilon f10_hat."""
+    """Return the table with the new columns clearance (1 / f), kappa and ratio (peak / f); f is epsilon f10_hat."""
     force, kappa = system.epsilon * table["f10_hat"], table.get("kappa", system.kappa)
     return table.assign(clearance=1 / force, kappa=kappa, ratio=table["peak"] / force)
 
 
 def _lowest_again(system, table, band, states, cycles, settle):
-    """Measure the lowest peaks of a sweep again; return the row with the lowest new `value` and its error `spread`."""
+    """Measure the lowest peaks of a sweep again, and return the row with the lowest new peak.
+
+    The row has two new entries: `value` (the new peak) and `spread` (its standard error), both divided by f.
+    """
     detunings = np.sort(np.ravel(axis(**band).values))
     detunings = np.sort(np.r_[detunings, 0.5 * (detunings[1:] + detunings[:-1])])
     places = table.nsmallest(REMEASURED_PEAKS, "ratio").to_dict("records")
@@ -166,10 +170,10 @@ def _lowest_again(system, table, band, states, cycles, settle):
 
 
 def plateau(places):
-    """Return the largest kappa, the smallest peak and the largest peak on the plateau, or three nan if it is empty.
+    """Return the largest kappa, the smallest peak and the largest peak on the plateau.
 
-    places: the point with the lowest peak for each kappa, ascending. The plateau ends before the first peak above
-    PLATEAU_FACTOR times the lowest peak.
+    places: rows with the lowest peak at each kappa, in ascending order of kappa. The plateau ends before the first peak
+    that exceeds PLATEAU_FACTOR times the lowest of all peaks. If the plateau is empty, all three results are nan.
     """
     level = PLATEAU_FACTOR * min(place["value"] for place in places)
     on = list(takewhile(lambda place: place["value"] <= level, places))
@@ -178,7 +182,11 @@ def plateau(places):
 
 
 def _over_frequencies(system, response, band):
-    """For each pair of forces, yield the largest ratio to the response without balls, and the median impact share."""
+    """Yield two rows of the summary for each pair of forces.
+
+    One row has the largest ratio of the response with balls to the response without balls, over all frequencies. The
+    other row has the median of the share of the work that impacts dissipate.
+    """
     for pair, rows in response.groupby(FORCES, sort=False):
         without, place = linear_systems(system, pair, band)["without balls"], dict(zip(FORCES, pair, strict=True))
         greatest = (rows["ratio"] / ratios(system, without, rows["sigma_e_hat"])).max()

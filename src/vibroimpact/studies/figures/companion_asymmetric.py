@@ -133,7 +133,7 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_
     Returns
     -------
     dict
-        The tables in SPEC. In "pairs", the last row of an orbit is its limit, if known.
+        The tables in SPEC. If the limit of an orbit is known, the last row of this orbit in "pairs" is the limit.
     """
     pairs, rows, places = [], [], []
     for case, system in systems.items():
@@ -165,7 +165,10 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_
 
 
 def _manifold(kappa, C_max):
-    """Yield the pieces of the symmetric branch up to C_max, and of the asymmetric branch up to the same B."""
+    """Yield the pieces of the symmetric and of the asymmetric branch of the manifold.
+
+    The symmetric branch ends at C_max. The asymmetric branch ends at the B that the symmetric branch has at C_max.
+    """
     edges = (0.0, lower_limit(kappa), SYMMETRY_BREAKING_C, C_max)
     r, end = rho(kappa), branch.period_doubling(kappa)
     symmetric = [np.linspace(*ends, 101) for ends in pairwise(edges)]
@@ -177,7 +180,10 @@ def _manifold(kappa, C_max):
 
 
 def _pairs(system, orbits):
-    """For each pair of mirror images, yield the row of one orbit and its root (6,) of `AsymmetricConditions`."""
+    """Yield one orbit of each mirror-image pair: its row of the table, and its root of `AsymmetricConditions`.
+
+    The root has the shape (6,).
+    """
     rows = orbits[~orbits["symmetric"].astype(bool) & ~(orbits["C1"] <= 0) & ~(orbits["C2"] <= 0)]
     one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]
     for _, row in one_each.iterrows():
@@ -221,7 +227,7 @@ def _draw_manifold(axes, table):
         lines[series] = axes.plot(piece["C"], piece["B"], **look)
     points = table[table["series"] == POINT]
     axes.plot(points["C"], points["B"], label="fixed points", **POINT_MARK)
-    # Figure 10.4 shows the rest of the manifold.
+    # The panel shows only this part of the manifold, since figure 10.4 shows the rest.
     near = table["C"][~table["series"].str.startswith("symmetric")]
     axes.set(xlim=(near.min() - C_MARGIN, near.max() + C_MARGIN), xlabel="$C_i$", ylabel="$B_i$")
     seen = table["B"][table["C"].between(*axes.get_xlim())]
@@ -230,7 +236,7 @@ def _draw_manifold(axes, table):
 
 
 def _draw_pairs(axes, pairs):
-    """Draw the asymmetry of each pair of orbits against epsilon; return the lines, grouped by their end (see ENDS)."""
+    """Draw the asymmetry of the orbits against epsilon; return the lines, grouped by the end of their orbit (ENDS)."""
     last, named = pairs.drop_duplicates(["case", "label"], keep="last"), {}
     meets = last.round({"asymmetry": 1}).duplicated(["case", "epsilon", "asymmetry"], keep=False)
     ends = pd.Series(np.select([last["epsilon"] == 0, last["asymmetry"] == 0, meets], ENDS, ""), last.index)

@@ -57,7 +57,8 @@ _MARK = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "marke
 def compute(system, case: str, points: int, observation: dict) -> dict:
     """Return the regimes of starts that differ only in the positions of the balls.
 
-    Boxes and all velocities start as on the stable asymmetric orbit, or at 0 without such an orbit.
+    The positions of the boxes and all velocities are those of the stable asymmetric orbit at tau = 0. If there is no
+    such orbit, they are 0.
 
     points: number of starts along each axis W_i = X_i - Y_i. observation: arguments of `Observation`.
     """
@@ -79,7 +80,7 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the regimes of the starts, with a circle at the orbit and a diamond at its mirror image."""
+    """Draw the regimes of the starts, with a circle at the asymmetric orbit and a diamond at its mirror image."""
     starts, orbits = tables["csv"], tables["orbits"].set_index("series")
     figure = new_figure(SINGLE_COLUMN, 100.0)
     axes = figure.add_subplot()

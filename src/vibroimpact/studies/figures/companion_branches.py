@@ -1,4 +1,4 @@
-"""Companion: branches of 1:1 responses against the forcing, by the theory and exact, with simulated attractors."""
+"""Companion: branches of fixed points and of exact orbits against the forcing, with simulated attractors."""
 
 from string import ascii_lowercase
 
@@ -141,7 +141,7 @@ def compute(
     paths : list of dict
         For each path, `along` (names of the parameters that vary together) and `range` (low, high).
     longest_step, seeds
-        Longest step of the continuation, and number of seeds in the range.
+        Longest step of the continuation, and number of parameter values in the range at which branches are sought.
     attractors : dict
         `values` (number of parameter values), `starts` (number of starts at each value) and `seed`.
     observation : dict
@@ -184,7 +184,7 @@ def compute(
 
 
 def _special_points(nodes, names):
-    """Return the special points of each path; a path without any has one row of the kind "none"."""
+    """Return the special points of each path; a path without special points has one row of the kind "none"."""
     found = nodes[nodes["label"].ne("")].sort_values("admissible")
     found = found.drop_duplicates(["panel", "series", "label", "branch", "p"], keep="last").sort_index()
     without = pd.DataFrame({"panel": [one for one in names if one not in set(found["panel"])], "label": "none"})
@@ -232,12 +232,13 @@ def _cases(theory, exact, cases):
 def _branches(axes, nodes):
     """Draw all branches; return (name, lines) of each long branch.
 
-    The lines are the stable ones, or all if none is stable.
+    The lines are those of stable motions. If the branch has no stable motion, they are all of its lines.
     """
     named, spans = {}, nodes.groupby(["series", "branch"])["p"].agg(np.ptp)
-    # Successive pieces are one line, since dashes that start again at each piece look solid.
+    # Successive pieces with the same stability are drawn as one line. If dashes started again at each piece, the line
+    # would look solid.
     begins = nodes[["series", "stable", "branch"]].ne(nodes[["series", "stable", "branch"]].shift()).any(axis=1)
-    begins |= nodes.index.to_series().diff().ne(1)  # rows that are not admissible were left out in between
+    begins |= nodes.index.to_series().diff().ne(1)  # a gap in the index, where inadmissible rows were left out
     pieces = nodes.groupby(["series", "branch", "stable", begins.cumsum()], sort=False)
     for (family, branch, stable, _), piece in pieces:
         line = axes.plot(piece["p"], piece["C2"], **(STABLE if stable else UNSTABLE) | {"color": HUES[family]})

@@ -99,12 +99,14 @@ def compute(systems: dict) -> dict:
 
 
 def errors(system) -> list[dict]:
-    """Return a row per fixed point: errors of C, the predicted stability, and that of the exact orbit.
+    """Return one row for each fixed point, with the errors of the theory and the stability.
 
-    error: larger error of C_1 or C_2, divided by the larger C_i of the orbit.
-    own_error: larger of the relative errors of C_1 and C_2.
+    error: larger error of C_1 and C_2, divided by the larger of C_1 and C_2 of the exact orbit.
+    own_error: larger relative error of C_1 and C_2. The error of C_i is divided by C_i of the exact orbit.
+    predicted: True if the theory calls the fixed point stable. stable: True if the exact orbit is admissible and
+    stable.
 
-    Both errors are nan without an admissible exact orbit.
+    If a fixed point has no admissible exact orbit, both errors are nan.
     """
     points, rows = fixed_points(system), []
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))
@@ -134,7 +136,7 @@ def _of_errors(table):
 
 
 def _of_patterns(system):
-    """Return a dict, description -> coupling, with both ends of each range in which a pattern of flights is stable."""
+    """Return the couplings at both ends of each range in which a pattern of flights is stable, by description."""
     return {
         f"{name}, from {start:g}: stable {end}": found[i][0]
         for name, start, found, _ in stable_ranges(system, LIMITS)

@@ -120,9 +120,10 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
 
 
 def _two_terms(system, point, found):
-    """Return each distance in `found` after the first-order term is added to the fixed point.
+    """Return the distances of exact orbits from a fixed point with its first-order term in epsilon added.
 
-    The distances are nan if the first-order term does not exist.
+    found: one `Comparison` of the orbit with the fixed point for each epsilon. If the first-order term does not exist,
+    all distances are nan.
     """
     added = np.nan
     with suppress(NoOrbit):
@@ -151,7 +152,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _slope(axes, epsilon, error, slope, times):
-    """Draw a triangle with its sloping side on the line of `slope` through (epsilon, times * error)."""
+    """Draw a triangle whose sloping side has the given slope, on a line through the point (epsilon, times * error)."""
     x = epsilon * np.array([0.05, 0.5])
     y = error * times * (x / epsilon) ** slope
     axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))

@@ -33,12 +33,12 @@ SPEC = {
 def compute(system: System, initial_state, strobe: pd.DataFrame) -> pd.DataFrame:
     """Return the measured and the expected error of a float64 run at the start of each forcing cycle.
 
-    The expected error is that of the certificate of the run.
+    The expected error is the estimate in the certificate of the run.
 
     Parameters
     ----------
     strobe : DataFrame
-        True states at the starts of the cycles; columns `NAMES`.
+        True states at the starts of the cycles, with the columns `NAMES`.
 
     Returns
     -------

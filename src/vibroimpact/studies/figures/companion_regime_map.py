@@ -1,4 +1,4 @@
-"""Companion: map, over both forcing amplitudes, of the regimes in which starts end, with borders by the theory."""
+"""Companion: map of the regimes over both forcing amplitudes, with borders that the theory predicts."""
 
 from functools import cache
 from textwrap import fill
@@ -110,9 +110,9 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
 
 def _dominant(cells, starts):
-    """Return, for each cell, the regime of most starts and the number of regimes, without "unsettled".
+    """Return, for each cell, the regime in which most starts end, and the number of regimes in which starts end.
 
-    The start from rest is ignored unless it is the only start.
+    The number does not count "unsettled". The start from rest is ignored unless it is the only start.
     """
     counts = cells[[*REGIMES]].to_numpy(float) * starts
     if starts > 1:
@@ -124,7 +124,10 @@ def _dominant(cells, starts):
 
 
 def _border(system, cells, series):
-    """Yield both ends of each piece of the border of `series`, as (number of the piece, f10_hat, f20_hat)."""
+    """Yield both ends of each straight piece of a border, as (number of the piece, f10_hat, f20_hat).
+
+    series: "fixed points" or "stable points". The number of these points changes at the border.
+    """
     which = BORDERS.index(series)
     square = cells.pivot(index="f20_hat", columns="f10_hat", values=series.replace(" ", "_")).to_numpy(float)
 
@@ -147,7 +150,13 @@ def _border(system, cells, series):
 
 
 def _squares(cells, square):
-    """Yield the list of (centre, count) around each square of four adjacent cells with known counts."""
+    """Yield the list of (centre, count) of the cells in each square of four adjacent cells.
+
+    The count is the number of fixed points in a cell. Neighbours in the list share a side. Squares with an unknown
+    count are left out.
+
+    square: counts of all cells, with rows for f20_hat and columns for f10_hat; nan if unknown.
+    """
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
         around = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
@@ -156,10 +165,12 @@ def _squares(cells, square):
 
 
 def _pieces(corners, crossing):
-    """Return the pieces of the border within a square from `_squares`.
+    """Return the pieces of the border within a square of four cell centres.
 
-    Two crossings of the sides are joined by one piece. Four crossings are each joined to their mean.
-    crossing: function that returns the crossing between two corners.
+    If the border crosses two sides of the square, one piece joins both crossings. If it crosses four sides, a piece
+    leads from each crossing to the mean of the crossings.
+
+    corners: list from `_squares`. crossing: function that returns the crossing between two corners.
     """
     sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
     ends = [crossing(first, second) for first, second in sides]
@@ -199,7 +210,10 @@ def draw(tables: dict) -> Figure:
 
 
 def _name(axes, regimes, name, lined):
-    """Write the name of a regime in its largest patch outside `lined`; return False if the patch is too small."""
+    """Write the name of a regime in its largest patch; return False if this patch is too small.
+
+    lined: True in cells with a stroke or a piece of the border of stability. The name avoids these cells.
+    """
     patches, _ = ndimage.label(regimes.eq(name))
     sizes = np.bincount(patches.ravel())[1:]
     if not len(sizes) or sizes.max() < SMALLEST_NAMED_PATCH:
@@ -216,4 +230,4 @@ def _name(axes, regimes, name, lined):
 def _ends(centres):
     """Return the outer edges of the first and the last cell, from the centres of all cells."""
     half = 0.5 * (centres[1] - centres[0])
-    return np.round([centres[0] - half, centres[-1] + half], 12)  # so that a tick at an edge is within the limits
+    return np.round([centres[0] - half, centres[-1] + half], 12)  # rounded, so that a tick at an edge is inside

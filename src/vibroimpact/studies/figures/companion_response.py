@@ -1,6 +1,7 @@
 """Companion: response of the boxes with balls against the frequency and against the amplitude of the forcing.
 
-A response is the largest |X_i| of both boxes, divided by the larger force f.
+A response is the largest |X_i| of both boxes, divided by f. Here f is the larger of the two forces epsilon f10_hat and
+epsilon f20_hat.
 """
 
 from functools import lru_cache
@@ -123,7 +124,10 @@ def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def linear_systems(system, pair, band: dict) -> dict:
-    """Return the linear systems for comparison, by name, under the forces `pair` / max(`pair`)."""
+    """Return the linear systems for comparison, by name.
+
+    Their forces f10_hat and f20_hat are those of `pair`, divided by the larger one.
+    """
     f10, f20 = (float(value / max(pair)) for value in pair)
     return _compared(system.with_(f10_hat=f10, f20_hat=f20), frequencies(system, band))
 
@@ -138,7 +142,10 @@ def frequencies(system, band: dict) -> tuple[float, float]:
 
 
 def ratios(system, linear, detunings):
-    """Return the response at each detuning of a linear system whose larger force amplitude is 1."""
+    """Return the response of a linear system at each detuning.
+
+    The larger of f10_hat and f20_hat of the linear system must be 1.
+    """
     return linear.amplitudes(1.0 + system.epsilon * np.asarray(detunings)).max(axis=-1) / system.epsilon
 
 

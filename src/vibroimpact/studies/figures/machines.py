@@ -96,7 +96,7 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
     cycles, settle : int
         Length of each run and of its omitted transient, in forcing periods.
     shown : dict
-        `L` [m], `frequency` [Hz] and `cycles` of the motion.
+        `L` [m], `frequency` [Hz] and `cycles` (number of forcing periods) of the motion that is shown in time.
 
     Returns
     -------

@@ -97,14 +97,15 @@ def animate(tables: dict[str, pd.DataFrame], path) -> None:
         frame = io.BytesIO()
         draw(tables | past).savefig(frame, dpi=120)
         frames.append(Image.open(frame).convert("L"))
-    durations = [300] * (len(frames) - 1) + [3000]  # [ms]
+    durations = [300] * (len(frames) - 1) + [3000]  # durations in milliseconds; the last frame stays longer
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=durations, loop=0)
 
 
 def _called_stable(system):
-    """Return (label, orbit) for the most unstable orbit whose fixed point is stable by (10.26), or (None, None).
+    """Return the most unstable admissible orbit whose fixed point is stable by (10.26), with the label of this point.
 
-    The orbit is admissible.
+    The result is (label, orbit), or (None, None) if no such orbit is unstable. The most unstable orbit has the
+    largest multiplier.
     """
     points = fixed_points(system)
     orbits = exact_orbits(system, [point.C for point in points], symmetric_solutions(system))

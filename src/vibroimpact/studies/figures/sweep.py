@@ -52,8 +52,8 @@ def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Columns panel, series, the first parameter of each axis, value, along and scale. The last two join the settings
-        of all axes by "; ".
+        The columns are panel, series, the first parameter of each axis, value, along and scale. The columns along and
+        scale contain the settings of all axes, separated by "; ".
     """
     moved = [axis["along"][0] for axis in axes]
     curves = [

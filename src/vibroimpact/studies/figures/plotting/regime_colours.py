@@ -39,7 +39,10 @@ _BOX = {"edgecolor": BLACK, "linewidth": 0.4}
 
 
 def paint(axes, square: pd.DataFrame) -> list[str]:
-    """Paint the cells of `square` (index along y) in the colours of their regimes; return the regimes that occur."""
+    """Paint the cells of `square` in the colours of their regimes, and return the regimes that occur.
+
+    square: table of regimes. Its index has the positions of the cells along y, its columns those along x.
+    """
     occurring = [name for name in COLOURS if square.eq(name).to_numpy().any()]
     codes = np.select([square.eq(name).to_numpy() for name in occurring], range(len(occurring)), np.nan)
     norm = BoundaryNorm(np.arange(len(occurring) + 1) - 0.5, len(occurring)) if len(occurring) > 1 else None
