@@ -8,10 +8,13 @@ from vibroimpact.exact.engine.simulation import simulate
 def departure(system, state, truth: np.ndarray):
     """Return the true error, the estimated error and the horizon of a float64 run from `state`.
 
-    truth: true states (n + 1, 8) at the starts of the forcing cycles.
+    truth: true states at the starts of the forcing cycles, shape (n + 1, 8).
 
-    Both errors have shape (n + 1,). The true error is the largest difference in any component. The horizon [forcing
-    cycles] is the time of the first event (or the end) at which the estimated error exceeds 1e-3, else inf.
+    Both errors are arrays of shape (n + 1,), with one value for the start of each cycle. The true error is the largest
+    difference between any component of the state and that of `truth`.
+
+    The horizon is the time of the first event at which the estimated error exceeds 1e-3, in forcing cycles. The end of
+    the run counts as an event. If the estimated error stays below 1e-3, the horizon is inf.
     """
     cycles = len(truth) - 1
     times = np.arange(cycles + 1) * system.period

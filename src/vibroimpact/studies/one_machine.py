@@ -60,16 +60,19 @@ CURVES = {
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """A ball for one machine, and its effect over the band of frequencies. Displacements are amplitudes.
+    """A ball for one machine, and its effect over the band of frequencies.
+
+    Displacements are measured from the rest position.
 
     Attributes
     ----------
     machine : PhysicalSystem
         The machine with the mass `m` [kg], the clearance `L` [m] to each wall and the restitution `kappa` of the ball.
     peak : float
-        Largest displacement over the band [m], once settled.
+        Largest displacement over the band [m], after the transient.
     near : tuple of float
-        Smallest and largest of three peaks [m]: with 2 % less clearance, with the same and with 2 % more.
+        Smallest and largest of three peaks [m]. They are measured with the clearance `L`, with 2 % less and with 2 %
+        more.
     without : float
         Peak without ball [m].
     absorber : float
@@ -77,15 +80,16 @@ class Design:
     absorber_stroke : float
         Room [m] that this absorber needs on each side.
     window : tuple of int
-        Lengths of the transient and of the window for `peak`, in forcing periods.
+        Length of the transient, and length of the window after it in which `peak` is measured, in forcing periods.
     candidates : list of dict
         One row per candidate: clearance_m, restitution, peak_m from few initial states, and near_m. For the best
-        candidates, near_m is the largest of the three peaks; otherwise it is nan.
+        candidates, near_m is the largest of the three peaks of `near`. For all other candidates, near_m is nan.
     response : list of dict
         One row per frequency_Hz. The displacements are without_m (without ball), absorber_m (with the absorber),
-        settling_m (in the transient from rest) and with_m (largest in the window). The motion of with_m also has
-        impacts_per_s, the mean impact_speed_m_s, the mean impulse_Ns, and later_m (its displacement in the next 1000
-        periods, smaller than with_m if this is a transient).
+        settling_m (with the ball, in the transient from rest) and with_m (with the ball, in the window). with_m is the
+        largest of all initial states. The other entries describe the motion that reaches with_m: impacts_per_s, the
+        mean impact_speed_m_s, the mean impulse_Ns and later_m. later_m is the displacement of this motion in the 1000
+        periods after the window. If the motion is a transient, later_m is smaller than with_m.
 
     Examples
     --------
@@ -195,10 +199,11 @@ def design(
     band : tuple of float
         First and last frequency of the force [Hz].
     clearances : sequence of float, optional
-        Candidates [m]. By default, 8 values from 1/4 to 4 times (F / k) (M / m), at most the peak without ball, and
-        then more values near the best ones.
+        Clearances to try [m]. By default, 8 values from 1/4 to 4 times (F / k) (M / m) are tried, and then more values
+        near the best ones. If necessary, the 8 values are reduced: the smallest is at most 1/8 of the peak without
+        ball, and the largest is at most this peak.
     restitutions : sequence of float, default RESTITUTIONS
-        Candidates, each between 0 and 1.
+        Restitution coefficients to try, each between 0 and 1.
     progress : bool, default True
         Count the candidates on standard error, if it is a terminal.
 
@@ -212,7 +217,7 @@ def design(
     ValueError
         If an argument is malformed, if the machine is coupled, or if it has no damper or no force.
     ArithmeticError
-        If a run could not be finished.
+        If a run could not be finished, or if the tuning of the linear absorber failed.
 
     Examples
     --------
@@ -269,7 +274,7 @@ def _choices(name, values, end) -> list[float]:
 
 
 def _best(rows) -> list[dict]:
-    """Return the FINALISTS rows with the lowest peaks."""
+    """Return the rows with the lowest peaks, as many as FINALISTS says."""
     return sorted(rows, key=lambda row: row["peak_m"])[:FINALISTS]
 
 
@@ -286,8 +291,9 @@ def _mm(metres) -> str:
 class _Measured:
     """Response of a machine with its ball at n frequencies, from m initial states.
 
-    largest, settling: largest displacement [m] after the transient, (n, m), and in the transient from rest, (n,).
-    states, finals: states at the start and at the end of the window after the transient, (n, m, 8).
+    largest: largest displacement [m] in the window after the transient, shape (n, m).
+    settling: largest displacement [m] in the transient from rest, shape (n,).
+    states, finals: states at the start and at the end of the window, each of shape (n, m, 8).
     """
 
     machine: PhysicalSystem
@@ -305,8 +311,9 @@ class _Measured:
 class _Study:
     """Simulations of one machine over a band of frequencies.
 
-    machine: the machine with the force |F| and a clearance of 1 m. system: its dimensionless form, which has
-    displacements in metres.
+    machine: the machine with the force |F| and a clearance of 1 m.
+    system: the dimensionless form of `machine`. Its unit of length is the clearance, so that its displacements are in
+        metres.
     """
 
     def __init__(self, machine, band):
@@ -319,7 +326,7 @@ class _Study:
                 "F, base or unbalance"
             )
         natural = {"omega1": machine.omega10, "omega2": machine.omega10}
-        # From the same initial states, F and -F would give slightly different results.
+        # The sign of F is dropped, since F and -F would give slightly different results from the same initial states.
         self.machine = replace(machine, F10=abs(machine.F10), L=1.0, **natural)
         self.hertz, self.static = machine.omega10 / (2 * math.pi), self.machine.F10 / machine.k1
         self.system, self.band = self.machine.dimensionless(), (low / self.hertz, high / self.hertz)
@@ -385,7 +392,8 @@ def _impacts(machine, run) -> dict:
     """Return the number of impacts of ball 1 per second, and their mean speed and impulse, in SI units."""
     states = run.events["state"][(run.events["module"] == 1) & (run.events["kind"] == IMPACT)]
     seconds = run.cycles * run.system.period / machine.omega10
-    speeds = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa  # before impacts
+    # The states are those after the impacts. Division by kappa gives the speeds before the impacts.
+    speeds = machine.L * machine.omega10 * np.abs(states[:, 4] - states[:, 5]) / machine.kappa
     impulses = machine.m / (1 + run.system.epsilon) * (1 + machine.kappa) * speeds
     speed, impulse = (values.mean() if len(values) else 0.0 for values in (speeds, impulses))
     return {"impacts_per_s": len(states) / seconds, "impact_speed_m_s": speed, "impulse_Ns": impulse}

@@ -30,7 +30,7 @@ def branches(
 
     Pseudo-arclength continuation (Keller 1977) also follows branches that emanate from other branches. Special points
     are folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf and grazing. If a branch ends
-    inside `between`, the kind of the special point there gives the reason:
+    inside `between`, its end is a special point whose kind gives the reason:
 
     - "speed zero": the speed of a ball vanishes;
     - "symmetry breaking": a branch of asymmetric orbits meets its mirror image;
@@ -59,8 +59,9 @@ def branches(
         A branch has .family, .nodes (in order), .special (nodes that are special points) and .closed (True if the last
         node is also the first). The end nodes may lie one step beyond `between`.
 
-        A node has .p (the parameter), .amplitudes (C_1 and C_2), .kind (of special point, or ""), .stable and
-        .admissible (False for an orbit that is not a motion); the last two are None at a special point.
+        A node has .p (the parameter), .amplitudes (C_1 and C_2), .kind, .stable and .admissible. The .kind is the kind
+        of special point, or "" for all other nodes. .admissible is False for an orbit that is not a motion. At a
+        special point, .stable and .admissible are None.
 
         `to_frame` divides branches into pieces at their special points, and returns one row per node of a piece. A
         special point has a row in both pieces that it joins.

@@ -14,25 +14,25 @@ _STEP = 100  # number of transient cycles in a step of the progress display
 def sections(systems, states, cycles: int, settle: int = 0, progress: bool = True) -> np.ndarray:
     """Return stroboscopic Poincare sections of many runs: the state at the end of every cycle after the transient.
 
-    For a list of systems with one varied parameter, this is a bifurcation diagram.
+    For a list of systems with one varied parameter, the sections form a bifurcation diagram.
 
     Parameters
     ----------
     systems, states : System or array_like, array_like
-        One System or an array of Systems, and initial states (..., 8) at tau = 0; combined as by `ensemble`. An
-        inactive module (`System.modules`) is put at rest.
+        One System or an array of Systems, and initial states at tau = 0 of shape (..., 8). They are combined as by
+        `ensemble`. A module that is inactive (not in `System.modules`) is put at rest.
     cycles : int
-        Forcing periods of each run.
+        Forcing periods of each run, with the transient.
     settle : int, default 0
-        Forcing periods of the transient, which is omitted.
+        Forcing periods of the transient at the start of each run, which is omitted.
     progress : bool, default True
         Count the steps on standard error, if it is a terminal.
 
     Returns
     -------
     ndarray
-        States (..., cycles - settle, 8), dimensionless, in the common shape of `systems` and `states`; nan after a run
-        has failed (`ensemble` gives the reason).
+        Dimensionless states of shape (..., cycles - settle, 8). The dots stand for the shape to which `systems` and
+        `states` broadcast. After a run has failed, its states are nan; `ensemble` gives the reason.
 
     Raises
     ------

@@ -47,14 +47,14 @@ def sweep(
         - "amplitudes": largest |X_i|, root mean square of X_i, and mean ball speeds.
         - "energy": energy that impacts dissipate, divided by the work of the forces.
         - "peaks": highest peak along `band`. A peak is the displacement that one cycle in a hundred exceeds.
-        - "regimes": share of the initial states that end in each regime, and the regime from rest.
-        - "fixed_points": number of fixed points of the theory, and of stable ones.
+        - "regimes": share of the initial states that end in each regime, and the regime of the run from rest.
+        - "fixed_points": number of fixed points of the theory, and number of stable fixed points.
     starts : int, default 5
         Number of initial states, evenly spread, the first at rest. A ball may stay idle in the run from rest.
     seed : int, default 0
         Seed of the initial states.
     cycles : int, default 1000
-        Forcing periods of each run; "regimes" uses `observation` instead.
+        Forcing periods of each run. For "regimes", `observation` sets the lengths of the runs.
     settle : int, default 800
         Forcing periods of the omitted transient. Transients may be long: 210 of 225 motions with equal forces still
         change by more than 1e-6 per period after 400 periods, but none after 2000.
