@@ -51,9 +51,9 @@ def name_aperiodic(run: Run, blocks: int, block: int) -> str:
 
 
 def sign(exponent: Measured) -> str:
-    """Return POSITIVE, ZERO, or OPEN if the sign of the exponent is uncertain.
+    """Return the sign of a Lyapunov exponent: POSITIVE, ZERO, or OPEN if the sign is uncertain.
 
-    A certainly negative exponent is OPEN, since the motion still approaches a periodic one.
+    If the exponent is certainly negative, the result is OPEN too, since the motion still approaches a periodic motion.
     """
     if exponent.mean > ERROR_FACTOR * exponent.error:
         return POSITIVE
@@ -63,7 +63,7 @@ def sign(exponent: Measured) -> str:
 def resonance(shares) -> str:
     """Return AT_TIMES if a module enters and leaves resonance, else ALWAYS if one stays in resonance, else NEVER.
 
-    shares: share of time that each module is in resonance.
+    shares: for each module, the share of time during which it is in resonance.
     """
     low, high = RESONANT
     shares = np.asarray(shares)
