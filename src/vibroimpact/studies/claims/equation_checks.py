@@ -145,8 +145,8 @@ def manifold_from_impact_conditions(evidence):
     for kappa in KAPPAS:
         r = rho(kappa)
         for C in np.random.default_rng(3).uniform(0.05, 2.5, 50):
-            sine = 1 - C  # B sin(phase), by (10.12)
-            cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # B cos(phase), by (10.14)
+            sine = 1 - C  # equals B sin(phase), by (10.12)
+            cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # equals B cos(phase), by (10.14)
             B = np.hypot(sine, cosine)
             residuals = {"(10.16)": B**2 - (1 - 2 * C + (1 + r**2) * C**2)}
             # Close to the fold, the square root in (10.15) loses half of the digits. The distance from the fold, as a
@@ -159,7 +159,7 @@ def manifold_from_impact_conditions(evidence):
 
 
 def _error_of_the_harmonics():
-    """Return the largest difference between the coefficients n = 1, ..., 7 of (10.19) and their quadrature."""
+    """Return the largest difference of the coefficients n = 1, ..., 7 in (10.19) from their values by quadrature."""
     off = 0.0
     for n in range(1, 8):
         found = 2 / np.pi * quad(lambda t, n=n: float(sawtooth(t, 1.0, 0.0)) * np.cos(n * t), 0, np.pi)[0]

@@ -21,7 +21,7 @@ class Simulation:
 
     @property
     def impacts(self) -> pd.DataFrame:
-        """Rows of `events` with an impact."""
+        """Rows of `events` that describe impacts."""
         return self.events[self.events["kind"] == "impact"]
 
 
@@ -63,5 +63,5 @@ class Evidence:
         return self.modulation.query("case == @case and start == @start and quantity == @quantity")
 
     def shares(self, case: str) -> pd.Series:
-        """Return the share of the evenly spread initial states whose motion ends in each regime, indexed by regime."""
+        """Return, for each regime, the share of the evenly spread initial states whose motion ends in this regime."""
         return self.measured(case, "spread", "share of starts").set_index("regime")["mean"]

@@ -3,7 +3,7 @@
 docs/studies/claims.yaml lists the claims. A claim has the keys id, place, statement, check (name of a function in
 `MODULES`) and refuted_by (a result that would refute the claim). Optional keys are arguments (of the check), central
 (true for an important claim) and fact (why the claim does not hold). Claims that fail for the same reason have the
-same fact. A check takes the Evidence and the arguments, and returns a Finding.
+same text under fact. A check takes the Evidence and the arguments, and returns a Finding.
 """
 
 from inspect import isfunction

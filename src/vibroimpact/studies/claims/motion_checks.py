@@ -89,7 +89,7 @@ def only_possible_behaviour(evidence, case):
 
 
 def no_practical_importance(evidence, case, label):
-    """Check that the exact orbit of an unstable fixed point is not stable."""
+    """Check that the exact orbit that belongs to the fixed point `label` is not stable."""
     partner = evidence.points(case).loc[label, "orbit"]
     orbit = evidence.motions(case).set_index("label").loc[partner]
     parts = {"the exact orbit of the solution is not stable": orbit["exact"] != STABLE}
@@ -165,8 +165,7 @@ def unstable_means_modulated(evidence, case):
 def periodic_solutions(evidence, f10_hat, f20_hat):
     """Check that every fixed point of the cases and of a grid of forces has an admissible exact orbit.
 
-    f10_hat, f20_hat: one more pair of forces. At these forces, `numbers` has the numbers of fixed points and of exact
-    orbits.
+    f10_hat, f20_hat: one more pair of forces, at which the fixed points and the exact orbits are counted in `numbers`.
     """
     both = evidence.fixed_points.merge(
         evidence.orbits, left_on=["case", "orbit"], right_on=["case", "label"], suffixes=("", "_exact")
