@@ -147,7 +147,8 @@ class _Condition:
     def _at(self, position, half):
         """Return the Taylor coefficients of orders 0, 1 and 2 of F and of D at delta = (half + position) T/2.
 
-        half: half of the forcing period T, 0 or 1. position: a number or an interval in [0, 1].
+        half: 0 for the first and 1 for the second half of the forcing period T.
+        position: a number or an interval in [0, 1].
         """
         sign = 1 - 2 * half
         forward = (self.rate * (self.half_period * position)).exp() * self.start
@@ -168,7 +169,8 @@ class _Condition:
     def _taylor(self, motion, direction):
         """Return the Taylor coefficients of a free motion of the boxes.
 
-        motion: coefficient of order 0, the state of the boxes. direction: 1 for forward time, -1 for backward time.
+        motion: coefficient of order 0, which is the state of the boxes.
+        direction: 1 for forward time, -1 for backward time.
         """
         terms = [motion]
         for k in range(1, _TERMS):
@@ -183,7 +185,7 @@ class _Condition:
         return _series([self.kick * acb(m[2 + row, column] / self.omega, m[row, column]) for m in terms])
 
     def _own(self, i):
-        """Return P[i, i], from the response of box i just before an impact of its own ball."""
+        """Return the diagonal entry P[i, i], which depends on box i just before an impact of its own ball."""
         velocity = self.own_velocity + self.kick * (self.start[2 + i, i] - 1)
         return _series([acb(velocity / self.omega, self.kick * self.start[i, i] - self.place)])
 

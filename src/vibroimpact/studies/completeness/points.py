@@ -37,7 +37,7 @@ from flint import acb, arb, arb_series, ctx  # noqa: E402 (after the dependency 
 
 SYMMETRIC_PAIRS = list(itertools.product((SMALL, LARGE), repeat=2))
 _BITS = 128
-_REACH = 2  # factor that enlarges a tested interval box, so that a zero on its edge is inside
+_REACH = 2  # a tested interval box is enlarged by this factor, so that a zero on its edge is inside
 _NARROWEST = 2.0**-24
 _ISOLATED_WIDTH = 2.0**-20  # half-width to which the interval box around a zero is narrowed
 _MOST = 20_000  # after so many interval boxes per pair of charts, no further ones are quartered
@@ -230,7 +230,7 @@ class _Conditions:
         """Return the number of zeros in an interval box (0, 1 or None), and an interval box around a single zero.
 
         x, y, half: centre and half-width of the interval box. If the number is 1, the interval box enlarged by the
-        factor _REACH has exactly one zero. The number None means that the number is undecided. If the number is 1, the
+        factor _REACH has exactly one zero. None means that the number is undecided. If the number is 1, the
         second result is (centre x, centre y, half-width), otherwise None.
         """
         delta, one, two = self.sides(x, y, half)
@@ -321,7 +321,7 @@ def _excludes_zero(polynomial):
 
 
 def _size(polynomial, reach):
-    """Return a bound on the sum of all terms except the constant one for |t| <= reach."""
+    """Return a bound on the sum of all terms except the constant term for |t| <= reach."""
     return (abs(polynomial) * reach ** _degrees(polynomial)).ravel()[1:].sum()
 
 
