@@ -38,9 +38,9 @@ MOST_FLIGHTS = 4
 
 
 def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame:
-    """Return W_2 = X_2 - Y_2 over two forcing periods, by the theory and as simulated.
+    """Return W_2 = X_2 - Y_2 over two forcing periods, as predicted by the theory and as simulated.
 
-    The theory is (10.10) at the fixed point nearest to the simulated motion.
+    The prediction is (10.10) at the fixed point nearest to the simulated motion.
 
     Parameters
     ----------

@@ -118,7 +118,7 @@ def compute(system, response, clearance, design, band: dict, seed: int, cycles: 
     seed : int
         Seed of the starts in the sweeps.
     cycles, settle : int
-        Length of each run and of its omitted transient, in forcing periods.
+        Length of each run, and length of the omitted transient at its start, in forcing periods.
 
     Returns
     -------

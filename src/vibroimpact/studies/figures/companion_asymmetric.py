@@ -120,7 +120,7 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_
     Parameters
     ----------
     systems : dict
-        Case -> system.
+        System of each case, by name of the case.
     orbits : DataFrame
         Rows of `verdict_table.orbit_rows` for all cases.
     kappa

@@ -147,7 +147,7 @@ def compute(
     observation : dict
         Arguments of `Observation`.
     systems : dict
-        Case -> system. Cases on a path are marked.
+        System of each case, by name of the case. Cases on a path are marked.
 
     Returns
     -------

@@ -69,7 +69,7 @@ def compute(systems: dict) -> dict:
     Parameters
     ----------
     systems : dict
-        Case -> system. The case "equal" is required; the cases in STRONG and WEAK are used.
+        System of each case, by name of the case. The case "equal" is required; the cases in STRONG and WEAK are used.
 
     Returns
     -------

@@ -69,13 +69,13 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     Parameters
     ----------
     systems : dict
-        Case -> system.
+        System of each case, by name of the case.
     epsilon, values
         First and last epsilon, and number of values, evenly spaced on a log scale.
     fit_below : float
         Upper limit of epsilon in the fit of the orders.
     mixed : dict, optional
-        `case` and `label` of a point to leave out, since its fast and slow multipliers cannot be distinguished.
+        `case` and `label` of a fixed point that is left out. Its fast and slow multipliers cannot be distinguished.
 
     Returns
     -------

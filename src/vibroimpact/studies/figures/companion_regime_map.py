@@ -81,14 +81,15 @@ TICKS = 4
 
 
 def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
-    """Return the regimes, the borders by the theory and the marked cases of the map.
+    """Return the regimes of the map, the borders that the theory predicts, and the cases that are marked.
 
     Parameters
     ----------
     table : DataFrame
         Table of a sweep over f10_hat and f20_hat, both evenly spaced.
     systems : dict
-        Case -> system. Cases that differ from `system` only in the forcing amplitudes are marked.
+        System of each case, by name of the case. Cases that differ from `system` only in the forcing amplitudes are
+        marked.
     starts : int
         Number of starts at each point, the first at rest.
 
@@ -152,8 +153,8 @@ def _border(system, cells, series):
 def _squares(cells, square):
     """Yield the list of (centre, count) of the cells in each square of four adjacent cells.
 
-    The count is the number of fixed points in a cell. Neighbours in the list share a side. Squares with an unknown
-    count are left out.
+    The count is the number of fixed points, or of stable fixed points, in a cell. Neighbours in the list share a side.
+    Squares with an unknown count are left out.
 
     square: counts of all cells, with rows for f20_hat and columns for f10_hat; nan if unknown.
     """

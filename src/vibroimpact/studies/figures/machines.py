@@ -94,7 +94,7 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
     frequencies : dict
         `range` [Hz] and `values`, the number of frequencies.
     cycles, settle : int
-        Length of each run and of its omitted transient, in forcing periods.
+        Length of each run, and length of the omitted transient at its start, in forcing periods.
     shown : dict
         `L` [m], `frequency` [Hz] and `cycles` (number of forcing periods) of the motion that is shown in time.
 
