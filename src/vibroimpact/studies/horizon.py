@@ -11,7 +11,7 @@ def departure(system, state, truth: np.ndarray):
     truth: true states at the starts of the forcing cycles, shape (n + 1, 8).
 
     Both errors are arrays of shape (n + 1,), with one value for the start of each cycle. The true error is the largest
-    difference between any component of the state and that of `truth`.
+    difference from `truth` over all components of the state.
 
     The horizon is the time of the first event at which the estimated error exceeds 1e-3, in forcing cycles. The end of
     the run counts as an event. If the estimated error stays below 1e-3, the horizon is inf.

@@ -51,7 +51,7 @@ def branches(
         Number of values in `between` at which to search for motions. A branch that passes none of these values may be
         missed.
     progress : bool, default True
-        Show the progress on standard error, if it is a terminal. "exact" takes about ten seconds.
+        Show the progress on standard error, if it is a terminal. The exact orbits take about ten seconds.
 
     Returns
     -------
