@@ -73,7 +73,10 @@ def resonance(shares) -> str:
 
 
 def recurs(system, state, cycles: int) -> bool:
-    """Return True if the motion comes back near `state` in the second half of `cycles` cycles."""
+    """Return True if the motion from `state` comes back near `state` in the second half of `cycles` cycles.
+
+    RECURRENT defines how near.
+    """
     states = simulate(system, state, cycles, sample_times=np.arange(cycles + 1) * system.period).samples
     extent = np.ptp(states, axis=0)
     away = np.abs(states[cycles // 2 :] - states[0]) / np.where(extent > 0, extent, 1.0)
