@@ -71,37 +71,42 @@ def ensemble(
     systems : System or array_like of System
         One System, or an array of them (a list or nested lists).
     states : array_like
-        Initial states, shape (..., 8). Systems and states broadcast: systems (m, 1) and states (n, 8) give m n runs.
+        Initial states, shape (..., 8). The axes before the last axis are broadcast with the axes of `systems`. For
+        example, systems of shape (m, 1) and states of shape (n, 8) give m n runs.
     cycles, tau0
         As for `simulate`.
     settle : int, default 0
-        Number of cycles before the observation, at most `cycles`. With settle=cycles, only final states are computed.
+        Number of cycles before the observation, at most `cycles`. If settle equals cycles, only final states are
+        computed.
     progress : bool, default False
         Show the number of finished runs on standard error.
     energy : bool, default False
-        Add a field `energy` (ENERGY) with the energy balance of the observed cycles.
+        Add a field `energy` (data type ENERGY) with the energy balance of the observed cycles.
     by_cycle : bool, default False
-        Return an outcome, with the final state, for each observed cycle along an additional last axis.
+        Return one outcome for each observed cycle, along an additional last axis. The final state of an outcome is then
+        the state at the end of its cycle.
 
     Returns
     -------
     ndarray
-        Structured array (OUTCOME, or WITH_ENERGY) in the broadcast shape. If a run fails, its status is not 0
-        (STATUSES), its numbers are nan and its counts 0; other runs are not affected. Without observed cycles,
-        statistics are also nan and counts 0. The averages and the largest |X_i| are exact to rounding. The largest
-        |X_i| is less exact for a box almost at rest near a turning point.
+        Outcomes of the runs in the broadcast shape. The data type is OUTCOME, or WITH_ENERGY if `energy` is True. If a
+        run fails, its status is not 0 (STATUSES gives the meaning), its numbers are nan and its counts are 0. Other
+        runs are not affected. If settle equals cycles, the statistics of each run are nan and its counts are 0. The
+        averages and the largest |X_i| are exact to rounding, with one exception. If a box is almost at rest near a
+        turning point, its largest |X_i| is less exact.
 
     Raises
     ------
     ValueError
-        If an argument is malformed, or if systems and states do not broadcast.
+        If an argument is malformed, or if the shapes of systems and states cannot be broadcast.
 
     Notes
     -----
-    The numbers of impacts are those of `simulate`. They may differ in grazing contacts that the certificate of a run
-    counts as undecided, and in hops of a ball below four units of rounding. Without undecided contacts, the error of
-    the final state is at most 2.6 times the estimate in the certificate (docs/engine.md). Use `simulate` for events,
-    samples or a certificate.
+    `simulate` gives the same numbers of impacts, with two exceptions. First, a grazing contact may be counted
+    differently if the certificate of the run counts it as undecided. Second, an impact may be counted differently if
+    the ball then hops by less than four units of rounding. If a run has no undecided contacts, the error of its final
+    state is at most 2.6 times the estimate in the certificate (docs/engine.md). Use `simulate` for events, samples or a
+    certificate.
 
     Examples
     --------
@@ -116,7 +121,8 @@ def ensemble(
     windows = max(cycles - settle, 1) if by_cycle else 1
     outcomes = np.empty((*numbers.shape, windows), WITH_ENERGY if energy else OUTCOME)
     filled, starts = outcomes.reshape(numbers.size, windows), states.reshape(-1, 8)
-    order = np.argsort(numbers, axis=None, kind="stable")  # runs of one system share its tables
+    # The runs of one system come next to each other, so that they share the flow tables of this system.
+    order = np.argsort(numbers, axis=None, kind="stable")
     share = -(-numbers.size // cores())
     size = max(min(MOST_RUNS, share, max(share // SHARES, 8 * WIDTH)), 1)
     shared = known, begins, numbers.ravel(), starts, (settle, cycles, 1 if by_cycle else cycles - settle), filled
@@ -126,19 +132,26 @@ def ensemble(
 
 
 def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
-    """Return the final states (n, 8) of one system after `cycles` cycles, from initial states (n, 8) at tau = 0.
+    """Return the final states of one system after `cycles` cycles, shape (n, 8).
 
-    Raise ArithmeticError if a run fails.
+    states: initial states at tau = 0, shape (n, 8). Raise ArithmeticError if a run fails.
     """
     outcomes = ensemble(system, states, cycles, settle=cycles)
     failed = np.flatnonzero(outcomes["status"] != FINISHED)
     if len(failed):
-        raise ArithmeticError(f"the run from initial state {failed[0]}: {STATUSES[int(outcomes['status'][failed[0]])]}")
+        raise ArithmeticError(
+            f"the run from the initial state with index {failed[0]} failed: "
+            f"{STATUSES[int(outcomes['status'][failed[0]])]}"
+        )
     return outcomes["final"]
 
 
 def _combined(systems, states):
-    """Return the distinct systems and, in the broadcast shape, the system index and the initial state of each run."""
+    """Return the distinct systems, the system index of each run and the initial state of each run.
+
+    The axes of the indices, and the axes of the states before the last, are the broadcast axes of `systems` and
+    `states`.
+    """
     states = states_array("states", states)
     if states.ndim == 0 or states.shape[-1] != 8:
         raise ValueError(f"states: needs shape (..., 8), got {states.shape}")
@@ -148,23 +161,24 @@ def _combined(systems, states):
         shape = np.broadcast_shapes(systems.shape, states.shape[:-1])
     except ValueError:
         raise ValueError(
-            f"states: needs shape (..., 8), where the axes before the last broadcast with the shape {systems.shape} of "
-            f"systems, got {states.shape}"
+            f"states: needs shape (..., 8), whose axes before the last axis can be broadcast with the shape "
+            f"{systems.shape} of systems, got {states.shape}"
         ) from None
     numbers = np.array(numbers, dtype=int).reshape(systems.shape)
     return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))
 
 
 def _run(known, begins, numbers, starts, stages, outcomes, places):
-    """Run the initial states with the indices `places` and write their results to `outcomes`.
+    """Simulate the runs whose indices are in `places`, and write their results to `outcomes`.
 
-    stages: as for `loop.Piece`.
+    known, begins: systems, and the initial time for each system. numbers: system index of each run. starts: initial
+    state of each run. stages: numbers of cycles as in `loop.Piece`.
     """
     (settle, cycles, length), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
     owners, energy, shape = numbers[places] - first, "energy" in outcomes.dtype.names, (len(places), outcomes.shape[1])
     systems, begins = known[first : first + owners[-1] + 1], begins[first : first + owners[-1] + 1]
     scalars, rates = numbers_of(systems, loop.TABLE)
-    # lanes are unsuitable for systems with too many steps per flight, or with potentials that lose digits
+    # A system is not suitable for lanes if its flights need too many steps or if its potentials lose digits.
     alone = abs(np.log(scalars[:, RATE] / scalars[:, OMEGA])) > MOST_LOG_RATIO
     potentials, drifts = np.empty((len(systems), 4, 0, 6, 6)), np.empty((len(systems), 4, 0))
     if settle < cycles:
@@ -196,7 +210,11 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 
 
 def _single_run(system, state, begin, stages, final, statistics):
-    """Compute a run by the event loop; fill `final` (k, 8) and `statistics` (k, STATISTICS); return the status."""
+    """Compute a run by the event loop instead of in a lane; return its status.
+
+    The state at the end of each of the k windows is written to `final`, shape (k, 8). The statistics of each window are
+    written to `statistics`, shape (k, STATISTICS).
+    """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]
     for cycle, stop in pairwise(stops):

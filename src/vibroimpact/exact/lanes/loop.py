@@ -1,4 +1,4 @@
-"""Simulate many runs, eight at a time in vector lanes; pass events that the lanes cannot handle to the event loop."""
+"""Simulate many runs, eight at a time in vector lanes; leave events that lanes cannot handle to the event loop."""
 
 import math
 from typing import NamedTuple
@@ -18,18 +18,23 @@ from vibroimpact.exact.lanes import rows, steps
 from vibroimpact.exact.lanes.rows import STATISTICS, STATISTICS_AT
 from vibroimpact.exact.lanes.statistics import accumulate_statistics, find_turns, open_or_close
 
-TABLE = 64  # times in a flow table; few, since the event loop handles only few events
-NO_REST_DISTANCE = 1e-6  # a ball farther from a wall does not come to rest in one call of `run_until`
-INTERRUPT_INTERVAL = 500_000  # steps between two checks for an interrupt, about 20 ms
+TABLE = 64  # number of times in a flow table; a short table suffices, since the event loop handles few events
+NO_REST_DISTANCE = 1e-6  # a ball farther from a wall than this does not come to rest in one call of `run_until`
+INTERRUPT_INTERVAL = 500_000  # number of steps between two checks for an interrupt; these steps take about 20 ms
 
 
 class Piece(NamedTuple):
     """A piece of work: n runs and their results.
 
-    numbers, rates, phases, potentials, drifts: data of each system.
-    owners (n,): index of the system of each run. starts (n, 8): initial states.
-    stages: number of cycles before the observation, in all, and in each of its k windows.
-    status (n,), final (n, k, 8), statistics (n, k, STATISTICS): results.
+    numbers, rates: scalars and rate matrices of each system, from `flow.numbers_of`.
+    phases: forcing phase of each system at the start of its runs, as a float and its rounding remainder.
+    potentials, drifts: potentials and drifts of each system, from `energy.potentials_of`.
+    owners: index of the system of each run, shape (n,).
+    starts: initial state of each run, shape (n, 8).
+    stages: number of cycles before the observation, in the whole run, and in each of the k windows of the observation.
+    status: status of each run, shape (n,).
+    final: state of each run at the end of each window, shape (n, k, 8).
+    statistics: statistics of each run in each window, shape (n, k, STATISTICS).
     """
 
     numbers: np.ndarray
@@ -48,13 +53,20 @@ class Piece(NamedTuple):
 class Memory(NamedTuple):
     """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
-    runs, constants: arrays with one column for each lane (module `rows`). members: index of the initial state in each
-    lane, or -1. slots: index of the slot that each lane uses. counters: counters of the event log for each lane.
+    A lane is one of the eight runs that advance together in vector instructions. These fields have an entry per lane:
+    runs, constants: numbers of the runs and constants of their systems, one column per lane (module `rows`).
+    members: index of the initial state, or -1 if the lane is free.
+    slots: index of the slot that the lane uses.
+    counters: counters of the event log.
 
-    A slot contains the flow tables of one system. owners: index of the system in each slot, or -1. made: True for each
-    contact state with computed tables. series, rotations: tables. known: constants of the system in each slot.
+    A slot contains the flow tables of one system. These fields have an entry per slot:
+    owners: index of the system, or -1 if the slot is empty.
+    made: for each contact state, True if its tables are computed.
+    series, rotations: flow tables.
+    known: constants of the system.
 
-    begun: number of initial states begun or skipped. work, log, statistics, change: workspace.
+    begun: number of initial states that are begun or skipped.
+    work, log, statistics, change: workspace.
     """
 
     runs: np.ndarray
@@ -99,8 +111,8 @@ def memory() -> Memory:
 def run_lanes(piece, memory):
     """Simulate the runs of a piece of work in vector lanes; return True when all runs have ended.
 
-    Return False for a pause to handle interrupts; then call again. Initial states whose status is not FINISHED are
-    skipped.
+    If the function returns False, it has paused so that the caller can handle an interrupt. Then call it again. A run
+    is skipped if its status before the first call is not FINISHED.
     """
     m, done = memory, 0
     while True:
@@ -160,7 +172,10 @@ def begin_run(piece, n, lane, m):
 
 @inlined_source
 def _slot_of(piece, owner, m):
-    """Return the slot with the tables of a system; compute missing tables in an unused slot."""
+    """Return the slot with the flow tables of a system.
+
+    If no slot has these tables, compute them in a slot that no lane uses.
+    """
     for slot in range(WIDTH):
         if m.owners[slot] == owner:
             return slot
@@ -181,7 +196,10 @@ def _slot_of(piece, owner, m):
 
 @inlined_source
 def _fill_constants(piece, owner, flow, change, step, c):
-    """Write the constants of a system (see `rows`) to c (CONSTANTS,)."""
+    """Write the constants of a system to `c`, shape (CONSTANTS,); the module `rows` lists the constants.
+
+    step: duration h of a step. change: exp(A h) - 1 and its rounding remainders.
+    """
     q = flow.coefficients
     for row in range(4):
         for k in range(6):
@@ -221,7 +239,10 @@ def _motion_of(runs, lane):
 
 @inlined_source
 def _handle_outcome(piece, lane, m):
-    """Continue the run in a lane after `step_to_event` stopped it; return PAUSED, or the status of an ended run."""
+    """Continue the run in a lane after `step_to_event` stopped it.
+
+    Return PAUSED if the run has not ended, otherwise its status.
+    """
     flow, squares = _system_of(piece, lane, m)
     if m.runs[rows.OUTCOME, lane] == steps.DOUBTFUL:
         return _run_by_events(piece, flow, squares, lane, m)
@@ -234,9 +255,9 @@ def _handle_outcome(piece, lane, m):
 
 @in_place
 def _end_window(piece, flow, squares, motion, lane, m):
-    """Write the results of the window that ends now, if any; return True at the end of the run.
+    """Write the results of the observation window that ends now, if there is one; return True at the end of the run.
 
-    Otherwise begin the next window.
+    If the run has not ended, begin the next window and return False.
     """
     (settle, cycles, length), n = piece.stages, m.members[lane]
     stop, watched = int(m.runs[rows.STOP, lane]), m.runs[rows.WATCHED, lane] > 0.0
@@ -273,9 +294,10 @@ def _write_statistics(m, lane):
 
 @inlined_source
 def _run_by_events(piece, flow, squares, lane, m):
-    """Continue the run in a lane by the event loop; return the status.
+    """Continue the run in a lane by the event loop, until both balls fly or the run ends; return the status.
 
-    The status is PAUSED when both balls fly, so that the lane can go on.
+    If both balls fly, the status is PAUSED, and the lane continues the run. Otherwise the run has ended, and the status
+    is its final status.
     """
     runs, counters, unsampled = m.runs[:, lane], m.counters[lane], (0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[rows.FIRST, lane], m.constants[rows.FIRST_TAIL, lane]
@@ -310,7 +332,10 @@ def _run_by_events(piece, flow, squares, lane, m):
 
 @inlined_source
 def _add_events(flow, squares, leaving, progress, lane, m):
-    """Add the statistics of a part of a run, from `leaving` to `progress`, to those in its lane."""
+    """Add the statistics of a part of a run to the statistics of the run in its lane.
+
+    leaving, progress: `Progress` of the run at the start and at the end of the part.
+    """
     noted, motion = int(m.counters[lane, EVENTS]), leaving.motion
     departure = Departure(motion.boxes, motion.balls, motion.walls, leaving.elapsed, leaving.phase)
     arrival = progress.motion.boxes, progress.elapsed, progress.phase
@@ -321,7 +346,10 @@ def _add_events(flow, squares, leaving, progress, lane, m):
 
 @inlined_source
 def _make_tables(flow, rates, progress, made, change):
-    """Compute the missing flow tables for all contact states that may occur in the next events."""
+    """Compute the missing flow tables of all contact states that may occur in the next events.
+
+    made: for each contact state, True if its tables are computed. A ball that is near a wall may stick to it.
+    """
     motion = progress.motion
     modes = mode_of(motion.walls)
     for i in range(2):

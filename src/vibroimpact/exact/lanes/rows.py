@@ -75,26 +75,27 @@ and the truncation error of a position is t / (n + 1) times as large.
 """
 SECOND = ORDER + 1
 """First row of the polynomial of box 2 in the workspace (2 ORDER + 2, 8); the polynomial of box 1 starts at row 0."""
-TERMS = 7  # Taylor terms that suffice to find the time at which a box reverses its motion
+TERMS = 7  # number of Taylor terms that suffice to find the time at which a box reverses its motion
 
 
 @inlined
 def least(a, b):
-    """Return the smaller number in each lane."""
+    """Return the smaller of the numbers a and b in each lane."""
     return where(a < b, a, b)
 
 
 @inlined
 def most(a, b):
-    """Return the larger number in each lane."""
+    """Return the larger of the numbers a and b in each lane."""
     return where(a > b, a, b)
 
 
 @inlined
 def expand(c, x1, x2, v1, v2, s, k, work):
-    """Write the Taylor coefficients of order 0 to ORDER of both box positions to `work`.
+    """Write the Taylor coefficients of both box positions, from order 0 to ORDER, to `work`.
 
-    c: constants. s, k: sine and cosine of the forcing phase.
+    c: constants of the systems. x1, x2, v1, v2: positions and velocities of the boxes. s, k: sine and cosine of the
+    forcing phase.
     """
     omega = load(c, OMEGA)
     store(work, 0, x1)
@@ -116,7 +117,10 @@ def expand(c, x1, x2, v1, v2, s, k, work):
 
 @inlined
 def evaluate(work, first, t):
-    """Return the value and the derivative at t of the polynomial with coefficients from row `first` on."""
+    """Return the value and the derivative of a polynomial at t.
+
+    The coefficients of the polynomial are in the rows of `work` from row `first` on.
+    """
     value, slope = load(work, first + ORDER), 0.0 * t
     for m in range(ORDER - 1, -1, -1):
         slope = fused(slope, t, value)

@@ -1,11 +1,13 @@
 """Compute the statistics of runs in an ensemble: impacts, displacements of boxes, speeds of balls, integrals.
 
-Lanes add up statistics flight by flight (`observe`). The event loop adds them up event by event
-(`accumulate_statistics`). Integrals, such as the work of the forces, are differences of potentials (`energy.Squares`).
+A lane is one of the eight runs that advance together in vector instructions. In lanes, the statistics are added up
+flight by flight (`observe`). In the event loop, they are added up event by event (`accumulate_statistics`). Integrals,
+such as the work of the forces, are differences of potentials (`energy.Squares`).
 
-A turn is an instant at which a box reverses its motion. If Bernstein coefficients show that a box may reach its largest
-displacement so far at a turn, the turn is stored. A turn with a larger displacement may replace it. The stored turns
-are computed for all lanes together (`find_turns`). All lanes would wait if a turn were computed in one.
+A turn is an instant at which a box reverses its motion. Bernstein coefficients bound the displacement of the box at a
+turn. If this displacement may exceed the largest displacement so far, the turn is stored. A later turn with a larger
+displacement may replace the stored turn. A computation in one lane makes all lanes wait. Therefore the displacements at
+the stored turns are computed for all lanes together (`find_turns`).
 """
 
 import math
@@ -40,9 +42,9 @@ STEPS = 4  # number of Newton steps to find the time at which a box reverses its
 
 @compiled
 def accumulate_run(flow, squares, start, events, final, end, statistics):
-    """Add the statistics of a finished run to `statistics` (STATISTICS,).
+    """Add the statistics of a finished run to `statistics`, shape (STATISTICS,).
 
-    end: duration and final phase of the run.
+    start, final: initial and final state. end: duration of the run, and forcing phase at the end of the run.
     """
     leaving, (duration, phase) = first_departure(start, end[1]), end
     last = Motion(*first_departure(final, phase)[:3], (0, 0), math.sin(phase), math.cos(phase))
@@ -53,9 +55,10 @@ def accumulate_run(flow, squares, start, events, final, end, statistics):
 
 @in_place
 def accumulate_statistics(flow, squares, departure, events, count, arrival, statistics):
-    """Add the statistics of a part of a run to `statistics` (STATISTICS,), except those of `open_or_close`.
+    """Add the statistics of a part of a run to `statistics`, shape (STATISTICS,).
 
-    departure: start of the part. count: number of events. arrival: boxes, time and phase at the end.
+    The contributions of `open_or_close` are not included. departure: state at the start of the part. count: number of
+    events in the part. arrival: state of the boxes, time and forcing phase at the end of the part.
     """
     leaving, (final, time, phase) = departure, arrival
     early, last = (math.sin(leaving.phase), math.cos(leaving.phase)), (math.sin(phase), math.cos(phase))
@@ -77,7 +80,10 @@ def accumulate_statistics(flow, squares, departure, events, count, arrival, stat
 
 @inlined
 def open_or_close(flow, squares, motion, sign, statistics):
-    """Add the statistics due to the start (sign -1) or the end (sign +1) of an observation."""
+    """Add the contributions of the start or the end of an observation to `statistics`.
+
+    sign: -1 at the start, +1 at the end. motion: state at this time.
+    """
     boxes, q = motion.boxes, flow.coefficients
     add_potentials(squares, mode_of(motion.walls), boxes, motion.sine, motion.cosine, sign, statistics[INTEGRALS:])
     statistics[STORED] += sign * energy_stored(q.ground, -q.k12, q.epsilon, boxes, motion.balls)
@@ -87,9 +93,10 @@ def open_or_close(flow, squares, motion, sign, statistics):
 
 @inlined
 def _add_potential_drops(squares, before, after, forcing, sums):
-    """Add the decrease of the potentials at an event to sums (k,).
+    """Add the decreases of the k potentials at an event to `sums`, shape (k,).
 
-    before, after: (contact state, boxes). forcing: sine and cosine of the phase.
+    before, after: contact state and state of the boxes just before and just after the event. forcing: sine and cosine
+    of the forcing phase.
     """
     (mode, boxes), (later, others), (sine, cosine) = before, after, forcing
     if mode != later:
@@ -117,7 +124,7 @@ def _count(q, event, statistics):
 
 @inlined
 def _before(q, boxes, event):
-    """Return the boxes just before an event, from `boxes` just after it."""
+    """Return the state of the boxes just before an event; `boxes` is their state just after the event."""
     if event[3] != IMPACT:
         return boxes
     i, approach = int(event[1]) - 1, event[contact.APPROACH]
@@ -126,7 +133,10 @@ def _before(q, boxes, event):
 
 @inlined_source
 def _add_flight(flow, squares, motion, end, length, statistics):
-    """Add the statistics of a flight of duration `length`, except for the potentials at its ends."""
+    """Add the statistics of a flight of duration `length`, without the differences of potentials.
+
+    motion: state at the start of the flight. end: state of the boxes at the end of the flight.
+    """
     mode = mode_of(motion.walls)
     for i in range(2):
         statistics[LARGEST + i] = max(statistics[LARGEST + i], abs(motion.boxes[i]), abs(end[i]))
@@ -148,9 +158,9 @@ def _add_flight(flow, squares, motion, end, length, statistics):
 
 @inlined
 def _add_piece(p, low, high, i, wall, statistics):
-    """Update the statistics of module i with the motion of box i between the times `low` and `high`.
+    """Update the statistics of module i for a piece of a flight, between the times `low` and `high`.
 
-    p (8,): Taylor polynomial of the box.
+    p: Taylor coefficients of the position of box i, shape (8,). wall: wall to which ball i sticks, or 0.
     """
     x, last, v, w = value(p, low), value(p, high), slope(p, low), slope(p, high)
     path = abs(last - x)
@@ -166,14 +176,14 @@ def _add_piece(p, low, high, i, wall, statistics):
 
 @inlined
 def observe(runs, c, work, integrals, flight, hits, early, arrival):
-    """Add the statistics of a flight in each lane and of an impact at its end.
+    """Add the statistics of the flights that end in this pass, and of the impacts at their ends, in each lane.
 
-    flight: mask of the lanes whose flight ends, last step, duration, and five times the error bound of Hermite's
-    polynomial.
-    hits: mask of the lanes with an impact, for each module.
-    early: boxes and forcing at the start of the last step.
-    arrival: values at the end: box positions, box velocities before and after the impact, ball velocities before the
-    impact, forcing.
+    flight: mask of the lanes in which a flight ends, duration of its last step, duration of the flight, and five times
+    the error bound of Hermite's polynomial.
+    hits: for each module, mask of the lanes in which the flight ends with an impact in this module.
+    early: state of the boxes, and sine and cosine of the forcing phase, at the start of the last step.
+    arrival: numbers at the end of the flight: box positions, box velocities before and after the impact, ball
+    velocities before the impact, and sine and cosine of the forcing phase.
     """
     (there, t, time, wrong), (boxes, late, after, balls, forcing) = flight, arrival
     watched, third = (load(runs, rows.WATCHED) > 0.0) & there, t * (1 / 3)
@@ -207,21 +217,24 @@ def _add(runs, mask, place, value):
 def may_turn_beyond(record, x, v, later, v_later, third):
     """Return True in lanes where a box reverses its motion and a middle Bernstein coefficient exceeds `record`.
 
-    record: largest displacement so far, less an error margin.
+    record: largest displacement so far, minus an error margin. x, v, later, v_later: position and velocity of the box
+    before and after a step. third: a third of the duration of the step.
     """
     return (v * v_later < 0.0) & (most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > record)
 
 
 @inlined
 def keep_turns(runs, c, work, turns, wrong, early, late, step):
-    """Store turning points of boxes whose displacement may be the largest so far.
+    """Store the turns (turning points of a box) at which the displacement may be the largest so far.
 
-    early, late: boxes and forcing before and after the step. wrong: five times the error bound of Hermite's polynomial.
+    turns: for each box, mask of the lanes with such a turn. early, late: state of the boxes, and sine and cosine of the
+    forcing phase, before and after the step. wrong: five times the error bound of Hermite's polynomial. step: duration
+    of the step.
     """
     wrong = 0.2 * wrong
     for i in range(2):
         x, v, y, w, row = early[i], early[2 + i], late[i], late[2 + i], rows.TURNS_AT + rows.TURN * i
-        # split Hermite's polynomial near the turning point; the coefficients of the parts are close bounds
+        # Hermite's polynomial is split near the turn, since the coefficients of its parts give closer bounds.
         part, p, q = v / (v - w), fused(step * (1 / 3), v, x), fused(step * (-1 / 3), w, y)
         first, middle, last = fused(part, p - x, x), fused(part, q - p, p), fused(part, y - q, q)
         before, after = fused(part, middle - first, first), fused(part, last - middle, middle)
@@ -231,20 +244,24 @@ def keep_turns(runs, c, work, turns, wrong, early, late, step):
         if count(turned) == 0:
             continue
         lowest = abs(fused(part, after - before, before)) - wrong
-        # compute the stored turning points, if one of them may have a larger displacement
+        # If a stored turn may have a larger displacement than the new turn, the stored turns are computed now.
         if count(turned & (load(runs, row + rows.KEPT) > 0.0) & (load(runs, row + rows.HIGHEST) > lowest)) > 0:
             find_turns(runs, c, work)
         is_late, record = part > 0.5, load(runs, STATISTICS_AT + LARGEST + i)
         for k in range(6):
             replace_rows(runs, row + k, turned, (where(is_late, late[k], early[k]),))
         since = step * where(is_late, part - 1.0, part)
-        replace_rows(runs, row + rows.SINCE, turned, (since, highest, 1.0))  # rows SINCE, HIGHEST and KEPT
+        # The three values belong to the rows SINCE, HIGHEST and KEPT.
+        replace_rows(runs, row + rows.SINCE, turned, (since, highest, 1.0))
         replace_rows(runs, STATISTICS_AT + LARGEST + i, turned, (most(record, lowest),))
 
 
 @in_place
 def find_turns(runs, c, work):
-    """Compute the displacements of the boxes at the stored turning points, and update the largest displacements."""
+    """Compute the displacements of the boxes at the stored turns, and update the largest displacements.
+
+    A turn is a time at which a box reverses its motion.
+    """
     for i in range(2):
         row, first = rows.TURNS_AT + rows.TURN * i, rows.SECOND * i
         kept = load(runs, row + rows.KEPT) > 0.0
@@ -256,7 +273,7 @@ def find_turns(runs, c, work):
                 later = t - _slope(work, first, t) / _bend(work, first, t)
                 t = where(abs(later) <= load(c, rows.STEP), later, t)
             value, slope = evaluate(work, first, t)
-            # displacement at the vertex of a parabola
+            # The displacement at the turn is that of the vertex of a parabola with this value, slope and curvature.
             turned = abs(value - 0.5 * slope * slope / _bend(work, first, t))
             record = load(runs, STATISTICS_AT + LARGEST + i)
             replace_rows(runs, STATISTICS_AT + LARGEST + i, kept & (turned > record), (turned,))
@@ -265,7 +282,10 @@ def find_turns(runs, c, work):
 
 @inlined
 def _slope(work, first, t):
-    """Return the derivative at t of the polynomial from row `first` on, up to the order `rows.TERMS`."""
+    """Return the derivative of a polynomial at t, without the terms above the order `rows.TERMS`.
+
+    The coefficients of the polynomial are in the rows of `work` from row `first` on.
+    """
     total = 0.0 * t
     for m in range(rows.TERMS, 0, -1):
         total = fused(total, t, m * load(work, first + m))
@@ -274,7 +294,10 @@ def _slope(work, first, t):
 
 @inlined
 def _bend(work, first, t):
-    """Return the second derivative at t of the polynomial from row `first` on, up to the order `rows.TERMS`."""
+    """Return the second derivative of a polynomial at t, without the terms above the order `rows.TERMS`.
+
+    The coefficients of the polynomial are in the rows of `work` from row `first` on.
+    """
     total = 0.0 * t
     for m in range(rows.TERMS, 1, -1):
         total = fused(total, t, m * (m - 1.0) * load(work, first + m))

@@ -11,10 +11,11 @@ that the two middle coefficients are at most 1 - B h^4 / 72 in magnitude. Their 
 margin covers the error. A bound on rounding errors is also subtracted from 1. B follows from the energy of the boxes,
 which grows by at most the work of the force.
 
-A lane without a proof waits. Once enough lanes wait, `step_to_event` advances all of them in one pass. Taylor
-polynomials of both boxes give the time of an impact. The Bernstein coefficients up to this time prove that no impact
-happens earlier. If the proof fails, the next pass tries half the time. The event loop handles all other cases (chatter
-to be completed, balls at rest, simultaneous events, any doubt).
+A lane waits if its next step has no proof. Once enough lanes wait, `step_to_event` advances all waiting lanes in one
+pass. Taylor polynomials of both boxes give the time of an impact. The Bernstein coefficients up to this time prove that
+no impact happens earlier. If this proof fails, the next pass tries half of the time. The event loop handles all other
+cases: the completion of a chatter (impacts at one wall in ever shorter flights), balls at rest on a wall, simultaneous
+events, and any doubt.
 
 `vibroimpact.system.restitution` lists all implementations of the impact law, such as the one here.
 """
@@ -45,17 +46,18 @@ RUNNING, WAITING, STOPPED, DOUBTFUL = 0.0, 1.0, 2.0, 3.0
 RUNNING: the run goes on. WAITING: the next step is not proved to be free of impacts, so that the lane waits for a pass.
 STOPPED: the run has reached the end of a window. DOUBTFUL: the lane needs the event loop."""
 
-SHORTEST = 1 / 32  # up to this fraction of a step, a failed proof hands the run to the event loop
-LONGEST = 6.0  # phase change [rad] after which sine and cosine are computed again; below 2 pi
+SHORTEST = 1 / 32  # if the proof fails for this fraction of a step or less, the event loop continues the run
+LONGEST = 6.0  # largest phase change [rad] in a flight, below 2 pi; the next flight computes sine and cosine anew
 ROUNDED = 8.0 * 2.0**-52  # relative bound on the rounding error of a few operations
-SAME_TIME = 2.0**-48  # a run stops if at most this time remains
+SAME_TIME = 2.0**-48  # a run stops if at most this time remains until the end of a window
 
 
 @in_place
 def advance_lanes(runs, c, work, enough):
-    """Advance runs (STATES, 8) until `enough` lanes have no proof of a step without impact.
+    """Advance the runs in all lanes step by step, until `enough` lanes wait; return the number of steps.
 
-    Return the number of steps. c (CONSTANTS, 8): constants.
+    A lane waits if its next step is not proved to be free of impacts. runs: numbers of the runs, shape (STATES, 8).
+    c: constants of their systems, shape (CONSTANTS, 8).
     """
     x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
     passed, reach, trial = load_rows(runs, rows.PASSED, 3)
@@ -68,7 +70,7 @@ def advance_lanes(runs, c, work, enough):
     w1, w2, r1, r2 = x1 - fused(passed, u1, y1), x2 - fused(passed, u2, y2), v1 - u1, v2 - u2
     steps = 0
     while True:
-        # compute a step and its proof
+        # A step and its proof are computed in all lanes.
         a1, a2 = x1 + _change(c, 0, x1, x2, v1, v2, s, k), x2 + _change(c, 1, x1, x2, v1, v2, s, k)
         b1, b2 = v1 + _change(c, 2, x1, x2, v1, v2, s, k), v2 + _change(c, 3, x1, x2, v1, v2, s, k)
         later = passed + step
@@ -78,7 +80,7 @@ def advance_lanes(runs, c, work, enough):
         ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
         if count(alive & ~ok) >= enough:
             break
-        # store the turning points at which a box may reach its largest displacement
+        # The turning points are stored at which a box may exceed its largest displacement so far.
         wrong, s_later, k_later = 1.0 - limit, s + fused(k, sa, s * ca), k + fused(k, ca, -s * sa)
         turns1 = ok & may_turn_beyond(most1 - wrong, x1, v1, a1, b1, third)
         turns2 = ok & may_turn_beyond(most2 - wrong, x2, v2, a2, b2, third)
@@ -86,7 +88,7 @@ def advance_lanes(runs, c, work, enough):
             early, late = (x1, x2, v1, v2, s, k), (a1, a2, b1, b2, s_later, k_later)
             keep_turns(runs, c, work, (turns1, turns2), wrong, early, late, step)
             most1, most2 = _records(runs)
-        # take the step in the lanes with a proof
+        # Only the lanes with a proof take the step.
         s, k = where(ok, s_later, s), where(ok, k_later, k)
         x1, x2, v1, v2 = where(ok, a1, x1), where(ok, a2, x2), where(ok, b1, v1), where(ok, b2, v2)
         passed, limit = where(ok, later, passed), where(ok, limit - less, limit)
@@ -103,7 +105,7 @@ def advance_lanes(runs, c, work, enough):
 
 @inlined
 def _records(runs):
-    """Return the largest displacements of both boxes so far, each inf in lanes that are not observed."""
+    """Return the largest displacements of both boxes so far; they are inf in lanes whose run is not observed."""
     watched, largest = load(runs, rows.WATCHED) > 0.0, load_rows(runs, STATISTICS_AT + LARGEST, 2)
     return where(watched, largest[0], math.inf), where(watched, largest[1], math.inf)
 
@@ -122,11 +124,13 @@ class Bodies(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """End of a step in each lane, which may be an impact.
+    """End of a step in each lane; the end may be an impact.
 
-    time: duration of the step. meets: True if a ball meets a wall at the end.
-    missed: True if the time of an expected impact is not found.
-    first: True if the ball that meets a wall is in module 1. walls: wall that each ball approaches.
+    time: duration of the step.
+    meets: True if a ball meets a wall at the end of the step.
+    missed: True if an impact is expected but its time is not found.
+    first: True if the ball that meets a wall is in module 1.
+    walls: for each ball, the wall that it approaches.
     at_once: True if a ball is already on its wall, so that `time` is 0.
     """
 
@@ -139,7 +143,11 @@ class Contact(NamedTuple):
 
 
 class Clock(NamedTuple):
-    """Forcing phase, its rounding remainder, full turns, sine and cosine, and the time left until the run stops."""
+    """Forcing phase and time of the run in each lane.
+
+    phase, tail: forcing phase and its rounding remainder. turns: number of full turns of the phase. sine, cosine: sine
+    and cosine of the phase. left: time until the run stops.
+    """
 
     phase: Lanes
     tail: Lanes
@@ -153,8 +161,8 @@ class Clock(NamedTuple):
 def step_to_event(runs, c, work, integrals):
     """Advance each waiting run by its trial step, or to an impact in this step.
 
-    If an earlier impact cannot be excluded, the run stays and its next trial step is half as long. Return the number of
-    runs that need the event loop or are at the end of a window.
+    If an impact before this time cannot be excluded, the run does not move, and the next trial step is half as long.
+    Return the number of runs that need the event loop or are at the end of a window.
     """
     pending, leaves = load(runs, rows.OUTCOME) == WAITING, load(runs, rows.TRIAL) < 0.0
     x1, x2, v1, v2, y1, y2, u1, u2, s, k = load_rows(runs, rows.X1, 10)
@@ -204,7 +212,10 @@ def step_to_event(runs, c, work, integrals):
 
 @inlined
 def _locate(runs, c, work, now, leaves):
-    """Return the Contact at the end of a step, at the next impact or after the longest allowed time."""
+    """Return the Contact at the end of the trial step in each lane.
+
+    The step ends at the next impact, or else after its longest allowed time.
+    """
     x1, x2, v1, v2, y1, y2, u1, u2 = now
     (touch1, touch2), (s, k) = load_rows(runs, rows.TOUCH1, 2), load_rows(runs, rows.SINE, 2)
     due, step = load(runs, rows.DUE), load(c, rows.STEP)
@@ -227,9 +238,9 @@ def _locate(runs, c, work, now, leaves):
 
 @inlined
 def _arrive(runs, work, t, elapsed):
-    """Return the Bodies after a step t, and the rounding remainders of the ball positions.
+    """Return the Bodies after a step of duration t, and the rounding remainders of the ball positions.
 
-    elapsed: time since the start of the flight.
+    elapsed: time from the start of the flight to the end of the step.
     """
     x1, v1 = evaluate(work, 0, t)
     x2, v2 = evaluate(work, SECOND, t)
@@ -269,9 +280,10 @@ def _advance_clock(runs, c, elapsed):
 
 @inlined
 def _collide(c, then, end, clock, rounding):
-    """Return (wall, box velocity, ball velocity, mask `plain`) for the impact in each lane.
+    """Return the wall of the impact in each lane, the box and ball velocities after it, and the mask `plain`.
 
-    An impact is not plain if it begins a chatter that ends soon, or if relative velocities may be rounding errors.
+    An impact is not plain in two cases: it begins a chatter (impacts at one wall in ever shorter flights) that ends
+    soon, or its relative velocities may be rounding errors.
     """
     x1, x2, v1, v2, y1, y2, u1, u2 = then
     kappa, epsilon = load(c, rows.KAPPA), load(c, rows.EPSILON)
@@ -298,7 +310,11 @@ def _collide(c, then, end, clock, rounding):
 
 @inlined
 def _begin_flight(runs, c, done, start, clock):
-    """Write the start of the next flight, and the limit for its first step, in the lanes of the mask `done`."""
+    """Write the start of the next flight to the rows of `runs`, in the lanes of the mask `done`.
+
+    The rows also contain the limit on the Bernstein coefficients in the first step of the flight. start: Bodies at the
+    start of the flight.
+    """
     x1, x2, v1, v2, _, _, u1, u2 = start
     step, across = load(c, rows.STEP), x1 - x2
     energy = fused(x1, x1, load(c, rows.GROUND) * (x2 * x2))
@@ -315,9 +331,9 @@ def _begin_flight(runs, c, done, start, clock):
 
 @inlined
 def _limit(c, size, t, rounding):
-    """Return the limit on the middle Bernstein coefficients of a step of length t.
+    """Return the limit on the middle Bernstein coefficients of a step of duration t.
 
-    size: bound on the root of twice the energy of the boxes.
+    size: bound on the square root of twice the energy of the boxes.
     """
     square = t * t
     bend = fused(load(c, rows.BEND), size, load(c, rows.BEND_FORCE))
@@ -326,21 +342,27 @@ def _limit(c, size, t, rounding):
 
 @inlined
 def _change(c, k, x1, x2, v1, v2, s, cosine):
-    """Return entry k < 4 of (exp(A h) - I) z, the change of z = [X1, X2, X1', X2', sin, cos] in a step h."""
+    """Return entry k < 4 of (exp(A h) - I) z, where z = [X1, X2, X1', X2', sin, cos].
+
+    This entry is the change of z[k] in a step h.
+    """
     low = _of_boxes(c, rows.LOW_PARTS + 4 * k, x1, x2, v1, v2)
     return _rough_change(c, k, x1, x2, v1, v2, s, cosine, low)
 
 
 @inlined
 def _rough_change(c, k, x1, x2, v1, v2, s, cosine, low=0.0):
-    """Return the change as in `_change`; `low` is the contribution of the rounding remainders."""
+    """Return entry k < 4 of (exp(A h) - I) z as in `_change`.
+
+    low: contribution of the rounding remainders of exp(A h) - I to this entry.
+    """
     boxes = _of_boxes(c, 6 * k, x1, x2, v1, v2)
     return boxes + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
 
 
 @inlined
 def _of_boxes(c, k, x1, x2, v1, v2):
-    """Return the scalar product of four constants, from row k on, with the state of the boxes."""
+    """Return the scalar product of the constants in the rows k to k + 3 with (x1, x2, v1, v2)."""
     return fused(load(c, k + 1), x2, load(c, k) * x1) + fused(load(c, k + 3), v2, load(c, k + 2) * v1)
 
 
@@ -348,7 +370,8 @@ def _of_boxes(c, k, x1, x2, v1, v2):
 def _inside(limit, w, rate, later, rate_later, third):
     """Return True in lanes where both middle Bernstein coefficients are at most `limit` in magnitude.
 
-    w, rate, later, rate_later: ball position and its rate, before and after the step. third: a third of the step.
+    w, rate: position of a ball in its box, and its rate, before the step. later, rate_later: position and rate after
+    the step. third: a third of the duration of the step.
     """
     return (abs(fused(third, rate, w)) <= limit) & (abs(fused(-third, rate_later, later)) <= limit)
 
@@ -357,7 +380,8 @@ def _inside(limit, w, rate, later, rate_later, third):
 def _drifted(y, low, u, time):
     """Return the position of a ball after `time`, as a float and its rounding remainder.
 
-    Without the remainder, rounding errors of equal flights would add up.
+    y, low: position of the ball at time 0 and its rounding remainder. u: velocity of the ball. Without remainders,
+    rounding errors of equal flights would add up.
     """
     way = fused(time, u, low)
     there = y + way
@@ -367,7 +391,10 @@ def _drifted(y, low, u, time):
 
 @inlined
 def _rounding(c, size, u1, u2):
-    """Return a bound on the rounding error of x_i - y_i in a flight; size: as for `_limit`."""
+    """Return a bound on the rounding error of x_i - y_i in a flight.
+
+    size: bound on the square root of twice the energy of the boxes. u1, u2: ball velocities.
+    """
     return fused(load(c, rows.ROUNDING), size, load(c, rows.LEAST_ROUNDING)) + ROUNDED * (abs(u1) + abs(u2))
 
 
@@ -392,11 +419,12 @@ def _approximate_time(work, first, leaves, wall, y, u, step):
 
 @inlined
 def _refined_time(work, one, near, speed, t):
-    """Return (time at which a ball meets its wall, True if Newton's method from t converges).
+    """Return the time at which a ball meets its wall, and True if Newton's method from t converges.
 
-    near, speed: ball position relative to the wall and its rate, at time 0.
+    one: True if the ball is in module 1. near, speed: position of the ball relative to its wall, and the rate of this
+    position, at time 0.
     """
-    t = t - _newton_step(work, one, near, speed, t, rows.TERMS + 2)  # the second step corrects neglected terms
+    t = t - _newton_step(work, one, near, speed, t, rows.TERMS + 2)  # the next step adds the neglected terms
     change = _newton_step(work, one, near, speed, t, ORDER)
     t = t - change
     return t, abs(change) <= CONVERGING * t
@@ -404,7 +432,7 @@ def _refined_time(work, one, near, speed, t):
 
 @inlined
 def _newton_step(work, one, near, speed, t, order):
-    """Return the Newton step of `_refined_time` at t, from polynomial terms up to an order."""
+    """Return the Newton step of `_refined_time` at t; polynomial terms above the order `order` are neglected."""
     value, slope = where(one, load(work, order), load(work, SECOND + order)), 0.0 * t
     for m in range(order - 1, 1, -1):
         slope = fused(slope, t, value)
