@@ -1,4 +1,4 @@
-"""Figures. In the module of a figure, `compute` returns its tables, and `draw` draws the figure from the tables."""
+"""Figures: in the module of each figure, `compute` returns tables, and `draw` draws the figure from these tables."""
 
 from vibroimpact.system.extras import need
 
