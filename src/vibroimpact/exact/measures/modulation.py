@@ -30,16 +30,19 @@ def variation(amplitudes) -> float:
 
 
 def extreme_depth(amplitudes) -> float:
-    """Return the modulation depth (largest - smallest) / (largest + smallest); longer windows give larger values."""
+    """Return the modulation depth (largest - smallest) / (largest + smallest) of the amplitudes.
+
+    If amplitudes of further cycles are added, the depth stays equal or grows.
+    """
     largest, smallest = np.max(amplitudes), np.min(amplitudes)
     return float((largest - smallest) / (largest + smallest)) if largest > 0 else 0.0
 
 
 def swells(amplitudes) -> np.ndarray:
-    """Return the indices (s,) of the cycles in which a swell of the amplitude begins.
+    """Return the indices of the cycles in which a swell of the amplitude begins, shape (s,).
 
-    A swell begins when the amplitude rises above 0.65 after it was below 0.35. The scale is 0 at the smallest amplitude
-    and 1 at the largest.
+    The amplitudes are scaled, so that the smallest amplitude is 0 and the largest is 1. A swell begins when the scaled
+    amplitude rises above 0.65 after it was below 0.35.
     """
     amplitudes = np.asarray(amplitudes, dtype=float)
     lowest, span = np.min(amplitudes), np.ptp(amplitudes)
@@ -55,7 +58,7 @@ def swells(amplitudes) -> np.ndarray:
 
 
 def bursts(tau, wall, period: float) -> np.ndarray:
-    """Return the start and end time of each resonant burst of one ball, shape (b, 2), from its impacts.
+    """Return the start and end time of each resonant burst, shape (b, 2), from the impacts of one ball.
 
     A flight is resonant if it leads to the opposite wall in 1/4 to 3/4 of a forcing period. A burst consists of at
     least two successive resonant flights.
@@ -83,10 +86,11 @@ def sampled(system, state, cycles: int) -> Run:
 
 
 def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
-    """Return measures of a modulated motion from a state at tau = 0; the keys are (quantity, module).
+    """Return {(quantity, module): value} for a modulated motion that starts from `state` at tau = 0.
 
-    "amplitude variation" is the `variation` of the box amplitude. "resonant share" is the fraction of the time in
-    `bursts`. "burst length" is a mean in cycles, nan without bursts. The others are mean numbers of events.
+    "amplitude variation" is the `variation` of the box amplitude. "resonant share" is the fraction of time that the
+    `bursts` take. "burst length" is the mean length of a burst in cycles; it is nan if there are no bursts. The other
+    quantities are mean numbers of events.
     """
     run = sampled(system, state, cycles)
     found = {}
@@ -105,9 +109,9 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
 
 
 def mean_and_error(values) -> tuple[float, float, int]:
-    """Return (mean, standard error of the mean, number) of the finite values.
+    """Return the mean, the standard error of the mean and the number of the finite values.
 
-    The mean is nan without finite values, the error for fewer than two.
+    If there are no finite values, the mean is nan. If there are fewer than two, the error is nan.
     """
     values = np.asarray(values, dtype=float)
     values = values[np.isfinite(values)]

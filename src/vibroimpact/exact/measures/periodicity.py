@@ -30,33 +30,35 @@ def samples_per_cycle(tau, period: float) -> int:
 def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
     """Return the largest difference between displacements that are `cycles` forcing periods apart.
 
-    displacements: shape (n, k), with `per_cycle` samples in each period. Raise ValueError unless they span more than
-    `cycles` periods.
+    displacements: samples of k displacements, shape (n, k), with `per_cycle` samples in each period. Raise ValueError
+    if `cycles` is below 1 or if the samples do not span more than `cycles` periods.
     """
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
         window = len(displacements) / per_cycle
-        raise ValueError(f"cycles: must be at least 1 and less than {window:g} (periods in the window), got {cycles}")
+        raise ValueError(f"cycles: must be at least 1 and less than {window:g} (the sampled periods), got {cycles}")
     return float(np.max(np.abs(displacements[lag:] - displacements[:-lag])))
 
 
 def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None:
     """Return the smallest number of forcing periods after which a motion repeats within a tolerance, or None.
 
-    Only numbers up to half of the sampled periods are tried. displacements: as for `distance_after`.
+    Only numbers up to half the number of sampled periods are tried. displacements: samples of k displacements, shape
+    (n, k), with `per_cycle` samples in each period.
     """
     displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
     later = displacements[per_cycle : longest * per_cycle + 1 : per_cycle]
-    # numbers n of periods after which a sample is close to the first sample
+    # After each of these numbers of periods, the sample is close to the first sample.
     back = 1 + np.flatnonzero(np.abs(later - displacements[0]).max(axis=1) <= tolerance)
     return next((int(n) for n in back if distance_after(displacements, per_cycle, n) <= tolerance), None)
 
 
 def mirror_distance(displacements, per_cycle: int) -> float:
-    """Return the largest |x(tau + T/2) + x(tau)| over all displacements x; 0 for a symmetric motion.
+    """Return the largest |x(tau + T/2) + x(tau)| over all displacements x and sample times tau.
 
-    Raise ValueError if `per_cycle`, the number of samples in a period T, is odd.
+    The result is 0 for a symmetric motion. T is the forcing period. Raise ValueError if `per_cycle`, the number of
+    samples in a period, is odd.
     """
     if per_cycle % 2:
         raise ValueError(f"per_cycle: {per_cycle} is odd; needs an even number, so that half a period ends at a sample")
@@ -67,7 +69,7 @@ def mirror_distance(displacements, per_cycle: int) -> float:
 def impacts_per_cycle(tau, module, wall, start: float, period: float, cycles: int) -> np.ndarray:
     """Return the number of impacts for each forcing period, module and wall (+1, -1), shape (cycles, 2, 2).
 
-    tau, module, wall: properties of each impact, shape (m,). start: start of the first period.
+    tau, module, wall: time, module and wall of each impact, shape (m,). start: time at which the first period starts.
     """
     tau, module, wall = np.asarray(tau), np.asarray(module), np.asarray(wall)
     edges = start + period * np.arange(cycles + 1)

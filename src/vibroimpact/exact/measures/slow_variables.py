@@ -10,9 +10,10 @@ WALLS = (1, -1)
 
 
 def amplitude_and_lag(tau, values, Omega: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return B and psi [rad] of the first harmonic B sin(Omega tau - psi) in each column of values (n, k).
+    """Return B and psi [rad] of the first harmonic B sin(Omega tau - psi) of each column of `values`.
 
-    tau: evenly spaced times over whole forcing periods, without the end point, (n,). psi is in [-pi, pi].
+    tau: evenly spaced times over whole forcing periods, without the end point, shape (n,). values: values at these
+    times, shape (n, k). psi is in [-pi, pi].
     """
     turning = np.exp(-1j * Omega * np.asarray(tau))[:, None]
     phasor = 2j * np.mean(np.asarray(values) * turning, axis=0)
@@ -28,9 +29,10 @@ class SlowVariables:
     B, psi : ndarray
         Amplitude and phase lag [rad] of the first harmonic of U_i, shape (2,).
     C : ndarray
-        Saw-tooth amplitude, from the ball's mean positions at both walls, shape (2,).
+        Saw-tooth amplitude, computed from the mean positions of the ball at its two walls, shape (2,).
     impact_phases : ndarray
-        Mean phases of impacts as fractions of the cycle, in [0, 1), shape (2, 2): module, wall (+1, -1).
+        Mean phases of impacts as fractions of the forcing period, in [0, 1). The shape (2, 2) stands for module and
+        wall (+1, -1).
     """
 
     B: np.ndarray
@@ -46,9 +48,9 @@ class SlowVariables:
 def measure(system, tau, displacements, impacts) -> SlowVariables:
     """Return the slow variables of a periodic motion.
 
-    tau: evenly spaced times over whole forcing periods, without the end point, (n,).
-    displacements: X1, Y1, X2, Y2 at these times, (n, 4).
-    impacts: mapping with arrays (m,) under the keys tau, module, wall, Y1, Y2.
+    tau: evenly spaced sample times over whole forcing periods, without the end point, shape (n,).
+    displacements: X1, Y1, X2, Y2 at the sample times, shape (n, 4).
+    impacts: mapping with the keys tau, module, wall, Y1, Y2 and an array of shape (m,) for each key.
     Raise ValueError if a ball has no impact at one of its walls.
     """
     X, Y = displacements[:, 0::2], displacements[:, 1::2]
