@@ -1,7 +1,7 @@
 """Find periodic motions of any period and any sequence of events, by Newton's method on the stroboscopic map.
 
-The map takes the state at a time tau to the state `periods` forcing periods later. It is discontinuous at a state with
-an event exactly at tau. Therefore tau is the middle of the longest interval without events.
+The map takes the state at a time tau to the state `periods` forcing periods later. It is discontinuous if an event
+happens exactly at tau. Therefore tau is chosen in the middle of the longest interval without events.
 """
 
 from dataclasses import dataclass
@@ -22,8 +22,9 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED
 SAME = 1e-6
 """Largest difference between states that count as equal; near a bifurcation, errors are about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-# A ball is neutral if its velocity at the end depends only on its velocity at the start. The limit applies to the
-# velocity's row of `run.jacobian` - identity, relative to the largest entry or 1.
+# A ball is neutral if no coordinate at the start of a run changes the difference between its final and initial
+# velocity. The row of its velocity in the matrix D = run.jacobian - identity is then zero. A row counts as zero if no
+# entry exceeds _NEUTRAL * max(1, m) in modulus, where m is the largest modulus in D.
 _NEUTRAL = 1e-10
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
@@ -44,9 +45,9 @@ class PeriodicOrbit(Representation):
     periods : int
         Number of forcing periods after which the motion repeats.
     state : ndarray
-        State at tau = 0, just after any events at this time, (8,).
+        State at tau = 0, shape (8,). If an event happens at this time, it is the state just after the event.
     run : Run
-        Run over one period, from a time between two events.
+        Run over one period of the motion, which starts between two events.
 
     Examples
     --------
@@ -66,15 +67,18 @@ class PeriodicOrbit(Representation):
 
     @cached_property
     def multipliers(self) -> np.ndarray:
-        """Complex Floquet multipliers over the period in descending modulus, (8,), or (4,) if one module is active."""
+        """Complex Floquet multipliers over one period of the motion, in descending modulus.
+
+        The shape is (8,), or (4,) if only one module is active.
+        """
         return multipliers(active_part(self.system, self.run.jacobian))
 
     @property
     def stability(self) -> str:
         """Stability: "stable", "unstable" or "undecided".
 
-        It is "unstable" if a multiplier is outside the unit circle by more than its error. Otherwise it is "undecided"
-        if a multiplier is on the circle within its error, or if a ball hits no wall.
+        The motion is unstable if a multiplier is outside the unit circle by more than its error. Otherwise it is
+        undecided if a multiplier is on the unit circle within its error, or if a ball hits no wall.
         """
         part = _determined(self.run)
         states, rows = self._impacts["state"], np.arange(len(self._impacts))
@@ -85,9 +89,9 @@ class PeriodicOrbit(Representation):
 
     @property
     def impacts(self) -> np.ndarray:
-        """Number of impacts per period, (2, 2), [module, wall +1 / wall -1].
+        """Number of impacts per period of the motion, shape (2, 2), with the indices [module, wall +1 / wall -1].
 
-        Only the simulated impacts of a chatter are counted.
+        In a chatter (impacts at one wall in ever shorter flights), only the simulated impacts are counted.
         """
         events = self._impacts
         return np.array([[np.sum((events["module"] == i) & (events["wall"] == w)) for w in (1, -1)] for i in (1, 2)])
@@ -105,7 +109,7 @@ class PeriodicOrbit(Representation):
 
     @cached_property
     def amplitudes(self) -> np.ndarray:
-        """Largest displacement |X_i| of each box, (2,); NaN for an inactive module (`System.modules`)."""
+        """Largest displacement |X_i| of each box, shape (2,); NaN for an inactive module (`System.modules`)."""
         largest = ensemble(self.system, self.state, self.periods)["largest"]
         return np.where(active_mask(self.system)[[0, 2]], largest, np.nan)
 
@@ -125,16 +129,18 @@ class PeriodicOrbit(Representation):
 
 
 def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> PeriodicOrbit:
-    """Find a periodic motion of any period, with any impacts, chatter and sticking, from a state near it.
+    """Find a periodic motion near a given state; it may have any period, impacts, chatter and sticking.
 
-    Newton's method also finds unstable motions. From a distant start, it may miss the nearest motion.
+    Newton's method also finds unstable motions. If the state is far from a motion, the method may miss the nearest
+    motion.
 
     Parameters
     ----------
     system : System
         Dimensionless parameters.
     state : array_like
-        State at tau = 0, (8,), such as the end of a settled run. An inactive module (`System.modules`) is put at rest.
+        State at tau = 0, shape (8,), such as the end of a settled run. An inactive module (`System.modules`) is put at
+        rest.
     periods : int, default 1
         Smallest number of forcing periods after which the motion repeats.
 
@@ -167,9 +173,10 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
 
 
 def refined(system, state, periods) -> PeriodicOrbit:
-    """Return the motion near `state` (8,) that repeats after `periods` forcing periods or a divisor of `periods`.
+    """Return the motion near `state` that repeats after `periods` forcing periods or after a divisor of `periods`.
 
-    Without convergence, ValueError is raised; ArithmeticError means that a run could not be finished.
+    state: state at tau = 0, shape (8,). Raise ValueError if Newton's method does not converge. Raise ArithmeticError if
+    a run cannot be finished.
     """
     run = given = simulate(system, inactive_at_rest(system, state), periods)
     edges = np.array([run.tau0, *run.events["tau"], float(run.end)])
@@ -186,7 +193,8 @@ def refined(system, state, periods) -> PeriodicOrbit:
             break
         run = nearer
     if any(size <= least and _gap(run) <= closed for least, closed in _CONVERGED):
-        tau = run.cycles * system.period  # the run starts after tau = 0, so take the same state one period later
+        # The run starts after tau = 0. Therefore the state at tau = 0 is read one period of the motion later.
+        tau = run.cycles * system.period
         at_zero = run.events["state"][np.abs(run.events["tau"] - tau) < _TOUCH]
         return PeriodicOrbit(system, periods, at_zero[-1].copy() if len(at_zero) else _state_at(run, tau), run)
     grazes = "; a ball grazes a wall" if _grazes(given) or _grazes(run) else ""
@@ -197,9 +205,10 @@ def refined(system, state, periods) -> PeriodicOrbit:
 
 
 def _determined(run):
-    """Return a mask (8,) of the coordinates of active modules, without those of neutral balls.
+    """Return a mask of the coordinates that periodicity determines, shape (8,).
 
-    A neutral ball hits no wall or has an immense mass; its position is free.
+    These are the coordinates of the active modules, without those of neutral balls. A neutral ball hits no wall or has
+    an immense mass, so that its position is free.
     """
     changes = np.abs(run.jacobian - np.eye(8))
     turned = changes[[5, 7]].max(axis=1) > _NEUTRAL * max(1.0, changes.max())
@@ -208,7 +217,10 @@ def _determined(run):
 
 
 def _nearer(run, step):
-    """Return the run from a start moved by `step`, halved until `_gap` decreases, or None if it never does."""
+    """Return the run from the start of `run` moved by `step`.
+
+    The step is halved until `_gap` is smaller than for `run`. If this never happens, return None.
+    """
     for _ in range(_HALVINGS):
         x = run.start + step
         if within_walls(x[None])[0]:
@@ -220,7 +232,10 @@ def _nearer(run, step):
 
 
 def _with_free_balls_at_rest(system, x, periods, begin):
-    """Return the run from state `x`; neutral balls (`_determined`) start with velocity 0, so that they do not drift."""
+    """Return the run from state `x`, in which neutral balls (see `_determined`) start with velocity 0.
+
+    With another velocity, a neutral ball would drift.
+    """
     run = simulate(system, x, periods, begin)
     free = _BALL_VELOCITIES & ~_determined(run)
     return simulate(system, np.where(free, 0.0, x), periods, begin) if x[free].any() else run
