@@ -1,10 +1,10 @@
 """Find asymmetric 1:1 responses (unequal flight times) by Newton's method from many starts.
 
-T is the forcing period. Ball i hits wall +1 at the time p_i and wall -1 at q_i = p_i + u_i T. The ball velocity changes
-by I_i at p_i and by -I_i at q_i. It is I_i (1 - u_i) on the flight from wall +1 and -I_i u_i on the flight back. Both
-flights cover the distance I_i u_i (1 - u_i) T. The velocity of box i changes by -epsilon I_i at p_i and by +epsilon I_i
-at q_i. The boxes respond to the forcing and to all impulses. Each module has two equations from Newton's rule and one
-for the distance:
+T is the forcing period. Ball i hits wall +1 at the time p_i and wall -1 at the time q_i = p_i + u_i T. The velocity of
+the ball changes by I_i at p_i and by -I_i at q_i. This velocity is I_i (1 - u_i) on the flight from wall +1 and -I_i
+u_i on the flight back. The ball covers the distance I_i u_i (1 - u_i) T on each flight. The velocity of box i changes
+by -epsilon I_i at p_i and by +epsilon I_i at q_i. The boxes respond to the forcing and to all impulses. Each module has
+two equations from Newton's rule and one equation for the distance:
 
     (1 + kappa) X_i'(p_i-) = I_i (1 - u_i - kappa u_i + epsilon),
     (1 + kappa) X_i'(q_i-) = I_i (kappa (1 - u_i) - u_i - epsilon),
@@ -13,9 +13,9 @@ for the distance:
 The six unknowns are p_1, q_1, p_2, q_2, I_1, I_2. Symmetric motions have u_1 = u_2 = 1/2. An inactive module (see
 `System.modules`) has p_i = q_i = I_i = 0.
 
-The starts cover u_1, u_2 and the lag p_2 - p_1 evenly. For given values of these, the equations are linear in I_1, I_2
-and the cosine and sine of the forcing phase. These four numbers start at their least-squares values. Roots may be
-missed.
+The starts of Newton's method cover u_1, u_2 and the lag p_2 - p_1 evenly. For given u_1, u_2 and lag, the equations are
+linear in four numbers: I_1, I_2, and the cosine and sine of the forcing phase. These numbers start at their
+least-squares values. The method may miss roots.
 """
 
 import numpy as np
@@ -32,14 +32,15 @@ _KICKS = np.array([-1.0, 1.0, -1.0, 1.0])
 MODULES = np.array([1, 1, 2, 2, 1, 2])
 """Module of each unknown (p_1, q_1, p_2, q_2, I_1, I_2), and of each equation."""
 _MODULES = np.eye(2)[MODULES - 1]
-_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])  # derivatives of flight times from wall +1 by impact times
-_PLASTIC = 1.2207440846057596  # root of x^4 = x + 1, for a low-discrepancy sequence
+# For the module of each equation: derivatives of the flight time from wall +1 with respect to the impact times.
+_LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])
+_PLASTIC = 1.2207440846057596  # root of x^4 = x + 1; its inverse powers generate a low-discrepancy sequence
 
 
 class AsymmetricConditions:
-    """Six equations for the impact times and changes of ball velocity of 1:1 motions.
+    """Six equations for the impact times of 1:1 motions and for the changes of ball velocity at the impacts.
 
-    An undamped resonance raises ValueError.
+    The constructor raises ValueError if the boxes have an undamped resonance.
     """
 
     def __init__(self, system):
@@ -49,7 +50,10 @@ class AsymmetricConditions:
         self._response = impulse_response(system, sign=1)
 
     def __call__(self, unknowns: np.ndarray):
-        """Return the residual (n, 6) and Jacobian (n, 6, 6) of the six equations for `unknowns` (n, 6)."""
+        """Return the residuals of the six equations, shape (n, 6), and their Jacobians, shape (n, 6, 6).
+
+        unknowns: p_1, q_1, p_2, q_2, I_1, I_2 in each row, shape (n, 6).
+        """
         system = self.system
         times, strengths = unknowns[:, :4], unknowns[:, 4:]
         forced = self.amplitude * np.exp(1j * system.Omega * times)
@@ -61,25 +65,30 @@ class AsymmetricConditions:
         return residual, jacobian
 
     def linear_system(self, times: np.ndarray):
-        """Return the coefficients (n, 6, 4) of I_1, I_2, and the cosine and sine of the forcing phase in the equations.
+        """Return the coefficients of the six equations in four unknowns, shape (n, 6, 4).
 
-        I_i is the change of ball velocity in module i.
+        The unknowns are the changes of ball velocity I_1, I_2, and the cosine and sine of the forcing phase. times:
+        impact times, shape (n, 4).
         """
         forced = self.amplitude * np.exp(1j * self.system.Omega * times)
         by_phase = np.stack([self._forced(forced), self._forced(1j * forced)], axis=2)
         return np.concatenate([self._linear(times)[0], by_phase], axis=2)
 
     def _forced(self, forced):
-        """Return the terms (n, 6) of the equations due to `forced` (n, 4), the complex forced response at impacts."""
+        """Return the terms of the six equations that come from the forcing, shape (n, 6).
+
+        forced: complex response of the boxes to the forcing at each impact, shape (n, 4).
+        """
         velocity = (1 + self.system.kappa) * self.system.Omega * forced.real
         distance = forced.imag[:, 0::2] - forced.imag[:, 1::2]
         return np.concatenate([velocity, distance], axis=1)
 
     def _linear(self, times):
-        """Return the coefficients (n, 6, 2) of both changes of ball velocity, and box velocities and accelerations.
+        """Return the coefficients of both changes of ball velocity in the equations, and the responses of the boxes.
 
-        Velocity and acceleration [:, m, k] are responses just before impact m to impact k, per unit change of ball
-        velocity.
+        The coefficients have shape (n, 6, 2). The responses are a pair of box velocities and accelerations, each of
+        shape (n, 4, 4). Entry [:, m, k] is the response just before impact m to impact k, if the ball velocity changes
+        by 1 at impact k.
         """
         system = self.system
         x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))
@@ -94,7 +103,10 @@ class AsymmetricConditions:
         return wrapped(times[:, 1::2] - times[:, 0::2], self.system.period) / self.system.period
 
     def _moved(self, forced, responses, strengths, times):
-        """Return the derivatives (n, 6, 4) of the equations with respect to the impact times."""
+        """Return the derivatives of the equations with respect to the impact times, shape (n, 6, 4).
+
+        forced: response to the forcing as for `_forced`. responses: responses to impacts from `_linear`.
+        """
         system = self.system
         others = 1 - np.eye(4)
         v, a = (r * others * strengths[:, None, _BOXES] for r in responses)
@@ -108,9 +120,9 @@ class AsymmetricConditions:
 
 
 def asymmetric_solutions(system):
-    """Return the roots (n, 6), and how many of the STARTS led to each root or to its mirror image.
+    """Return the roots, shape (n, 6), and the number of Newton starts that led to each root or to its mirror image.
 
-    Mirror images are separate roots.
+    A root and its mirror image are separate rows.
     """
     if not system.modules:
         return np.empty((0, 6)), np.empty(0, dtype=int)

@@ -18,7 +18,10 @@ _ROUNDING = 100 * np.finfo(float).eps
 
 
 def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    """Return d state / d tau in free flight by (10.2), for states (..., 8) at times tau (...)."""
+    """Return the derivative of each state with respect to tau in free flight, by (10.2).
+
+    state: states, shape (..., 8). tau: time of each state, shape (...).
+    """
     phase = system.Omega * np.asarray(tau)[..., None]
     field = np.zeros(state.shape)
     boxes = np.concatenate([state[..., BOXES], np.sin(phase), np.cos(phase)], axis=-1)
@@ -28,7 +31,7 @@ def vector_field(system, state: np.ndarray, tau: np.ndarray) -> np.ndarray:
 
 
 def restitution_matrix(system, module: np.ndarray) -> np.ndarray:
-    """Return the matrix (..., 8, 8) by which an impact in `module` (1 or 2) multiplies the state."""
+    """Return the matrix that multiplies the state at an impact in `module` (1 or 2), shape (..., 8, 8)."""
     matrices = np.stack([np.eye(8)] * 2)
     for matrix, velocities in zip(matrices, ([4, 5], [6, 7]), strict=True):
         matrix[np.ix_(velocities, velocities)] = after_impact(system.epsilon, system.kappa, *np.eye(2))
@@ -36,11 +39,13 @@ def restitution_matrix(system, module: np.ndarray) -> np.ndarray:
 
 
 def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.ndarray) -> np.ndarray:
-    """Return the saltation matrices S (..., 8, 8), which map perturbations before impacts to those after.
+    """Return the saltation matrix S of each impact, shape (..., 8, 8).
 
-    before: states just before the impacts, (..., 8). The determinant of S is kappa^2. The forcing enters only through
-    the vector fields, since wall and impact law do not depend on time. An impact with zero relative velocity (grazing)
-    raises ValueError. Sources: Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004.
+    S maps a perturbation just before the impact to the perturbation just after it. The determinant of S is kappa^2. The
+    forcing enters only through the vector fields, since neither the wall nor the impact law depends on time. before:
+    state just before each impact, shape (..., 8). Raise ValueError if the relative velocity at an impact is zero
+    (grazing).
+    Sources: Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004.
     """
     normal = _NORMALS[np.asarray(module) - 1]
     before_field = vector_field(system, before, tau)
@@ -48,8 +53,8 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
     if (approach == 0).any():
         grazing = np.asarray(module)[approach == 0].flat[0]
         raise ValueError(
-            f"before: the ball of module {grazing} touches the wall at zero relative velocity (grazing), where the "
-            "motion has no derivative"
+            f"before: got a state in which the ball of module {grazing} touches the wall at zero relative velocity "
+            "(grazing), where the motion has no derivative"
         )
     restitution = restitution_matrix(system, module)
     after, carried = np.moveaxis(restitution @ np.stack([before, before_field], axis=-1), -1, 0)
@@ -60,10 +65,12 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
 
 
 class Passage(NamedTuple):
-    """Motion from tau = 0 to tau = end through n impacts.
+    """Motion from tau = 0 to tau = `end` through n impacts.
 
-    first, final: states at tau = 0 and at the end, (8,). times: times of the impacts, (n,). before, after: states just
-    before and after each impact, (n, 8). jacobian: derivative of `final` by `first`, (8, 8).
+    first, final: states at tau = 0 and at tau = `end`, each of shape (8,).
+    times: times of the impacts, shape (n,).
+    before, after: states just before and just after each impact, each of shape (n, 8).
+    jacobian: derivative of `final` with respect to `first`, shape (8, 8).
     """
 
     first: np.ndarray
@@ -81,9 +88,10 @@ class Passage(NamedTuple):
 
 
 def impact_sequence(times: np.ndarray, period: float):
-    """Return the times, modules and walls of the impacts of one period, each (n,), in order of time.
+    """Return the times, modules and walls of the impacts of one period, each of shape (n,), in order of time.
 
-    times: in [0, T), (2, 2); NaN for a module without impacts.
+    times: impact times in [0, T) with the indices [module, wall +1 / wall -1], shape (2, 2). The times of a module
+    without impacts are NaN.
     """
     # An impact at 0 is moved to T, since the state at tau = 0 is the state after this impact.
     within = np.where(times == 0, period, times).ravel()
@@ -92,7 +100,11 @@ def impact_sequence(times: np.ndarray, period: float):
 
 
 def free_flights(system, begins: np.ndarray, durations: np.ndarray):
-    """Return A (n, 8, 8) and b (n, 8) of free flights x -> A x + b from times (n,) over durations (n,)."""
+    """Return the matrices A and vectors b of n free flights, each of which maps a state x to A x + b.
+
+    A has shape (n, 8, 8) and b has shape (n, 8). begins, durations: initial time and duration of each flight, shape
+    (n,).
+    """
     flow = expm(rate_matrix(system) * durations[:, None, None])
     phases = system.Omega * begins
     maps, pushes = np.zeros((len(durations), 8, 8)), np.zeros((len(durations), 8))
@@ -104,9 +116,10 @@ def free_flights(system, begins: np.ndarray, durations: np.ndarray):
 
 
 def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, end: float) -> Passage:
-    """Follow the motion from `state` (8,) at tau = 0 to tau = end, through impacts at given ascending times.
+    """Follow the motion from `state` at tau = 0 to tau = `end`, through impacts at the given times.
 
-    modules: 1 or 2 for each impact. The caller ensures that each ball is at its wall.
+    state: shape (8,). times: ascending times of the impacts. modules: module (1 or 2) of each impact. The function does
+    not check that the ball is at a wall at these times.
     """
     edges = np.array([0.0, *times, end])
     flights, pushes = free_flights(system, edges[:-1], np.diff(edges))
@@ -122,13 +135,19 @@ def follow(system, state: np.ndarray, times: np.ndarray, modules: np.ndarray, en
 
 
 def active_part(system, jacobian: np.ndarray) -> np.ndarray:
-    """Return the part of a monodromy matrix for the active modules, (8, 8) or, for a single machine, (4, 4)."""
+    """Return the part of a monodromy matrix for the active modules.
+
+    The shape is (8, 8), or (4, 4) if only one module is active.
+    """
     part = active_mask(system)
     return jacobian[part][:, part]
 
 
 def multipliers(jacobian: np.ndarray) -> np.ndarray:
-    """Return the complex eigenvalues (n,) of a monodromy matrix (n, n) by descending modulus, then imaginary part."""
+    """Return the complex eigenvalues of a monodromy matrix of shape (n, n) by descending modulus, shape (n,).
+
+    Eigenvalues of equal modulus are in the order of descending imaginary part.
+    """
     values = np.linalg.eigvals(jacobian).astype(complex)
     return values[np.lexsort((-values.imag.round(12), -abs(values).round(12)))]
 
@@ -142,14 +161,18 @@ def floquet(orbit) -> str:
 def by_multipliers(jacobian: np.ndarray, residual: float, slowest: float) -> str:
     """Return "stable" if all multipliers are inside the unit circle, "unstable" if one is outside, else "undecided".
 
-    A modulus must differ from 1 by more than its error. residual: largest difference between the states at the start
-    and at the end of the period. slowest: smallest relative speed of a ball at a wall.
+    A multiplier counts as inside or outside only if its modulus differs from 1 by more than the error of the
+    multiplier.
+    jacobian: monodromy matrix. residual: largest difference between the states at the start and at the end of one
+    period.
+    slowest: smallest relative speed of a ball at a wall.
     """
     values, left, right = eig(jacobian, left=True, right=True)
     size = np.linalg.norm(jacobian)
     with np.errstate(divide="ignore"):
         condition = 1 / np.abs(np.einsum("ij,ij->j", left.conj(), right))
         displaced = (residual + _ROUNDING) / np.abs(values - 1).min()
-    # To first order, the condition number multiplies the error of the matrix, from rounding and from the orbit.
+    # To first order, the error of an eigenvalue is its condition number times the error of the matrix. The error of the
+    # matrix comes from rounding and from the error of the orbit.
     errors = size * condition * (_ROUNDING + displaced / slowest)
     return all_stable(verdict(1 - abs(value), error) for value, error in zip(values, errors, strict=True))

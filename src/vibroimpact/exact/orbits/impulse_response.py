@@ -15,9 +15,10 @@ _UNIT_IMPULSES = np.eye(4)[:, 2:]
 
 
 def forced_amplitude(system) -> np.ndarray:
-    """Return the complex amplitude a (2,) of the boxes without balls, X = Im(a exp(i Omega tau)).
+    """Return the complex amplitude a of the boxes without balls, shape (2,).
 
-    An undamped resonance raises ValueError.
+    The displacements are X = Im(a exp(i Omega tau)). Raise ValueError if the boxes have an undamped resonance at the
+    forcing frequency.
     """
     try:
         return np.linalg.solve(dynamic_stiffness(system.with_inactive_damped()), system.forcing.astype(complex))
@@ -26,7 +27,10 @@ def forced_amplitude(system) -> np.ndarray:
 
 
 def _resonance(system, multiple):
-    """Return the error message for an undamped resonance of the boxes at a multiple of the forcing frequency."""
+    """Return the error message for an undamped resonance of the boxes at a multiple of the forcing frequency.
+
+    multiple: words for the multiple, such as "a multiple of ", or "" for the forcing frequency itself.
+    """
     return (
         f"system: the boxes have an undamped resonance at {multiple}the forcing frequency Omega = {system.Omega}; "
         "add damping (gamma1_hat, gamma2_hat)"
@@ -36,8 +40,8 @@ def _resonance(system, multiple):
 class ImpulseResponse:
     """Steady motion [X1, X2, X1', X2'] of the unforced boxes under a train of unit impulses on one box.
 
-    sign: +1 for equal impulses, one per forcing period; -1 for alternating impulses, one per half period. An undamped
-    resonance raises ValueError.
+    sign: +1 for equal impulses, one per forcing period; -1 for alternating impulses, one per half period. The
+    constructor raises ValueError if the boxes have an undamped resonance at a frequency of the train.
     """
 
     def __init__(self, system, sign: int):
@@ -46,7 +50,8 @@ class ImpulseResponse:
         self._rate = rate_matrix(system)[:4, :4]
         advance = expm(self._rate * self.interval)
         closure = np.eye(4) - sign * advance
-        # A condition number would miss a resonance of both boxes, where `closure` vanishes.
+        # The smallest singular value is tested. A condition number would miss a resonance of both boxes, since
+        # `closure` is then zero.
         if np.linalg.norm(closure, -2) <= 1e-12 * (1.0 + np.linalg.norm(advance, 2)):
             raise ValueError(_resonance(system, f"{'a' if sign == 1 else 'an odd'} multiple of "))
         start = np.linalg.solve(closure, _UNIT_IMPULSES)
@@ -61,9 +66,9 @@ class ImpulseResponse:
         self._readings = np.stack([np.eye(4)[:2], np.eye(4)[2:], self._rate[2:]], axis=2)
 
     def __call__(self, s: np.ndarray, boxes: np.ndarray) -> np.ndarray:
-        """Return the motion (..., 4) at times s after an impulse on box `boxes` (0 or 1).
+        """Return the motion at the times s after an impulse on box `boxes` (0 or 1), shape (..., 4).
 
-        At an impulse, the motion is the state just after the impulse.
+        If an impulse acts at this time, the motion is the state just after the impulse.
         """
         impulses, within = np.divmod(s, self.interval)
         node = np.rint(within / self._spacing).astype(int)
@@ -78,9 +83,10 @@ class ImpulseResponse:
         return value if self.sign == 1 else value * (1 - 2 * (impulses[..., None] % 2))
 
     def between(self, times: np.ndarray, boxes: np.ndarray):
-        """Return displacements, velocities and accelerations of the boxes just before impulses, each (..., n, n).
+        """Return displacements, velocities and accelerations of the boxes just before impulses.
 
-        Entry [..., m, k] is the response of box boxes[m] at times[..., m] to impulses on box boxes[k] at times[..., k].
+        Each of the three arrays has the shape (..., n, n). Entry [..., m, k] is the response of box boxes[m] at
+        times[..., m] to impulses on box boxes[k] at times[..., k].
         """
         motion = self(times[..., :, None] - times[..., None, :], boxes)
         own = np.arange(len(boxes))
@@ -89,7 +95,7 @@ class ImpulseResponse:
 
 
 def powers(matrix: np.ndarray, count: int) -> np.ndarray:
-    """Return the powers matrix^n for n = 0 .. count - 1, stacked."""
+    """Return the powers matrix^n for n = 0 .. count - 1, stacked along the first axis."""
     powers = np.eye(len(matrix))[None]
     while len(powers) < count:  # rounding errors grow only with log(count)
         powers = np.concatenate([powers, powers @ np.linalg.matrix_power(matrix, len(powers))])
@@ -97,7 +103,10 @@ def powers(matrix: np.ndarray, count: int) -> np.ndarray:
 
 
 def impulse_response(system, sign: int) -> ImpulseResponse:
-    """Return the ImpulseResponse of a system, from a cache; systems that differ only in their forces share it."""
+    """Return the ImpulseResponse of a system from a cache.
+
+    Systems that differ only in their forces have the same ImpulseResponse.
+    """
     return _kept(system.with_inactive_damped().with_(f10_hat=0.0, f20_hat=0.0), sign)
 
 

@@ -10,10 +10,12 @@ _CONVERGED, _CONVERGED_LATE = 1e-12, 1e-8
 
 
 def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
-    """Return the roots reached from `starts` (n, d), in no particular order and with repetitions.
+    """Return the roots that Newton's method reaches from `starts`, in no particular order and with repetitions.
 
-    equations(x) returns residuals (k, d) and Jacobians (k, d, d) for x (k, d). No component of a step exceeds `reach`.
-    Further columns of `starts` are passed to the equations and returned unchanged.
+    equations: function of x, shape (k, d), that returns residuals, shape (k, d), and Jacobians, shape (k, d, d).
+    starts: one start per row, shape (n, d). If there are more than d columns, the further columns are passed to the
+    equations and returned unchanged.
+    reach: largest component of a step; a longer step is shortened.
     """
     x = np.array(starts, dtype=float)
     found = [np.empty((0, x.shape[1]))]
@@ -34,10 +36,10 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
 
 
 def follow(equations: Callable, x: np.ndarray, values: Iterable[float], near: float) -> Iterator[tuple]:
-    """Yield each value of a parameter with the root (d,) of equations(value), found from the previous root.
+    """Yield each value of a parameter with the root of equations(value), shape (d,).
 
-    The first start is x (d,). The iteration ends if equations(value) raises ValueError, if there is no root, or if a
-    component of the root changes by `near` or more.
+    Newton's method starts at the previous root, and at `x` for the first value. The iteration ends if equations(value)
+    raises ValueError, if the method finds no root, or if a component of the root changes by `near` or more.
     """
     for value in values:
         try:

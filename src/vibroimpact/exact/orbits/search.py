@@ -18,8 +18,8 @@ from vibroimpact.system.representation import Found, Representation, brief
 from vibroimpact.system.state import BALLS, BOXES, NAMES, inactive_at_rest
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
-_STEP = 0.005  # radians of the fastest oscillation between samples of W; interpolation is exact to 2e-12
-_SAMPLES = 4096  # samples of a flight in memory at a time
+_STEP = 0.005  # phase [rad] of the fastest oscillation between two samples of W; interpolation is exact to 2e-12
+_SAMPLES = 4096  # largest number of samples of a flight in memory at a time
 _TOUCH = 1e-9
 _SIDES = "1_plus", "1_minus", "2_plus", "2_minus"
 COLUMNS = (
@@ -35,8 +35,8 @@ COLUMNS = (
 class Orbit(Representation):
     """A periodic response with two impacts per forcing cycle and module, in dimensionless quantities.
 
-    Arrays (2, 2) have the indices [module, wall +1 / wall -1]. For a single machine (`PhysicalSystem.single`), values
-    of the second module are 0 in the state and NaN elsewhere.
+    Arrays of shape (2, 2) have the indices [module, wall +1 / wall -1]. For a single machine (`PhysicalSystem.single`),
+    the values of the second module are 0 in `state` and NaN in the other arrays.
 
     Attributes
     ----------
@@ -45,24 +45,25 @@ class Orbit(Representation):
     symmetric : bool
         True if state(tau + T/2) = -state(tau).
     impact_phases : ndarray
-        Impact times as fractions of the period, in [0, 1), (2, 2).
+        Impact times as fractions of the period, in [0, 1), shape (2, 2).
     ball_speeds : ndarray
-        Ball speeds after the impacts, (2, 2); they can be negative for an inadmissible root.
+        Ball speeds after the impacts, shape (2, 2). They can be negative if the orbit is not admissible.
     multipliers : ndarray
-        Complex Floquet multipliers by descending modulus, (8,), or (4,) for a single machine. If both modules impact at
-        the same instant and gamma12 is not 0, they hold for perturbed motions in which module 1 impacts first.
+        Complex Floquet multipliers by descending modulus, shape (8,), or (4,) for a single machine. If both modules
+        impact at the same instant and gamma12 is not 0, the multipliers hold for perturbed motions in which module 1
+        impacts first.
     state : ndarray
-        State at tau = 0, (8,); if there is an impact at this time, the state just after it.
+        State at tau = 0, shape (8,). If an impact happens at this time, it is the state just after the impact.
     passage : Passage
         Motion over one period from `state`.
     excursion : float
-        Largest |W_i| at extrema of W_i between impacts (the walls are at 1); 0 without extrema.
+        Largest |W_i| at the extrema of W_i between impacts, or 0 if there are no extrema. The walls are at |W_i| = 1.
     admissible : bool
         True if the orbit is a motion of the system: all ball speeds are positive, and |W_i| <= 1 at all times.
     residual : float
         Largest error of |W_i| = 1 at the impacts and of state(T) = state(0).
     proof : OrbitProof, optional
-        Proof of the orbit from `with_proof`, or None.
+        Proof of the orbit if the orbit comes from `with_proof`, else None.
 
     Examples
     --------
@@ -85,7 +86,7 @@ class Orbit(Representation):
 
     @property
     def stability(self) -> str:
-        """ "stable", "unstable" or "undecided": the proved verdict, or else the verdict from the multipliers."""
+        """Stability "stable", "unstable" or "undecided", from the proof if `proved` is True, else from the multipliers."""
         return self.proof.stability if self.proved else floquet(self)
 
     @property
@@ -99,12 +100,12 @@ class Orbit(Representation):
         return self.proof is not None and self.proof.stability in (STABLE, UNSTABLE)
 
     def with_proof(self) -> "Orbit":
-        """Return a copy of the orbit with the attribute `proof` from `prove`.
+        """Return a copy of the orbit whose attribute `proof` is the result of `prove`.
 
         Returns
         -------
         Orbit
-            The copy, whose `stability` is the proved verdict if there is one.
+            The copy. Its `stability` is the proved verdict if there is one.
 
         Raises
         ------
@@ -116,7 +117,8 @@ class Orbit(Representation):
     def row(self) -> dict:
         """Return the row of `to_frame` for this orbit, as {column name: number or verdict}.
 
-        Phases are in periods. A single machine has only 4 multipliers; the other moduli are NaN.
+        Phases are in periods. A single machine has only 4 multipliers; the columns of the other 4 moduli are NaN. If
+        the orbit has a proof, the row also has the columns of `OrbitProof.row`.
         """
         moduli = np.pad(np.abs(self.multipliers), (0, 8 - len(self.multipliers)), constant_values=np.nan)
         numbers = (self.C, self.impact_phases.ravel(), self.ball_speeds.ravel(), moduli, self.state, [self.residual])
@@ -134,9 +136,9 @@ class Orbit(Representation):
 
     @property
     def C(self) -> np.ndarray:
-        """Saw-tooth amplitudes C_i, (10.11), shape (2,); C_i can be negative for an inadmissible root."""
+        """Saw-tooth amplitudes C_i of (10.11), shape (2,); C_i can be negative if the orbit is not admissible."""
         plus, minus = self.ball_speeds.T
-        # Both flights are equally long: plus t = minus (T - t), where t is the time from wall +1.
+        # Both flights of a ball cover an equal distance: plus t = minus (T - t). The flight from wall +1 takes t.
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
         return sawtooth_amplitude(self.system.epsilon, path)
 
@@ -155,12 +157,12 @@ class OrbitSearch:
     Attributes
     ----------
     orbits : list of Orbit
-        Orbits; the symmetric orbits are complete up to rounding.
+        The symmetric orbits, which are complete up to rounding, and the asymmetric orbits that were found.
     starts : int
-        Number of Newton starts for asymmetric orbits, some of which may be missed.
+        Number of Newton starts in the search for asymmetric orbits. The search may miss asymmetric orbits.
     fewest_hits : int
-        Smallest number of starts that led to the same asymmetric orbit or its mirror image; 0 if none was found. A
-        small number suggests that orbits were missed.
+        Number of starts that led to the asymmetric orbit found least often, or 0 if no asymmetric orbit was found.
+        Starts that led to its mirror image are included. A small number suggests that orbits were missed.
     """
 
     orbits: list[Orbit]
@@ -171,7 +173,8 @@ class OrbitSearch:
 def orbits(system: System) -> list[Orbit]:
     """Return all 1:1 responses of (10.2) with one impact per cycle at each wall of each module.
 
-    The orbits are exact at any epsilon. Newton's method from many starts finds the asymmetric orbits and may miss some.
+    The orbits are exact at any mass ratio epsilon. Newton's method from many starts finds the asymmetric orbits and may
+    miss some of them.
 
     Parameters
     ----------
@@ -181,13 +184,14 @@ def orbits(system: System) -> list[Orbit]:
     Returns
     -------
     list of Orbit
-        Orbits, including roots that are not motions of the system (see Orbit.admissible). Symmetric orbits come first.
-        Each group is sorted by ball speeds. An asymmetric orbit is next to its mirror image.
+        Orbits, including roots that are not motions of the system (see `Orbit.admissible`). Symmetric orbits come
+        first. The symmetric orbits and the asymmetric orbits are sorted by ball speeds. An asymmetric orbit is next to
+        its mirror image.
 
     Raises
     ------
     ValueError
-        If system is not a System, or if its boxes have an undamped resonance at a harmonic of the impacts.
+        If system is not a System, or if its boxes have an undamped resonance at a multiple of the forcing frequency.
 
     Examples
     --------
@@ -198,7 +202,10 @@ def orbits(system: System) -> list[Orbit]:
 
 
 def search(system: System) -> OrbitSearch:
-    """Return the orbits that `orbits` finds, and the effort of the search; exceptions as in `orbits`."""
+    """Return the orbits that `orbits` finds, and the effort of the search.
+
+    The exceptions are those of `orbits`.
+    """
     instance("system", system, System)
     symmetric = [symmetric_orbit(system, root) for root in symmetric_solutions(system)]
     roots, hits = asymmetric_solutions(system)
@@ -218,12 +225,13 @@ def prove(orbit: Orbit):
     Returns
     -------
     OrbitProof
-        Verdicts, error bounds, and the half-width of intervals, around the numbers of the orbit, with exactly one root.
+        Verdicts and error bounds. The attribute `radius` is the half-width of intervals around the numbers of the
+        orbit. Exactly one root lies in these intervals.
 
     Raises
     ------
     ValueError
-        If orbit is not an Orbit, or if the boxes have an undamped resonance at a harmonic of the impacts.
+        If orbit is not an Orbit, or if its boxes have an undamped resonance at a multiple of the forcing frequency.
     ModuleNotFoundError
         If python-flint is missing; the extra `reference` installs it.
 
@@ -241,13 +249,13 @@ def prove(orbit: Orbit):
 
 
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:
-    """Return the eigenvalues of the derivative of -state(T/2) by state(0) on a symmetric orbit.
+    """Return the half-period multipliers of a symmetric orbit, whose squares are its multipliers.
 
-    Their squares are the multipliers. A fold has the eigenvalue +1, symmetry breaking -1. An asymmetric orbit raises
-    ValueError.
+    The half-period multipliers are the eigenvalues of the derivative of -state(T/2) with respect to state(0). At a
+    fold, one of them is +1. At symmetry breaking, one of them is -1. Raise ValueError if the orbit is not symmetric.
     """
     if not orbit.symmetric:
-        raise ValueError("orbit: the orbit is not symmetric, so half a period does not map it to its mirror image")
+        raise ValueError("orbit: must be symmetric; got an orbit that is not symmetric")
     system = orbit.system
     times, modules, _ = impact_sequence(orbit.impact_phases * system.period, system.period)
     first = slice(len(times) // 2)
@@ -256,7 +264,7 @@ def half_period_multipliers(orbit: Orbit) -> np.ndarray:
 
 
 def _order(orbit):
-    """Return the key to sort an orbit by; the phases distinguish orbits with equal ball speeds."""
+    """Return the key by which orbits are sorted; the phases distinguish orbits with equal ball speeds."""
     numbers = [*orbit.ball_speeds.sum(axis=1), *orbit.impact_phases.ravel()]
     return (not orbit.symmetric, *np.nan_to_num(numbers).round(9))
 
@@ -267,12 +275,18 @@ def symmetric_orbit(system, root) -> Orbit:
 
 
 def symmetric_boxes(system, root, tau) -> np.ndarray:
-    """Return X_1 and X_2 at times tau (n,), shape (n, 2), for a root (4,) of `SymmetricConditions`."""
+    """Return the box displacements X_1 and X_2 of a symmetric motion at the times tau, shape (n, 2).
+
+    root: root of `SymmetricConditions`, shape (4,). tau: times, shape (n,).
+    """
     return _boxes(system, *_symmetric_impacts(system, root), -1, tau)[:, :2]
 
 
 def _symmetric_impacts(system, root):
-    """Return impact times (2, 2) and changes of ball velocity (2,) for a root (4,) of `SymmetricConditions`."""
+    """Return the impact times, shape (2, 2), and the changes of ball velocity, shape (2,), of a symmetric motion.
+
+    root: root of `SymmetricConditions`, shape (4,).
+    """
     times, C = root[:2], root[2:]
     later = wrapped(times + system.period / 2, system.period)
     return np.stack([times, later], axis=1), 4 * path_of(system.epsilon, C) / system.period
@@ -286,9 +300,12 @@ def asymmetric_orbit(system, root) -> Orbit:
 
 
 def _orbit(system, times, changes, fractions, sign):
-    """Return the Orbit with impacts at `times` (2, 2) and changes of ball velocity `changes` (2,).
+    """Return the Orbit with given impact times and changes of ball velocity.
 
-    fractions: durations of the flights from wall +1 in periods, (2,). sign: -1 for a symmetric orbit, else +1.
+    times: impact times with the indices [module, wall +1 / wall -1], shape (2, 2).
+    changes: change of ball velocity at wall +1 in each module, shape (2,).
+    fractions: duration of the flight from wall +1 in periods, for each module, shape (2,).
+    sign: -1 for a symmetric orbit, +1 for an asymmetric orbit.
     """
     speeds = changes[:, None] * np.stack([1 - fractions, fractions], axis=1)
     state = inactive_at_rest(system, _state(system, times, changes, speeds, sign))
@@ -314,9 +331,13 @@ def _orbit(system, times, changes, fractions, sign):
 
 
 def _boxes(system, times, changes, sign, tau):
-    """Return the motion [X_1, X_2, X_1', X_2'] of the boxes at times tau, (n, 4); other arguments as for `_orbit`."""
+    """Return the motion [X_1, X_2, X_1', X_2'] of the boxes at the times tau, shape (n, 4).
+
+    times, changes, sign: impact times, changes of ball velocity and sign as for `_orbit`.
+    """
     response, amplitude = impulse_response(system, sign), forced_amplitude(system)
-    # In a symmetric orbit, the impacts of a module form one train of alternating impulses, else a train per wall.
+    # In a symmetric orbit, the impacts of a module form one train of alternating impulses. In an asymmetric orbit, they
+    # form one train of equal impulses per wall.
     trains = 1 if sign == -1 else 2
     kicks = (system.epsilon * changes[:, None] * [-1.0, 1.0])[:, :trains]
     forced = amplitude * np.exp(1j * system.Omega * tau[:, None])
@@ -325,7 +346,11 @@ def _boxes(system, times, changes, sign, tau):
 
 
 def _state(system, times, changes, speeds, sign):
-    """Return the state (8,) at tau = 0 for ball speeds (2, 2); other arguments as for `_orbit`."""
+    """Return the state at tau = 0, shape (8,).
+
+    speeds: ball speeds after the impacts with the indices [module, wall +1 / wall -1], shape (2, 2). times, changes,
+    sign: impact times, changes of ball velocity and sign as for `_orbit`.
+    """
     since = wrapped(-times, system.period)
     modules, last = np.arange(2), since.argmin(axis=1)
     walls = np.array([1, -1])[last]
@@ -339,9 +364,10 @@ def _state(system, times, changes, speeds, sign):
 
 
 def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
-    """Return the largest |X_i - c Y_i| at its extrema inside free flights for both modules, (2,), with c = `balls`.
+    """Return the largest |X_i - c Y_i| of each module at the extrema of X_i - c Y_i inside free flights, shape (2,).
 
-    c = 1 gives |W_i|, c = 0 gives |X_i|. The result is 0 without extrema.
+    The factor c is `balls`. With c = 1, the result is the largest |W_i|. With c = 0, it is the largest |X_i|. If there
+    are no extrema, the result is 0.
     """
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
@@ -358,17 +384,20 @@ def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
         boxes = samples[:, -1]
         W = samples[..., :2] - places - velocities * (spacing * steps[:, None])
         V = (samples[..., 2:4] - velocities) * spacing
-        # extrema of W, by Hermite interpolation between samples
+        # Hermite interpolation between the samples gives the extrema of W.
         turns = V[:, :-1] * V[:, 1:] < 0
         w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
-        s = v0 / (v0 - v1)  # zero of V to O(spacing^2); W is more accurate, since V = 0
+        s = v0 / (v0 - v1)  # zero of V with an error O(spacing^2); the error of W is smaller, since V = 0
         values = w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)
         np.maximum.at(found, turns.nonzero()[2], abs(values))
     return found
 
 
 def _samples(step, start, count):
-    """Return step^k start for k < count, shape (n, count, d)."""
+    """Return the products of step^k and `start` for k = 0 .. count - 1, shape (n, count, d).
+
+    step: n matrices, shape (n, d, d). start: n vectors, shape (n, d).
+    """
     samples, ahead = start[:, None], step.swapaxes(1, 2)
     while (made := samples.shape[1]) < count:  # rounding errors grow only with log(count)
         samples = np.concatenate([samples, samples[:, : count - made] @ ahead], axis=1)

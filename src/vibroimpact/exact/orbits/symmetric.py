@@ -3,16 +3,16 @@
 Ball i meets wall +1 at tau_i and wall -1 half a period later. Let C_i = 1 - U_i(tau_i), as in (10.12). In half a
 period, the ball flies the distance 2 C_i / (1 + epsilon). Its speed is therefore V_i = 4 C_i / ((1 + epsilon) T). The
 velocity of box i changes by -2 epsilon V_i at wall +1 and by +2 epsilon V_i at wall -1. The boxes respond to the
-forcing and to both trains of impulses. Each module has two conditions: the ball meets the wall, and Newton's rule. They
-are the imaginary and the real part of its component of
+forcing and to the trains of impulses of both balls. Each module has two conditions: the ball is at the wall, and
+Newton's rule holds. For module i, the conditions are the imaginary part and the real part of component i of
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
 with the imaginary unit i, C = (C_1, C_2), a complex 2 x 2 matrix P and the forced amplitudes a_1, a_2. For a given
-delta these equations are linear in C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Their solution turns c^2 +
-s^2 = 1 into one equation for delta. Multiplied by the squared determinant of the linear system, this equation has no
-poles. It is analytic except at the kinks delta = 0 and T/2. Chebyshev interpolants between the kinks therefore give all
-roots to rounding. An inactive module (see `System.modules`) has tau_i = C_i = 0.
+delta, these equations are linear in C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Inserted into c^2 + s^2 =
+1, their solution gives one equation for delta. This equation is multiplied by the squared determinant of the linear
+system, so that it has no poles. It is analytic except at the kinks delta = 0 and T/2. Chebyshev interpolants between
+the kinks therefore give all roots up to rounding. An inactive module (see `System.modules`) has tau_i = C_i = 0.
 """
 
 import math
@@ -26,10 +26,10 @@ from vibroimpact.system.amplitude import path_of
 from vibroimpact.system.matrices import stiffness_matrix
 
 _DEGREE = 32
-_PIECES_AT_ONCE = 256  # pieces of the range of delta in memory at a time
-_RADIANS_PER_PIECE = 1.0  # of the fastest oscillation; interpolation of degree 32 is then exact to rounding
-_NOISE = 16 * np.finfo(float).eps  # smaller coefficients at the end of a series are rounding errors
-_NEAR = 1e-3  # smaller imaginary parts count as zero; rounding makes double roots complex
+_PIECES_AT_ONCE = 256  # largest number of pieces of the range of delta in memory at a time
+_RADIANS_PER_PIECE = 1.0  # phase [rad] of the fastest oscillation in a piece; interpolation of degree 32 is then exact
+_NOISE = 16 * np.finfo(float).eps  # smaller relative coefficients at the end of a series count as rounding errors
+_NEAR = 1e-3  # smaller imaginary parts of roots count as zero, since rounding makes double roots complex
 _SAME = 1e-8
 _BOXES = np.array([0, 1])
 MODULES = np.array([1, 2, 1, 2])
@@ -39,8 +39,8 @@ MODULES = np.array([1, 2, 1, 2])
 class SymmetricConditions:
     """Conditions of symmetric 1:1 motions: each ball is at its wall, and Newton's rule holds.
 
-    forced: complex amplitudes of the boxes without balls, one row per force, (m, 2). An undamped resonance raises
-    ValueError.
+    forced: complex amplitudes of the boxes without balls, one row per force, shape (m, 2). If it is None, the force is
+    that of the system. The constructor raises ValueError if the boxes have an undamped resonance.
     """
 
     def __init__(self, system, forced=None):
@@ -54,9 +54,9 @@ class SymmetricConditions:
         self._incoming = speed * (1 + 2 * system.epsilon - system.kappa) / (1 + system.kappa)
 
     def matrix(self, times: np.ndarray):
-        """Return the complex matrix P (..., 2, 2) of the conditions at impact times (..., 2), and its derivatives.
+        """Return the complex matrix P of the conditions and its derivatives, each of shape (..., 2, 2).
 
-        Entry (m, k) of P is differentiated by tau_m - tau_k.
+        The derivative of entry (m, k) of P is taken with respect to tau_m - tau_k. times: impact times, shape (..., 2).
         """
         x, v, a = self._response.between(times, _BOXES)
         own = np.eye(2)
@@ -65,9 +65,10 @@ class SymmetricConditions:
         return matrix, change
 
     def __call__(self, unknowns: np.ndarray):
-        """Return the residual (n, 4) and Jacobian (n, 4, 4) for `unknowns` (n, 4).
+        """Return the residuals of the conditions, shape (n, 4), and their Jacobians, shape (n, 4, 4).
 
-        A fifth column of the unknowns, if present, is the index of the force.
+        unknowns: tau_1, tau_2, C_1, C_2 in each row, shape (n, 4). If there is a fifth column, it is the index of the
+        force.
         """
         times, C = unknowns[:, :2], unknowns[:, 2:4]
         amplitudes = self.amplitudes[unknowns[:, 4].astype(int)] if unknowns.shape[1] > 4 else self.amplitudes
@@ -82,9 +83,10 @@ class SymmetricConditions:
         return residual, jacobian
 
     def linear_system(self, delta: np.ndarray, force: np.ndarray):
-        """Return the matrix (..., 4, 4) and right-hand side (4,) for (C_1, C_2, cos Omega tau_1, sin Omega tau_1).
+        """Return the linear system of the conditions for given delta = tau_2 - tau_1.
 
-        delta: tau_2 - tau_1. force: index of the force.
+        The matrix has shape (..., 4, 4) and the right-hand side has shape (4,). The unknowns are C_1, C_2, cos(Omega
+        tau_1) and sin(Omega tau_1). force: index of the force.
         """
         times = np.stack([np.zeros_like(delta), delta], axis=-1)
         forced = (self.amplitudes[force] * np.exp(1j * self.omega * times))[..., None]
@@ -95,21 +97,24 @@ class SymmetricConditions:
 def symmetric_solutions(system) -> np.ndarray:
     """Return every root (tau_1, tau_2, C_1, C_2) of `SymmetricConditions` with 0 <= tau_i < T, shape (n, 4).
 
-    Inadmissible roots are included.
+    Roots that are not motions of the system (see `Orbit.admissible`) are included.
     """
     return _solutions(system, [system])[0]
 
 
 def symmetric_solutions_under(system, forces) -> list[np.ndarray]:
-    """Return `symmetric_solutions` of the system for each pair of forces (f10_hat, f20_hat).
+    """Return the result of `symmetric_solutions` for each pair of forces (f10_hat, f20_hat), as a list.
 
-    A force that gives no valid system raises ValueError.
+    The other parameters are those of `system`. Raise ValueError if a pair of forces does not give a valid system.
     """
     return _solutions(system, [system.with_(f10_hat=one, f20_hat=other) for one, other in forces])
 
 
 def _solutions(system, systems):
-    """Return the roots (n, 4) of `SymmetricConditions` for each of several systems that differ only in their forces."""
+    """Return the roots of `SymmetricConditions` for each of several systems, each array of shape (n, 4).
+
+    The systems differ from `system` only in their forces.
+    """
     found = [np.empty((0, 4))] * len(systems)
     for modules in {one.modules for one in systems} - {()}:
         alike = [k for k, one in enumerate(systems) if one.modules == modules]
@@ -125,7 +130,7 @@ def _solutions(system, systems):
 
 
 def _uncoupled_starts(conditions, modules):
-    """Return the Newton starts of uncoupled modules: each root of module 1 with each root of module 2."""
+    """Return the Newton starts of uncoupled modules; each start combines a root of module 1 and a root of module 2."""
     diagonal = np.diagonal(conditions.matrix(np.zeros((1, 2)))[0][0])
     starts = []
     for force, amplitudes in enumerate(conditions.amplitudes):
@@ -141,7 +146,10 @@ def _uncoupled_starts(conditions, modules):
 
 
 def _coupled_starts(system, conditions):
-    """Return the Newton starts of coupled modules: those of `_line_starts` for each root of `_roots_of_condition`."""
+    """Return the Newton starts of coupled modules.
+
+    Each root of `_roots_of_condition` gives a linear system, for which `_line_starts` returns three starts.
+    """
     delta, force = _roots_of_condition(system, conditions)
     C1, C2, c, s = np.moveaxis(_line_starts(*conditions.linear_system(delta, force)), -1, 0)
     time = np.arctan2(s, c) / conditions.omega
@@ -151,7 +159,7 @@ def _coupled_starts(system, conditions):
 def _roots_of_condition(system, conditions):
     """Return the roots delta of `_condition` in [0, T], and the index of the force for each root.
 
-    Nearly real roots are included.
+    A root with a small imaginary part counts as real.
     """
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))
     pieces = 2 * math.ceil(system.period / 2 * fastest / _RADIANS_PER_PIECE)
@@ -173,15 +181,16 @@ def _roots_of_condition(system, conditions):
 
 
 def _condition(conditions, delta, force):
-    """Return N_c^2 + N_s^2 - D^2 at each delta (pieces, n), which is zero where c^2 + s^2 = 1.
+    """Return N_c^2 + N_s^2 - D^2 at each delta; this number is zero if c^2 + s^2 = 1.
 
-    By Cramer's rule, c = N_c / D and s = N_s / D are the cosine and sine of Omega tau_1. force: its index, (pieces, 1).
+    By Cramer's rule, c = N_c / D and s = N_s / D are the cosine and sine of Omega tau_1. delta: shape (pieces, n).
+    force: index of the force of each piece, shape (pieces, 1).
     """
     matrices, constant = conditions.linear_system(delta, force)
     size = np.abs(matrices).max(axis=2).mean(axis=1)  # one scale per unknown, so that the determinants are of order 1
     matrices, strength = matrices / size[:, None, None, :], size[:, 2, None]
 
-    # Positive factors keep the squares within the range of floats.
+    # All determinants have a common positive factor, so that their squares stay within the range of floats.
     def cramer(column):
         replaced = matrices.copy()
         replaced[..., column] = constant
@@ -191,17 +200,18 @@ def _condition(conditions, delta, force):
 
 
 def _line_starts(matrices, constant):
-    """Return three starts (C_1, C_2, c, s) for each linear system, (n, 3, 4): its solution and two points of a line.
+    """Return three starts (C_1, C_2, c, s) for each linear system, shape (n, 3, 4).
 
-    If the matrix is singular, as for identical modules in phase, the whole line solves the system. A division by zero
-    gives a start that is not finite.
+    One start is the solution of the system. The two other starts are points of a line. If the matrix is singular, as
+    for identical modules in phase, each point of this line solves the system. If a division by zero occurs, a start is
+    not finite.
     """
     u, values, v = np.linalg.svd(matrices)
     parts = constant @ u
     with np.errstate(divide="ignore", invalid="ignore"):
         strong = ((parts / values)[:, None, :3] @ v[:, :3])[:, 0]
-        # The line runs along the right singular vector of the smallest singular value. The starts are its points with
-        # c^2 + s^2 = 1 or, if there are none, with the smallest c^2 + s^2.
+        # The line runs along the right singular vector of the smallest singular value. Two starts are the points of the
+        # line with c^2 + s^2 = 1. If there are no such points, both starts are the point with the smallest c^2 + s^2.
         weak, along = v[:, 3], np.where(values[:, 3] > 0, parts[:, 3] / values[:, 3], 0.0)
         a, b, c = (weak[:, 2:] ** 2).sum(1), (weak * strong)[:, 2:].sum(1), (strong[:, 2:] ** 2).sum(1) - 1
         depth = np.sqrt(np.maximum(b * b - a * c, 0.0))
@@ -216,9 +226,9 @@ def wrapped(value, modulus):
 
 
 def distinct(roots: np.ndarray, period: float, phases: int):
-    """Return the first row of each group of equal rows, and the size of each group.
+    """Return the first row of each group of equal rows, and the number of rows in each group.
 
-    The first `phases` columns are compared modulo the period.
+    Rows are equal if they differ only by rounding. The first `phases` columns are compared modulo the period.
     """
     kept, sizes = np.empty((0, roots.shape[1])), []
     for root in roots:
