@@ -86,7 +86,7 @@ class Orbit(Representation):
 
     @property
     def stability(self) -> str:
-        """Stability "stable", "unstable" or "undecided", from the proof if `proved` is True, else from the multipliers."""
+        """Stability "stable", "unstable" or "undecided", from the proof if `proved` is True, else from multipliers."""
         return self.proof.stability if self.proved else floquet(self)
 
     @property

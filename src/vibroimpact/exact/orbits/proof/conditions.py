@@ -1,9 +1,9 @@
 """Evaluate the equations of asymmetric.py in interval arithmetic.
 
-The six unknowns are p_1, q_1, p_2, q_2, I_1, I_2. Ball i hits wall +1 at the time p_i and wall -1 at q_i. Its velocity
-changes by I_i at p_i. An inactive module has p_i = q_i = I_i = 0. The equations are smooth while the order of the
-impacts stays the same. Symmetric orbits are roots too. Impacts 0 and 1 are those of module 1 at wall +1 and -1, impacts
-2 and 3 those of module 2.
+The six unknowns are p_1, q_1, p_2, q_2, I_1, I_2. Ball i hits wall +1 at the time p_i and wall -1 at the time q_i. The
+velocity of ball i changes by I_i at p_i and by -I_i at q_i. An inactive module has p_i = q_i = I_i = 0. The equations
+are smooth as long as the order of the impacts does not change. Symmetric orbits are also roots. The impacts have
+numbers: 0 and 1 are the impacts of module 1 at wall +1 and at wall -1, and 2 and 3 are those of module 2.
 """
 
 import itertools
@@ -22,10 +22,12 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 class SteadyBoxes:
     """Steady motion [X1, X2, X1', X2'] of the boxes under the forcing and under trains of unit impulses.
 
-    The float64 matrices and the forcing are taken as exact. An undamped resonance raises ValueError.
+    The float64 matrices and the forcing are taken as exact. The constructor raises ValueError if the boxes have an
+    undamped resonance.
 
-    sign: as in `ImpulseResponse`. start: column j is the unforced state just after an impulse on box j, (4, 2).
-    amplitude: the state without impulses is Im(amplitude exp(i omega tau)).
+    sign: as in `ImpulseResponse`.
+    start: state just after an impulse without forcing, shape (4, 2); column j belongs to impulses on box j.
+    amplitude: complex amplitude of the state without impulses, which is Im(amplitude exp(i omega tau)).
     """
 
     def __init__(self, system, sign: int):
@@ -53,7 +55,8 @@ def identity(size: int) -> arb_mat:
 class EnclosedConditions:
     """The six equations of asymmetric.py in interval arithmetic.
 
-    The float64 matrices and the forcing are taken as exact. An undamped resonance raises ValueError.
+    The float64 matrices and the forcing are taken as exact. The constructor raises ValueError if the boxes have an
+    undamped resonance.
     """
 
     def __init__(self, system):
@@ -64,7 +67,10 @@ class EnclosedConditions:
         self.epsilon, self.kappa = arb(system.epsilon), arb(system.kappa)
 
     def __call__(self, unknowns):
-        """Return the residual (6, 1) and Jacobian (6, 6) for six intervals, or None if two impacts may coincide."""
+        """Return the residual, shape (6, 1), and the Jacobian, shape (6, 6), for six intervals.
+
+        unknowns: intervals of p_1, q_1, p_2, q_2, I_1, I_2. If two impacts may coincide, return None.
+        """
         lags = self.lags(unknowns)
         if lags is None:
             return None
@@ -99,7 +105,11 @@ class EnclosedConditions:
         return lags[2 * i + 1, 2 * i] / self.period
 
     def before(self, m, unknowns, lags):
-        """Return the state of the boxes just before impact m, and its derivatives by the six unknowns, (4, 7)."""
+        """Return the state of the boxes just before impact m and its derivatives, shape (4, 7).
+
+        Column 0 is the state. The other columns are its derivatives with respect to the six unknowns. lags: times
+        between the impacts, from `lags`.
+        """
         rate = acb(0, self.boxes.omega)
         forced = (self.boxes.amplitude * (rate * unknowns[m]).exp()).entries()
         state = np.full((4, 1 + _UNKNOWNS), arb(0))
@@ -118,10 +128,13 @@ class EnclosedConditions:
 
 
 def _jet(value, unknown=None):
-    """Return a value and its six derivatives, (7,): 1 for the unknown with index `unknown`, 0 for the others."""
+    """Return a jet: a value and its derivatives with respect to the six unknowns, shape (7,).
+
+    The derivative is 1 for the unknown with the index `unknown`, and 0 for each other unknown.
+    """
     return np.array([value, *(arb(int(k == unknown)) for k in range(_UNKNOWNS))])
 
 
 def _product(one, other):
-    """Return the product of two numbers with derivatives, each (7,) as from `_jet`."""
+    """Return the product of the jets `one` and `other`, each of shape (7,) as from `_jet`."""
     return np.array([one[0] * other[0], *(one[1:] * other[0] + one[0] * other[1:])])

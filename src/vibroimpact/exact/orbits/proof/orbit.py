@@ -18,7 +18,7 @@ from vibroimpact.exact.orbits.proof.passage import NOT_PROVED, EnclosedPassage, 
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _BITS = 128
-_WIDEST, _NARROWEST = -4, -60  # binary exponents of the largest and smallest half-width that are tried
+_WIDEST, _NARROWEST = -4, -60  # the half-widths tried are 2^_WIDEST, ... down to, but without, 2^_NARROWEST
 _TIGHT = 2.0**-90
 _SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
 """Tolerances for differences between listed (float64) and proved states, and between listed and proved multipliers.
@@ -36,17 +36,19 @@ class OrbitProof:
     Attributes
     ----------
     radius : float
-        Half-width of intervals around the impact times and changes of ball velocity of the Orbit; 0 if nothing is
-        proved. Exactly one orbit lies in these intervals. It is proved to be symmetric if `Orbit.symmetric` is True,
-        and asymmetric otherwise.
+        Half-width of intervals around the impact times and changes of ball velocity of the Orbit, or 0 if nothing is
+        proved. Exactly one orbit lies in these intervals. This orbit is proved to be symmetric if `Orbit.symmetric` is
+        True, and to be asymmetric otherwise.
     error : float
-        Bound on the error of the impact phases and speeds of the Orbit; inf if nothing is proved.
+        Bound on the error of the impact phases and ball speeds of the Orbit, or inf if nothing is proved.
     motion : str
-        "legal" if every ball meets its walls from inside and |W_i| < 1 in between; else "not legal" or "not proved".
+        "legal" if every ball meets its walls from inside and |W_i| < 1 between impacts, else "not legal" or "not
+        proved".
     multipliers : tuple of acb
-        Enclosures of the 8 multipliers (4 for a single machine), by descending modulus; empty if none were found.
+        Enclosures of the 8 multipliers (4 for a single machine), by descending modulus. The tuple is empty if no
+        enclosures were found.
     moduli_error : float
-        Bound on the error of the moduli of the multipliers of the Orbit; inf without enclosures.
+        Bound on the error of the moduli of the multipliers of the Orbit, or inf if there are no enclosures.
     """
 
     radius: float
@@ -57,7 +59,7 @@ class OrbitProof:
 
     @property
     def stability(self) -> str:
-        """ "stable" or "unstable" if the enclosures prove it, else "not proved"."""
+        """Verdict: "stable" or "unstable" if the enclosures of the multipliers prove it, else "not proved"."""
         moduli = [abs(value) for value in self.multipliers]
         if any(modulus > 1 for modulus in moduli):
             return UNSTABLE
@@ -75,7 +77,7 @@ _NOTHING = OrbitProof(0.0, math.inf, NOT_PROVED, (), math.inf)
 def prove(orbit) -> OrbitProof:
     """Prove as much as possible about an Orbit.
 
-    An undamped resonance of the boxes raises ValueError.
+    Raise ValueError if the boxes have an undamped resonance.
     """
     with ctx.workprec(_BITS):
         conditions = EnclosedConditions(orbit.system)
@@ -101,7 +103,10 @@ def prove(orbit) -> OrbitProof:
 
 
 def _multipliers(monodromy) -> tuple[acb, ...]:
-    """Return enclosures of the eigenvalues of an interval matrix, by descending modulus, or () on failure."""
+    """Return enclosures of the eigenvalues of an interval matrix, by descending modulus.
+
+    If flint cannot enclose the eigenvalues, return an empty tuple.
+    """
     try:
         values = acb_mat(monodromy).eig(multiple=True)
     except ValueError:
@@ -110,7 +115,11 @@ def _multipliers(monodromy) -> tuple[acb, ...]:
 
 
 def _of_kind(symmetric, conditions, root, listed, radius):
-    """Return True if the root is proved to be symmetric (if `symmetric` is True) or asymmetric (if False)."""
+    """Return True if a root is proved to be symmetric, for `symmetric` True, or asymmetric, for `symmetric` False.
+
+    root: intervals that contain the root. listed, radius: centres and half-width of intervals that contain no other
+    root.
+    """
     if not symmetric:
         lags = conditions.lags(root)
         return any(not (2 * conditions.fraction(i, lags)).contains(1) for i in conditions.modules)
@@ -119,7 +128,11 @@ def _of_kind(symmetric, conditions, root, listed, radius):
 
 
 def _has_multipliers(orbit, proved):
-    """Return True if each multiplier is close to an enclosure and vice versa, or if there are no enclosures."""
+    """Return True if the multipliers of an Orbit agree with their enclosures.
+
+    They agree if each multiplier is close to an enclosure and each enclosure is close to a multiplier. They also count
+    as agreeing if there are no enclosures. proved: the enclosures.
+    """
     near = np.array(
         [[_near(one, other, _SPOILT_MULTIPLIER) for other in proved] for one in map(acb, orbit.multipliers.tolist())]
     )
@@ -137,10 +150,12 @@ def _distance(enclosures, listed):
 
 
 def krawczyk(equations, approximate: np.ndarray):
-    """Return intervals that enclose a root near `approximate` (n,), and the half-width of wider intervals.
+    """Return intervals that enclose a root near `approximate`, and the half-width of wider intervals.
 
-    The wider intervals are centred at `approximate` and contain no other root. On failure, the result is (None, 0.0).
-    equations(x) returns the residual (n, 1) and Jacobian (n, n) for a list x of n intervals, or None if undefined.
+    approximate: approximate root, shape (n,). The wider intervals have their centres at `approximate` and contain no
+    other root. On failure, the result is (None, 0.0).
+    equations: function of a list of n intervals. It returns the residual, shape (n, 1), and the Jacobian, shape (n, n),
+    or None if they are not defined.
     """
     centre = [arb(value) for value in approximate.tolist()]
     for exponent in range(_WIDEST, _NARROWEST, -1):
@@ -153,9 +168,9 @@ def krawczyk(equations, approximate: np.ndarray):
 
 
 def _image(equations, box):
-    """Return the image of intervals under Krawczyk's operator, or None on failure.
+    """Return the image of intervals under Krawczyk's operator, or None if the image cannot be computed.
 
-    The image contains every root in the intervals.
+    Every root in the intervals `box` also lies in their image.
     """
     found, at = equations(box), equations([value.mid() for value in box])
     if found is None or at is None:

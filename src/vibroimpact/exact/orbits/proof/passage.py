@@ -25,8 +25,9 @@ _MOST = 2000  # largest number of pieces of a flight
 class EnclosedPassage:
     """Enclosure of the periodic motion of a root of `EnclosedConditions`.
 
-    unknowns: intervals that contain the root. phases, speeds: impact time in periods and ball speed after the impact,
-    by the number of the impact.
+    unknowns: intervals that contain the root. phases: {number of an impact: impact time in periods}. speeds: {number of
+    an
+    impact: ball speed after the impact}.
     """
 
     def __init__(self, system, conditions, unknowns):
@@ -39,22 +40,30 @@ class EnclosedPassage:
         self.rate = _rate(system)
 
     def flights(self):
-        """Yield, for each flight in order of time, the impacts before and after it, its initial state and duration."""
+        """Yield the flights in order of time.
+
+        Each flight is a tuple: number of the impact at its start, number of the impact at its end, initial state, and
+        duration.
+        """
         order = sorted(self.phases, key=lambda m: float(self._unknowns[m].mid()))
         for m, following in zip(order, [*order[1:], order[0]], strict=True):
             yield m, following, self._impacts[m // 2] * self._before(m), self._lags[following, m]
 
     def states(self):
-        """Yield the state (10, 1) at tau = 0, and the state just after a first impact within 1e-9 of tau = 0."""
+        """Yield the state at tau = 0, shape (10, 1).
+
+        If the first impact is within 1e-9 of tau = 0, also yield the state just after this impact.
+        """
         *_, (last, first, state, _) = self.flights()
         yield (self.rate * (self._conditions.period - self._unknowns[last])).exp() * state
         if abs(self._unknowns[first]) < _NEAR:
             yield self._impacts[first // 2] * self._before(first)
 
     def monodromy(self) -> arb_mat:
-        """Return the monodromy matrix from just before the first impact: (8, 8), or (4, 4) for a single machine.
+        """Return the monodromy matrix over the period that begins just before the first impact.
 
-        Its entries are not finite if an impact may have zero relative velocity.
+        The shape is (8, 8), or (4, 4) if only one module is active. If an impact may have zero relative velocity, the
+        entries are not finite.
         """
         whole = identity(_SIZE)
         for m, _, after, duration in self.flights():
@@ -65,7 +74,7 @@ class EnclosedPassage:
         return arb_mat([[whole[row, column] for column in part] for row in part])
 
     def _before(self, m):
-        """Return the state (10, 1) just before impact m."""
+        """Return the state just before impact m, shape (10, 1)."""
         state = [arb(0)] * _SIZE
         for place, row in zip(BOXES, self._boxes[m], strict=True):
             state[place] = row[0]
@@ -112,11 +121,12 @@ def between_walls(passage) -> str:
 
 
 def _of_flight(rate, start, end, state, duration):
-    """Return the verdict on a free flight from impact `start` to impact `end`.
+    """Return LEGAL, ILLEGAL or NOT_PROVED for a free flight from impact `start` to impact `end`.
 
     state: state at the beginning of the flight, shape (10, 1).
     """
-    # Halve the flight until each piece is proved: |W_i| < 1 or, next to an impact, W_i is monotonic.
+    # The flight is halved until each piece is proved. A piece is proved if |W_i| < 1 in it. If ball i hits a
+    # wall at an end of the piece, it suffices for this wall that W_i is monotonic.
     pending = [(0.0, 1.0)]
     for _ in range(_MOST):
         if not pending:
@@ -134,15 +144,15 @@ def _of_flight(rate, start, end, state, duration):
 
 
 def _ranges(rate, state, duration, low, high):
-    """Return enclosures of W_i and W_i' on a piece of a flight, and of W_i at its centre, for both modules.
+    """Return enclosures, for both modules, of W_i and W_i' on a piece of a flight, and of W_i at the piece's centre.
 
-    low, high: ends of the piece as fractions of the flight.
+    low, high: ends of the piece as fractions of the flight. state: state at the start of the flight.
     """
     centre = (rate * (duration * ((low + high) / 2))).exp() * state
     offset = arb(0, (high - low) / 2) * duration
     around = (rate * offset).exp() * centre
     W, V, A = (GAPS * term for term in (centre, rate * centre, rate * (rate * around)))
-    # Expand W_i to first order about the centre of the piece; A encloses W_i'' for the remainder.
+    # W_i is expanded to first order about the centre of the piece. A encloses W_i'' and thus bounds the remainder.
     over = [W[i, 0] + V[i, 0] * offset + A[i, 0] * offset * offset / 2 for i in range(2)]
     return over, [V[i, 0] + A[i, 0] * offset for i in range(2)], [W[i, 0] for i in range(2)]
 
@@ -150,7 +160,7 @@ def _ranges(rate, state, duration, low, high):
 def _inside(i, W, V, leaving, nearing):
     """Return True if ball i is proved to stay between its walls on a piece of a flight.
 
-    leaving, nearing: impact at the start and at the end of the piece, or None.
+    leaving, nearing: number of the impact at the start and at the end of the piece, or None if there is no impact.
     """
     touched = {WALLS[k]: sign for k, sign in ((leaving, -1), (nearing, 1)) if k is not None and k // 2 == i}
     return all(touched[wall] * wall * V > 0 if wall in touched else wall * W < 1 for wall in (1, -1))
