@@ -36,7 +36,7 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
         window = len(displacements) / per_cycle
-        raise ValueError(f"cycles: must be at least 1 and less than {window:g} (the sampled periods), got {cycles}")
+        raise ValueError(f"cycles: must be at least 1 and below {window:g} (number of sampled periods), got {cycles}")
     return float(np.max(np.abs(displacements[lag:] - displacements[:-lag])))
 
 

@@ -42,9 +42,10 @@ def impact_saltation(system, before: np.ndarray, tau: np.ndarray, module: np.nda
     """Return the saltation matrix S of each impact, shape (..., 8, 8).
 
     S maps a perturbation just before the impact to the perturbation just after it. The determinant of S is kappa^2. The
-    forcing enters only through the vector fields, since neither the wall nor the impact law depends on time. before:
-    state just before each impact, shape (..., 8). Raise ValueError if the relative velocity at an impact is zero
-    (grazing).
+    forcing enters only through the vector fields, since neither the wall nor the impact law depends on time. Raise
+    ValueError if the relative velocity at an impact is zero (grazing).
+
+    before: state just before each impact, shape (..., 8).
     Sources: Aizerman and Gantmakher 1958; Leine and Nijmeijer 2004.
     """
     normal = _NORMALS[np.asarray(module) - 1]
@@ -161,10 +162,10 @@ def floquet(orbit) -> str:
 def by_multipliers(jacobian: np.ndarray, residual: float, slowest: float) -> str:
     """Return "stable" if all multipliers are inside the unit circle, "unstable" if one is outside, else "undecided".
 
-    A multiplier counts as inside or outside only if its modulus differs from 1 by more than the error of the
-    multiplier.
-    jacobian: monodromy matrix. residual: largest difference between the states at the start and at the end of one
-    period.
+    A multiplier counts as inside or outside only if its modulus differs from 1 by more than its error.
+
+    jacobian: monodromy matrix.
+    residual: largest difference between the states at the start and at the end of one period.
     slowest: smallest relative speed of a ball at a wall.
     """
     values, left, right = eig(jacobian, left=True, right=True)

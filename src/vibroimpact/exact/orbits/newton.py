@@ -15,7 +15,7 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
     equations: function of x, shape (k, d), that returns residuals, shape (k, d), and Jacobians, shape (k, d, d).
     starts: one start per row, shape (n, d). If there are more than d columns, the further columns are passed to the
     equations and returned unchanged.
-    reach: largest component of a step; a longer step is shortened.
+    reach: largest modulus of a component of a step; a longer step is shortened.
     """
     x = np.array(starts, dtype=float)
     found = [np.empty((0, x.shape[1]))]

@@ -4,7 +4,7 @@ Ball i meets wall +1 at tau_i and wall -1 half a period later. Let C_i = 1 - U_i
 period, the ball flies the distance 2 C_i / (1 + epsilon). Its speed is therefore V_i = 4 C_i / ((1 + epsilon) T). The
 velocity of box i changes by -2 epsilon V_i at wall +1 and by +2 epsilon V_i at wall -1. The boxes respond to the
 forcing and to the trains of impulses of both balls. Each module has two conditions: the ball is at the wall, and
-Newton's rule holds. For module i, the conditions are the imaginary part and the real part of component i of
+Newton's rule holds. The conditions are the imaginary part and the real part of the module's component of the equation
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
@@ -27,7 +27,7 @@ from vibroimpact.system.matrices import stiffness_matrix
 
 _DEGREE = 32
 _PIECES_AT_ONCE = 256  # largest number of pieces of the range of delta in memory at a time
-_RADIANS_PER_PIECE = 1.0  # phase [rad] of the fastest oscillation in a piece; interpolation of degree 32 is then exact
+_RADIANS_PER_PIECE = 1.0  # phase [rad] of the fastest oscillation per piece; degree 32 is then exact to rounding
 _NOISE = 16 * np.finfo(float).eps  # smaller relative coefficients at the end of a series count as rounding errors
 _NEAR = 1e-3  # smaller imaginary parts of roots count as zero, since rounding makes double roots complex
 _SAME = 1e-8
@@ -39,8 +39,8 @@ MODULES = np.array([1, 2, 1, 2])
 class SymmetricConditions:
     """Conditions of symmetric 1:1 motions: each ball is at its wall, and Newton's rule holds.
 
-    forced: complex amplitudes of the boxes without balls, one row per force, shape (m, 2). If it is None, the force is
-    that of the system. The constructor raises ValueError if the boxes have an undamped resonance.
+    forced: complex amplitudes of the boxes without balls, one row per force, shape (m, 2). If it is None, the
+    forces are those of the system. The constructor raises ValueError if the boxes have an undamped resonance.
     """
 
     def __init__(self, system, forced=None):

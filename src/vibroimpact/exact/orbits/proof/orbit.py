@@ -115,10 +115,11 @@ def _multipliers(monodromy) -> tuple[acb, ...]:
 
 
 def _of_kind(symmetric, conditions, root, listed, radius):
-    """Return True if a root is proved to be symmetric, for `symmetric` True, or asymmetric, for `symmetric` False.
+    """Return True if a root is proved to be of the given kind.
 
-    root: intervals that contain the root. listed, radius: centres and half-width of intervals that contain no other
-    root.
+    The kind is "symmetric" if `symmetric` is True, and "asymmetric" otherwise.
+    root: intervals that contain the root.
+    listed, radius: centres and half-width of intervals that contain no other root.
     """
     if not symmetric:
         lags = conditions.lags(root)

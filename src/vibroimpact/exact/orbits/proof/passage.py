@@ -25,9 +25,9 @@ _MOST = 2000  # largest number of pieces of a flight
 class EnclosedPassage:
     """Enclosure of the periodic motion of a root of `EnclosedConditions`.
 
-    unknowns: intervals that contain the root. phases: {number of an impact: impact time in periods}. speeds: {number of
-    an
-    impact: ball speed after the impact}.
+    unknowns: intervals that contain the root.
+    phases: {number of an impact: impact time in periods}.
+    speeds: {number of an impact: ball speed after the impact}.
     """
 
     def __init__(self, system, conditions, unknowns):
