@@ -79,8 +79,8 @@ SPEC = {
                 "path": {},
                 "family": {"meaning": "exact symmetric or asymmetric orbits, or fixed points of the theory",
                     "unit": "text", "values": ["symmetric orbit", "asymmetric orbit", "fixed point"]},
-                "kind": {"meaning": "kind of the special point; for fixed points with the module, if only one is "
-                    "concerned; none for a path without special points",
+                "kind": {"meaning": "kind of the special point, with the module if only one is concerned; none if the "
+                    "path has no special point",
                     "unit": "text", "values": ["fold", "symmetry breaking", "period doubling", "Neimark-Sacker", "Hopf",
                     "grazing", "speed zero", "fold of the SIM, module 1", "fold of the SIM, module 2",
                     "symmetry breaking, module 1", "symmetry breaking, module 2", "none"]},
