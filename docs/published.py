@@ -7,7 +7,7 @@ import vibroimpact as vi
 
 
 def wall(F, omega, c, kappa):
-    """Return an oscillator that hits a wall. The wall is a ball of mass 1e12, and the unit of length is 50."""
+    """Return an oscillator that hits a wall. A ball of mass 1e12 acts as the wall. Lengths are divided by L = 50."""
     return vi.PhysicalSystem.single(M=1, m=1e12, k=1, c=c, F=F, L=50, kappa=kappa, omega=omega).dimensionless()
 
 
@@ -28,7 +28,7 @@ def resonant(system):
 
 
 def flight(stiffness, x, V):
-    """Return the duration of a flight and the final X. At the start, X = x and the ball has the speed V."""
+    """Return the duration of a flight and X at its end. The flight starts with X = x and the ball speed V."""
     cell = vi.PhysicalSystem.single(M=1, m=0.3, k=stiffness, c=0, F=0, kappa=1 - 1e-12).dimensionless()
     v = V / stiffness**0.5  # dimensionless speed; tau is the time multiplied by stiffness**0.5
     impact = vi.simulate(cell, [x, x - 1, 0, 0, -0.3 * v, v, 0, 0], 9).events[0]
@@ -36,7 +36,7 @@ def flight(stiffness, x, V):
 
 
 def half_period(stiffness, V, low, high):
-    """Return half the period of the symmetric free motion whose X at an impact is between `low` and `high`."""
+    """Return half the period of a symmetric free motion. X is in [low, high] at the impacts on the wall W = 1."""
     x = brentq(lambda x: flight(stiffness, x, V)[1] + x, low, high)
     return flight(stiffness, x, V)[0]
 

@@ -25,7 +25,10 @@ class SymplecticEuler(Method):
 
 @njit(cache=True)
 def _march(q, s, tau0, h, steps):
-    """Return the state after `steps` steps of length h, and one row [time, module, wall, speed] per impact."""
+    """Return the state after `steps` steps of length h, and one row [time, module, wall, speed] per impact.
+
+    q: result of `coefficients`. s: initial state, shape (8,); it is overwritten. tau0: initial time.
+    """
     epsilon, kappa = q[9], q[10]
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     for n in range(steps):
