@@ -10,13 +10,13 @@ from vibroimpact.accuracy.reference.taylor_models import to_ball
 
 
 class Chatter:
-    """Consecutive impacts of the same balls on the same walls, and the limit of the states after the impacts.
+    """Sequence of impacts in which the same balls hit the same walls, and the limit of the states after these impacts.
 
     The map from the state after one impact to the state after the next impact is analytic in the rebound speed. Each
-    state with the rebound speed 0 is a fixed point of the map. There, the eigenvalues are kappa (for the rebound speed)
-    and 1. In Koenigs' linearising coordinate, the map is a multiplication by kappa. A coordinate after impact n is
-    therefore limit + c1 kappa^n + c2 kappa^(2n) + ... Richardson extrapolation removes the powers of kappa one by one.
-    The error of the extrapolated limit falls like kappa^(n^2 / 2).
+    state with the rebound speed 0 is a fixed point of the map. The derivative of the map at such a state has the
+    eigenvalues kappa (for the rebound speed) and 1. In Koenigs' linearising coordinate, the map is a multiplication by
+    kappa. A coordinate after impact n is therefore limit + c1 kappa^n + c2 kappa^(2n) + ... Richardson extrapolation
+    removes the powers of kappa one by one. The error of the extrapolated limit falls like kappa^(n^2 / 2).
     """
 
     def __init__(self, contacts, kappa: Fraction):

@@ -8,8 +8,9 @@ class Undecidable(ArithmeticError):
 
 
 def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
-    """Return an interval with the first root of a series in (0, end] and no other root, or None if there is no root.
+    """Return an interval that contains the first root of a series in (0, end], but no other root of the series.
 
+    If the series has no root in (0, end], the result is None.
     Mean-value enclosures of the series in interval arithmetic prove the result.
 
     series: arb_poly, positive at 0. hint: point at which (0, end] is split first.

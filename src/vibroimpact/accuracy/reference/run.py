@@ -17,7 +17,7 @@ from vibroimpact.accuracy.reference.trajectory import GUARD_BITS, Trajectory
 from vibroimpact.system import System
 from vibroimpact.system.state import EVENT
 
-ROUNDED = Fraction(1, 10**12)  # a start at most this far beyond a wall counts as a rounding error
+ROUNDED = Fraction(1, 10**12)  # largest distance beyond a wall that counts as a rounding error of the initial state
 ACCURACY, MAX_DIGITS = 1e-15, 5000
 
 
@@ -25,11 +25,14 @@ ACCURACY, MAX_DIGITS = 1e-15, 5000
 class ReferenceRun:
     """Dimensionless run in arbitrary precision; a state is [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
 
-    digits: decimal digits of each flight. chatters: number of completed chatters (infinite sequences of impacts).
-
-    In float64: `events`, array of type EVENT; `samples`, states at the sample times, shape (n, 8); `final`, final
-    state, shape (8,). In full precision (flint.arb): `event_taus`, times of the events; `event_states`, states just
-    after the events; `final_exact`, final state.
+    - digits: number of decimal digits of each flight.
+    - events: events in float64, array of type EVENT.
+    - event_taus: times of the events in full precision (flint.arb).
+    - event_states: states just after the events in full precision (flint.arb).
+    - samples: states at the sample times in float64, shape (n, 8).
+    - final: final state in float64, shape (8,).
+    - final_exact: final state in full precision (flint.arb).
+    - chatters: number of completed chatters (infinite sequences of impacts).
     """
 
     digits: int
@@ -69,16 +72,18 @@ def reference_run(
         The ten parameters. All numbers may be decimal strings, Fractions or floats.
     state : sequence
         [X1, Y1, X2, Y2, X1', Y1', X2', Y2'].
-    cycles, tau0
-        Number of forcing periods, at least 0, and start time tau.
+    cycles
+        Number of forcing periods, at least 0.
+    tau0
+        Initial time tau.
     digits : int
         Decimal digits of each flight, at least 20.
     sample_times : sequence, optional
         Ascending times tau within the run. A sample at the time of an event is the state after the event.
     exact_floats : bool, optional
-        If True, floats are read as binary values. As in `simulate`, Omega is then rounded to a float, and a ball within
-        rounding of a wall is put on the wall. If False, floats are read as their shortest decimals, except sample
-        times. The default is True for a System, else False.
+        If True, floats are read as binary values. As in `simulate`, Omega is then rounded to a float. If only
+        rounding separates a ball from a wall, the ball is put on the wall. If False, floats are read as their shortest
+        decimals, except sample times. The default is True for a System, else False.
 
     Raises
     ------

@@ -135,7 +135,10 @@ class Flow:
 
 
 def rate_matrix(system: ExactSystem, stuck) -> list:
-    """Return the matrix A of s' = A s, where s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)]."""
+    """Return the matrix A of s' = A s, where s = [X1, X2, X1', X2', sin(Omega tau), cos(Omega tau)].
+
+    stuck: for each module, True if its ball sticks to a wall.
+    """
     rows = [[Fraction(0)] * 6 for _ in range(6)]
     for i in range(2):
         mass = 1 + system.epsilon if stuck[i] else Fraction(1)
