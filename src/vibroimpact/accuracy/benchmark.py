@@ -47,7 +47,11 @@ def methods_table(seconds: float) -> list[dict]:
 def scenes() -> dict[str, tuple]:
     """Return scenes (sets of n motions), keyed by description.
 
-    A scene is a tuple of one system or n systems, initial states of shape (n, 8), and a number of cycles.
+    A scene is a tuple with these entries:
+
+    - one system for all motions, or one system for each motion;
+    - initial states, shape (n, 8);
+    - number of cycles.
     """
     equal, weak = (System(**PARAMETERS, **CASES[case]) for case in ("equal", "weak"))
     sweep = [
@@ -65,10 +69,10 @@ def scenes() -> dict[str, tuple]:
 
 
 def scenes_table(seconds: float) -> list[dict]:
-    """Return the time per impact [us] on one core: for each scene, a row for `ensemble` and a row for single runs.
+    """Return two rows per scene, with the time per impact [us] of `ensemble` and of single runs on one core.
 
-    The row of `ensemble` also contains an error. It is the median difference between the final states of the ensemble
-    and of single runs after SHORT cycles.
+    The row of `ensemble` also contains `error_state`. For each compared run, the largest difference between the states
+    of both methods after SHORT cycles is computed. `error_state` is the median of these differences.
 
     seconds: time [s] for which the ensemble is repeated; the single runs are repeated for the same time.
     """

@@ -16,10 +16,12 @@ WINDOW = 0.05
 class Errors(NamedTuple):
     """Errors of a run against a reference run.
 
-    error_state: largest error of a coordinate of the final state. error_time: largest time error [tau] of an impact
-    that both runs have. If the run has no final state, error_state and error_time are inf.
+    - error_state: largest error of a coordinate of the final state.
+    - error_time: largest error of the time tau of an impact that both runs have.
+    - missed: number of impacts that only the reference run has.
+    - spurious: number of impacts that only the other run has.
 
-    missed: number of impacts that only the reference has. spurious: number of impacts that only the run has.
+    If the run has no final state, error_state and error_time are inf.
     """
 
     error_state: float

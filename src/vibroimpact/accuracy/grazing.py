@@ -14,14 +14,13 @@ NEWTON_STEPS = 12
 
 
 def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float, ...]:
-    """Return an initial state, shape (8,), from which ball 1 misses the wall +1, with the smallest gap `clearance`.
+    """Return an initial state, shape (8,), from which ball 1 barely misses or barely hits the wall +1.
 
-    If `clearance` is negative, ball 1 hits the wall; without the wall, the ball would go this distance beyond.
-
-    W_1 = X_1 - Y_1 is largest when X_1' equals the ball velocity. This time does not depend on the initial Y_1.
-    Rounding the state changes the clearance by up to 1e-16.
+    W_1 = X_1 - Y_1 has a maximum when X_1' equals the ball velocity. The time of the maximum does not depend on the
+    initial Y_1. Rounding the state changes the clearance by up to 1e-16.
 
     boxes: initial X_1, X_2, X_1', X_2' as decimal strings. guess: time tau near the maximum of W_1.
+    clearance: 1 - (maximum of W_1 in a motion without impacts). If `clearance` is negative, ball 1 hits the wall.
 
     Raises
     ------

@@ -49,8 +49,9 @@ SAMPLES = 400
 class Motion:
     """Symmetric motion that a model gives for a fixed point.
 
-    impacts: for each ball, a time tau >= 0 at which the ball hits the wall W = +1, shape (2,). An inactive module (a
-    module that no force drives) has NaN. response: function that returns U, X, W and Y at times tau of shape (n,).
+    - impacts: one impact time tau >= 0 of each ball on the wall W = +1, shape (2,). The entry of an inactive module (a
+      module that no force drives) is NaN.
+    - response: function that returns U, X, W and Y at times tau of shape (n,).
     """
 
     point: LabelledPoint
