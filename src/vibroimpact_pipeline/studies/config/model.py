@@ -56,15 +56,15 @@ class Whole(Config, Studies):
             yield ("sweeps", "self"), "this name is reserved by Snakemake; rename the sweep"
 
     def named_rules(self) -> Iterator[Place]:
-        """Yield the key path of each config entry that becomes a Snakemake rule with the name of the entry."""
+        """Yield the key path of each config entry whose name becomes the name of a Snakemake rule."""
         yield from super().named_rules()
         yield from (("machines", name) for name in self.machines)
 
     def varied_parameters(self) -> Iterator[tuple[Place, str | None, dict[str, float]]]:
-        """Yield parameter values that must be valid in addition to those of the cases.
+        """Yield parameter values that entries of the config use in place of the values of a case.
 
-        An item is a tuple of the key path of the config entry, the case and the values by parameter. If the values
-        apply to all cases, the case is None.
+        Each item contains the key path of the entry, the name of a case, and a mapping from parameters to values. If
+        the values apply to all cases, the name is None.
         """
         branches, grid, regimes = self.regimes.branches, self.stability.verdict_grid, self.regimes
         for number, path in enumerate(branches.paths):

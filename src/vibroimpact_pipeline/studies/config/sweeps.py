@@ -60,7 +60,7 @@ class Axis(Section):
         return len(self.listed or self.tuples or ()) or self.cells or self.values
 
     def ends(self) -> list[dict[str, float]]:
-        """Return the parameters at both ends of the axis. If the axis has `tuples`, return those of every tuple."""
+        """Return the parameters at both ends of the axis. If the axis has `tuples`, use every tuple."""
         values = self.tuples or [[end] * len(self.along) for end in self.range or (min(self.listed), max(self.listed))]
         return [dict(zip(self.along, at, strict=True)) for at in values]
 
@@ -94,9 +94,10 @@ class Sweep(Section):
             yield ("settle",), f"{self.settle} should be less than cycles"
 
     def corners(self) -> list[dict[str, float]]:
-        """Return the parameters at all corners of the grid and band.
+        """Return the parameters at all corners of the grid.
 
-        If a parameter is within its limits at all corners, it is within these limits everywhere.
+        If the sweep has the key `band`, the band counts as a further axis of the grid. If a parameter is within its
+        limits at all corners, it is within these limits everywhere.
         """
         return [dict(ChainMap(*ends)) for ends in product(*(axis.ends() for axis in self.moving()))]
 

@@ -36,8 +36,9 @@ def live_data(config: dict) -> str:
 def _points(system, roots) -> list[dict]:
     """Return the fixed points of a system; `roots` are the symmetric exact orbits of the system.
 
-    An entry contains the label of the point, and the saw-tooth amplitude C, amplitude B and phase lag psi of module 2.
-    It also contains the verdict of (10.26), and the verdict on the exact orbit that belongs to the point.
+    The entry of a point contains its label and three values of module 2: the saw-tooth amplitude C, the amplitude B and
+    the phase lag psi. The entry also contains the verdict of (10.26) on the point, the verdict on the exact orbit that
+    belongs to the point, and the largest modulus of a multiplier of this orbit.
     """
     points = fixed_points(system)
     exact = exact_orbits(system, [point.C for point in points], roots)

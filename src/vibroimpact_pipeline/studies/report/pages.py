@@ -96,8 +96,8 @@ class Pages:
     def with_numbers(self, text: str, paper: bool = False) -> str:
         """Return a document with the numbers and figures of this build.
 
-        Unless `paper` is True, each number links to its source. If this build lacks a number, the document keeps the
-        number.
+        Unless `paper` is True, each number of this build links to its source. A number that this build lacks stays as
+        it is written in the document.
         """
         if not paper:
             text = LIVE.sub(lambda found: self._live(**found.groupdict()), text)
@@ -183,7 +183,7 @@ class Pages:
 def table(frame, heads: dict, number: int = 3) -> str:
     """Return columns of a DataFrame as a Markdown table with `number` significant digits.
 
-    `heads` maps the name of each column to its head.
+    `heads` maps the name of each column of the result to the heading of the column.
     """
     rows = [[digits(value, number) for value in row] for row in frame[list(heads)].itertuples(index=False)]
     return "\n".join("| " + " | ".join(line) + " |" for line in [heads.values(), ["---"] * len(heads), *rows])

@@ -76,7 +76,7 @@ class Results:
         return best.assign(ratio=best["seconds_per_cycle"] / best["problem"].map(ours))
 
     def value(self, place: str):
-        """Return the number at a place in the results; `place` has the form of the places in docs/studies/numbers.yaml.
+        """Return a number from the results. docs/studies/numbers.yaml describes the form of `place`.
 
         Raises
         ------

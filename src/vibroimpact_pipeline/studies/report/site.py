@@ -129,7 +129,10 @@ def write_library(folder: Path, left_out) -> None:
 
 
 def fill(pages, name: str, source: list[str]) -> None:
-    """Fill the source of a page from results, in place, when Sphinx reads the page."""
+    """Insert numbers and figures of this build into the source of a page when Sphinx reads the page.
+
+    `source` is a list with one entry, the source. The new source replaces this entry.
+    """
     if name in pages.names:
         source[0] = pages.filled(name)
     elif not name.startswith("api/"):
