@@ -25,7 +25,7 @@ TABLES = "*.csv", "*.json", "*.md", "regimes/*.csv", "accuracy/*.csv", "sweeps/*
 def page(results: Path, groups: dict[str, dict[str, str]]) -> str:
     """Return the index of the results of a build as offline HTML.
 
-    For each heading, `groups` contains the titles of figures by name.
+    `groups` contains a mapping for each heading. The mapping contains the title of each figure, keyed by figure name.
     """
     listed = {heading: _listed(results, titles) for heading, titles in groups.items()}
     claims = results / "claims.json"

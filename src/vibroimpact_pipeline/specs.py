@@ -3,13 +3,14 @@
 A SPEC is a dictionary literal with these entries:
 
 - title, caption, alt, equations: texts of the figure.
-- own: texts for figures that users add to the config and that are drawn with the code of this figure.
+- own: texts for further figures, which users define in the config. The code of this figure draws them.
 - method: how the figure is computed.
 - notebook: name of the notebook that explains the figure.
 - sweeps: for each sweep that the figure draws, the axes and observations that the figure needs.
 - columns: meaning, unit and allowed values of each column of the plotted table. The key "C1, C2" describes the two
-  columns C1 and C2. If a column has the entry `compared`, the entry selects the tolerance of the column, or of each
-  series, in tolerances.yaml. If a column has the entry `infinite`, infinite values are allowed.
+  columns C1 and C2. If a column has the entry `compared`, the entry selects a tolerance in tolerances.yaml. It selects
+  one tolerance for the whole column, or one for each series. If a column has the entry `infinite`, infinite values
+  are allowed.
 - file: path of the plotted table; default: results/figures/<name of the figure>.csv.
 - tables: file, description and columns of each further table.
 
@@ -61,7 +62,8 @@ def spec_of(figure: str, scene: dict, known: dict) -> dict:
     """Return the SPEC (description) of a figure, including its drawing module.
 
     `scene` is the config entry of the figure. If `scene` has the key "like", the result is the SPEC of the figure that
-    "like" names. The texts are then those of the entry "own" in this SPEC, and file names contain the name `figure`.
+    "like" names, with two changes. The texts are those of the entry "own" of this SPEC. In the paths of tables, the
+    name of the other figure is replaced by `figure`.
     """
     module = scene.get("like", figure)
     if module == figure:
@@ -96,7 +98,7 @@ def at(config: dict, path: str):
 
 
 def case_parameters(config: dict, case: str) -> dict:
-    """Return the parameters of System for a case: the section `system`, with the values that the case overrides."""
+    """Return the parameters of System for a case. Values of the case replace values of the section `system`."""
     return config["system"] | case_overrides(config, case)
 
 
