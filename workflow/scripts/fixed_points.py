@@ -1,8 +1,9 @@
 """Compute fixed points and exact 1:1 responses of one case, with verdicts and proofs; write CSV.
 
 A 1:1 response has one impact at each wall per forcing period. search.json describes the search for asymmetric
-responses. It contains the number of responses found, the number of Newton starts, and the smallest number of starts
-that led to one of the responses.
+responses. It contains the number of responses found, and the number of first values of Newton's method. For each
+response, the search counts the first values that led to the response or to its mirror image. search.json contains the
+smallest of these counts.
 """
 
 import json

@@ -1,4 +1,7 @@
-"""Write CSV files for all cases: measures of modulation, measures for windows of several lengths, Lyapunov spectra."""
+"""Write three CSV files for all cases, with measures of modulation and Lyapunov spectra.
+
+One of the files contains measures of modulation that are computed from time intervals of several lengths.
+"""
 
 from vibroimpact_pipeline.jobs import running
 

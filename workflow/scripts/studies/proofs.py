@@ -1,8 +1,8 @@
 """Write proofs on the fixed points and orbits of all cases as JSON.
 
 Interval arithmetic proves that the lists of fixed points and of symmetric orbits are complete. The list of asymmetric
-orbits has no proof. The search for these orbits counts the starts of Newton's method that led to each orbit. If many
-starts led to each orbit in the list, it is unlikely that an orbit was missed.
+orbits has no proof. The search for these orbits counts the first values of Newton's method that led to each orbit. If
+many first values led to each orbit in the list, it is unlikely that an orbit was missed.
 """
 
 import dataclasses
@@ -23,7 +23,10 @@ CERTIFIED = {
 
 
 def proofs_of(system, search) -> dict:
-    """Return three proofs of completeness for one case, and the content of the file `search` (search.json)."""
+    """Return the proofs in CERTIFIED for one case, and the content of the file `search` (search.json).
+
+    Each proof shows that one list of fixed points or orbits is complete.
+    """
     proofs = {name: prove(system) for name, prove in CERTIFIED.items()}
     return {
         **{name: {"proved": len(proof.isolated), **dataclasses.asdict(proof)} for name, proof in proofs.items()},

@@ -1,4 +1,4 @@
-"""Write the verdicts on all fixed points as CSV, on a grid of forcing amplitudes and for several values of epsilon."""
+"""Write a CSV table of the verdicts on fixed points, for a grid of forcing amplitudes and several values of epsilon."""
 
 from vibroimpact_pipeline.jobs import running
 
