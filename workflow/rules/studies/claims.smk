@@ -1,4 +1,5 @@
-# Judge the claims of the chapter. If the config changes the parameters or settings of the claims, no claim is judged.
+# Judge the claims of the chapter. No claim is judged if the config has other parameters or settings than those for
+# which the claims were written.
 
 from vibroimpact_pipeline.studies.claims_config import reason_not_judged
 

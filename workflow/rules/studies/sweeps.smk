@@ -1,4 +1,5 @@
-# A sweep is split into tiles, one job each. The table does not depend on the number of tiles.
+# A sweep is split into parts (tiles). Each tile is computed by one job. The table of the sweep does not depend on the
+# number of tiles.
 
 from vibroimpact.studies.sweeps.cost import points, tiles
 
