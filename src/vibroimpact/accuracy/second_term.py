@@ -1,4 +1,4 @@
-"""Compute the second term of (10.7) from the epsilon-derivative of exact orbits at epsilon = 0.
+"""Compute the second term of (10.7) from the derivative of exact orbits with respect to epsilon, at epsilon = 0.
 
 The method of multiple scales gives the same term, because an asymptotic series is unique.
 """

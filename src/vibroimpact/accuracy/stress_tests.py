@@ -1,4 +1,4 @@
-"""Define stress tests, which are hard for a known reason, and judge methods on them."""
+"""Define test problems that are hard for a known reason, and judge integration methods on these problems."""
 
 from dataclasses import dataclass
 
@@ -26,11 +26,12 @@ CHAPTER = PARAMETERS | CASES["equal"]
 class StressTest:
     """Test problem that is hard for a known reason.
 
-    state: initial state at tau = 0, shape (8,). cycles: number of forcing cycles. faint: a method may miss impacts
-    whose rebound speed is at most `faint`. quick: True if the test is also in the reduced set of tests.
-
-    reference_cycles: number of cycles after which the motion has settled and the reference run ends. If it is None, the
-    reference run has `cycles` cycles.
+    state: initial state at tau = 0, shape (8,).
+    cycles: number of forcing cycles.
+    faint: largest rebound speed of an impact that a method may miss.
+    reference_cycles: number of cycles of the reference run, after which the motion has settled. If this number is None,
+    the reference run has `cycles` cycles.
+    quick: True if the test is also in the reduced set of tests.
     """
 
     group: str
@@ -50,7 +51,7 @@ PRESSED = (-0.8, -1.799, 0.1, 0.1, 0.0, -0.01, 0.0, 0.0)  # ball 1 will hit a wa
 RESTING = (-0.8, -1.8, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0)  # ball 1 rests on a wall that pushes it
 TOGETHER = (0.1, 0.3, 0.1, 0.3, 0.2, -0.6, 0.2, -0.6)  # both modules move in the same way
 MIRRORED = (0.1, 0.3, -0.1, -0.3, 0.2, -0.6, -0.2, 0.6)  # module 2 mirrors module 1
-FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # at the fold of the manifold, (10.25)
+FOLD = (0.0817, -0.8165, 0.0817, -0.8165, 0.1945, -0.5797, 0.1945, -0.5797)  # at the fold of the slow manifold (10.25)
 
 
 def stress_tests() -> list[StressTest]:
@@ -98,7 +99,7 @@ def reference_of(test: StressTest):
     if test.reference_cycles is None:
         return proven_run(test.system, test.state, test.cycles, exact_floats=False).run
     times = [(test.reference_cycles - 1) * test.system.period]
-    # Near an attracting motion errors do not grow, so that `proven_run` can start with few digits.
+    # Errors do not grow near an attracting motion. Therefore `proven_run` can start with few digits.
     few = {"digits": 40, "sample_times": times, "exact_floats": False}
     run = proven_run(test.system, test.state, test.reference_cycles, **few).run
     change = abs(run.samples[0] - run.final).max()

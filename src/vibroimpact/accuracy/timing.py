@@ -1,4 +1,4 @@
-"""Measure the run time of functions: the time of the fastest of several calls, since other work disturbs it least."""
+"""Measure the run time of functions by the fastest of several calls, which other work disturbs least."""
 
 import platform
 import time
@@ -11,8 +11,10 @@ MOST_CALLS = 5000
 def interleaved(functions, seconds: float) -> list[tuple]:
     """Return the result and the shortest time [s] of each function.
 
-    The functions are called in turn, so that a disturbance of the machine affects all of them. All code must be
-    compiled before. seconds: total time [s] of the repeated calls of each function.
+    The functions are called in turn, so that a disturbance of the machine affects all of them. All code must already
+    be compiled.
+
+    seconds: total time [s] of the repeated calls of each function.
     """
     given, best = [None] * len(functions), [float("inf")] * len(functions)
     total, calls, left = [0.0] * len(functions), [0] * len(functions), list(range(len(functions)))

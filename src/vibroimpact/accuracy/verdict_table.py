@@ -43,7 +43,9 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
     """Return one row per fixed point, sorted by label, with the verdict of each criterion.
 
     The column `admissible` is True if the balls stay between the walls at leading order. The column `orbit` contains
-    the label of the exact orbit next to the point, or "" if there is none. orbits: result of `orbit_rows` for the case.
+    the label of the exact orbit next to the point, or "" if there is no such orbit.
+
+    orbits: result of `orbit_rows` for the case.
     """
     points = sorted(points, key=lambda point: point.label)
     symmetric = orbits[orbits["symmetric"].astype(bool)]  # in an empty table this column is not boolean
@@ -62,8 +64,11 @@ def fixed_point_rows(case: str, system, points, orbits: pd.DataFrame) -> pd.Data
 def partners(points, orbits) -> list[int | None]:
     """Return, for each fixed point, the index of the exact orbit next to the point, or None if there is none.
 
-    points: amplitudes C of the fixed points, shape (n, 2). orbits: amplitudes C of the orbits, shape (m, 2). A point
-    and the orbit next to it are nearest to each other, at a distance below REACH.
+    An orbit is next to a point if the orbit is nearest to the point, the point is nearest to the orbit, and their
+    distance is below REACH.
+
+    points: amplitudes C of the fixed points, shape (n, 2).
+    orbits: amplitudes C of the orbits, shape (m, 2).
     """
     points, orbits = np.reshape(points, (-1, 2)), np.reshape(orbits, (-1, 2))
     if not len(orbits):

@@ -22,9 +22,10 @@ DIGITS = 40
 class Window:
     """Results of a simulation in the window, which is the part after the transient.
 
-    samples: tau and the state at evenly spaced times of the window. events: impacts, sticks and releases in the window.
-    strobe: tau and the state at the start of every forcing cycle of the whole run, and at the end of the run. trust:
-    method of the simulation, and evidence of its accuracy.
+    samples: tau and the state at evenly spaced times of the window.
+    events: impacts, sticks and releases in the window.
+    strobe: tau and the state at the start of every forcing cycle of the whole run, and at the end of the run.
+    trust: method of the simulation, and evidence of its accuracy.
     """
 
     samples: pd.DataFrame
@@ -36,9 +37,14 @@ class Window:
 def window(system: System, settings: dict) -> Window:
     """Simulate a case and return its window.
 
-    settings: dictionary with the keys initial_state, shape (8,); transient_cycles and window_cycles, numbers of forcing
-    cycles before and in the window; samples_per_cycle; and model, "float64" or "reference". The key digits is optional:
-    number of decimal digits of the first reference run.
+    settings: dictionary with the following keys.
+
+    - initial_state: initial state, shape (8,).
+    - transient_cycles: number of forcing cycles before the window.
+    - window_cycles: number of forcing cycles in the window.
+    - samples_per_cycle: number of samples per forcing cycle.
+    - model: "float64" or "reference".
+    - digits: number of decimal digits of the first reference run (optional).
 
     Raises
     ------

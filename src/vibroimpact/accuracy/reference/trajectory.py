@@ -11,7 +11,7 @@ from vibroimpact.accuracy.reference.roots import Undecidable, first_root, refine
 from vibroimpact.accuracy.reference.taylor_models import ExactSystem, Flow, to_ball, to_fraction
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
-LISTED_SPEED = Fraction(1, 10**12)  # rebound speed |W'| up to which impacts of a completed chatter are not listed
+LISTED_SPEED = Fraction(1, 10**12)  # impacts of a completed chatter are recorded only above this rebound speed |W'|
 GUARD_BITS = 64  # binary digits of precision in addition to the requested digits
 SEARCH_BITS = 96  # binary digits of precision that suffice to find most events
 
@@ -21,8 +21,8 @@ class _Ball:
     """Motion of one ball relative to its box: gap W, its rate W', and the wall that the ball touches, or 0.
 
     order: number of leading Taylor coefficients that are 0. For a stuck ball, these are coefficients of the contact
-    force. For a ball that leaves its wall, these are coefficients of the distance 1 - wall W. If the contact force
-    stays 0, the order is None.
+    force. For a ball that leaves its wall, these are coefficients of the distance 1 - wall * W. If the contact
+    force stays 0, the order is None.
     """
 
     gap: arb
@@ -133,7 +133,7 @@ class Trajectory:
         self.record.append((self.tau, module, self.balls[module].wall, kind, tuple(self.state())))
 
     def _point(self, value):
-        """Return the midpoint of an enclosure; the next flight starts from it."""
+        """Return the midpoint of an enclosure; the next flight starts from this midpoint."""
         if not value.rad() < self.tolerance:
             raise Undecidable(f"the state after a flight is known only to within {value.rad()}; use more digits")
         return value.mid()
@@ -211,8 +211,8 @@ class Trajectory:
     def _distance(self, key, series):
         """Return the distance to a wall, or the contact force on a stuck ball, as a power series in time.
 
-        If the first coefficients are 0, the series is divided by a power of time. The result is positive until the
-        event.
+        If the first k coefficients are 0, the series is divided by the k-th power of time. The result is positive until
+        the event.
         """
         module, wall = key
         ball = self.balls[module]
@@ -245,7 +245,7 @@ class Trajectory:
         """Apply Newton's restitution law. If the rebound speed is below `tolerance`, let the ball stick."""
         ball = self.balls[module]
         if not ball.wall * ball.rate > -self.tolerance:
-            raise Undecidable("cannot decide whether a ball at a wall moves towards it; use more digits")
+            raise Undecidable("cannot decide whether a ball at a wall moves towards the wall; use more digits")
         self.box[2 + module] = self._point(self.box[2 + module] - self.impulse * ball.rate)
         ball.rate, ball.order = self._point(-self.kappa * ball.rate), 1
         self._note(module, IMPACT)
@@ -258,10 +258,10 @@ class Trajectory:
         self._note(module, STICK)
 
     def _settle(self, *modules, started=False):
-        """Release each stuck ball whose contact force w X'' is negative just after this instant.
+        """Release each stuck ball whose contact force is negative just after this instant.
 
-        The sign of the force is the sign of its first nonzero Taylor coefficient. Coefficients up to `tolerance` count
-        as 0.
+        The sign of the force is the sign of its first nonzero Taylor coefficient. Coefficients of absolute value up to
+        `tolerance` count as 0.
 
         started: True at the start of a run, where a release is not recorded.
         """
@@ -299,7 +299,8 @@ class Trajectory:
     def _is_complete(self, contacts):
         """Return True if the chatter can be replaced by its limit.
 
-        The limit must be accurate and come before every sample and other event. The last rebounds must be slow.
+        The limit must be accurate. No sample time and no other event may precede the limit. The last rebounds must be
+        slow.
         """
         if not self.chatter.change < self.tolerance:
             return False
