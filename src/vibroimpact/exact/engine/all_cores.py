@@ -17,7 +17,7 @@ def on_all_cores(work: Callable, pieces: Sequence[tuple], runs: Sequence[int], p
 
     runs: number of runs in each piece. progress: True to print the number of finished runs.
     """
-    if min(cores(), len(pieces)) <= 1 and not progress:  # a pool would cost at least 0.1 ms and save nothing
+    if min(cores(), len(pieces)) <= 1 and not progress:  # a thread pool would cost at least 0.1 ms and save nothing
         return [work(*piece) for piece in pieces]
     cancelled = threading.Event()
     with ThreadPoolExecutor(cores(), initializer=setattr, initargs=(WORKER, "cancelled", cancelled)) as pool:

@@ -39,12 +39,12 @@ approach velocity. An error that repeats adds up instead of averaging out."""
 class Errors(NamedTuple):
     """Estimated errors of a state, in units of UNIT (the float64 epsilon).
 
-    independent: covariance of independent rounding errors, shape (8, 8). repeated: sums of rounding errors that recur
-    with the same value, shape (8, 6).
+    independent: covariance of independent rounding errors, shape (8, 8).
+    repeated: sums of rounding errors that recur with the same value, shape (8, 6).
 
-    Each column of `repeated` belongs to one source. Columns 0 to 3 belong to rounded entries of the flow tables, which
-    contain the free motion of the boxes. These errors change the amplitude and the phase of box 1, then of box 2.
-    Columns 4 and 5 belong to impacts of ball 1 and ball 2.
+    Each column of `repeated` belongs to one source of errors. Columns 0 to 3 belong to rounded entries of the flow
+    tables. The errors in columns 0 and 1 change the amplitude and the phase of the free motion of box 1. Columns 2 and
+    3 are the same for box 2. Columns 4 and 5 belong to impacts of ball 1 and ball 2.
     """
 
     independent: np.ndarray
@@ -135,7 +135,7 @@ def _fly(flow, flight, errors, matrix, product):
     left = flight[LENGTH]
     while left > 0.0:
         flight[LENGTH] = min(left, flow.longest)
-        # A shorter piece uses only the first table entry, which is the identity and has no rounding error.
+        # A piece shorter than half a spacing uses only the first table entry, an identity without rounding error.
         if flight[LENGTH] > 0.5 * flow.spacing:
             _add_table(flow.coefficients, flight[BEFORE:AFTER], errors.repeated)
         fill_flight(flow, flight, matrix)
@@ -221,7 +221,7 @@ def _root(errors):
 
 @inlined
 def _add_table(q, state, sums):
-    """Add the rounding error of a flow table entry to `sums`, before a flight from a state (8,)."""
+    """Add the rounding error of a flow table entry to `sums`, for a flight that starts from `state`, shape (8,)."""
     for i in range(2):  # the error scales and rotates the motion of box i in the phase plane
         x, v = state[i], state[2 + i]
         omega = math.sqrt(max(q.k11 if i == 0 else q.k22, 1.0))
@@ -323,8 +323,8 @@ class Certificate(Representation):
         errors, error = errors_of(flow, flights, rows, HORIZON_ERROR)
         margins, depths, doubts = margins_of(q, flights, turns, rows, phase, duration)
         known, horizon = np.isfinite(errors), np.inf
-        # The horizon is the first event after which the error is inf. Without such an event, the horizon is the
-        # end of the run.
+        # If the final error is inf, the horizon is the time of the first event after which the error is inf. If there
+        # is no such event, the horizon is the end of the run.
         if not np.isfinite(error):
             horizon = run.tau0 + [*rows[:, 0], duration][np.count_nonzero(known[:, 0]) - 1]
         return cls(

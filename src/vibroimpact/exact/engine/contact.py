@@ -25,8 +25,8 @@ from vibroimpact.exact.engine.exclusion import (
 from vibroimpact.exact.engine.flow import acceleration, advance, inverse_masses, jet, mode_of
 from vibroimpact.system.state import IMPACT, RELEASE, STICK
 
-NEGLIGIBLE = 1e-18  # largest change of the state that may be neglected when a stick replaces the rest of a chatter
-HIGHEST_HOP = 1e-12  # largest height of a hop (in W = X - Y) at which a stick may replace the rest of a chatter
+NEGLIGIBLE = 1e-18  # largest change of the state that may be neglected when a chatter is completed
+HIGHEST_HOP = 1e-12  # largest height of a hop, measured in W = X - Y, at which a chatter may be completed
 
 
 class Motion(NamedTuple):
@@ -163,7 +163,10 @@ def common_velocity(q, box, ball):
 
 @inlined
 def box_accelerations(q, walls, boxes, sine):
-    """Return the accelerations of both boxes, from the walls to which balls stick and the sine of the forcing phase."""
+    """Return the accelerations of both boxes.
+
+    walls: for each ball, the wall to which the ball sticks, or 0. sine: sine of the forcing phase.
+    """
     return acceleration(q, inverse_masses(q, mode_of(walls)), boxes[:2], boxes[2:], (q.f1 * sine, q.f2 * sine))
 
 
@@ -206,8 +209,8 @@ def _end_of_chatter(flow, motion, i, counters):
     """Return the time until the chatter of ball i ends, or -1 if the chatter cannot be completed now.
 
     Each hop of the ball is shorter than the hop before by the factor kappa. With u and a from `_hop`, the chatter ends
-    after the time T = 2 u / (a (1 - kappa)). A stick then replaces the remaining impacts. The stick conserves the
-    momentum of box and ball. The stick neglects that the hops change the spring forces. The neglected effect is of the
+    after the time T = 2 u / (a (1 - kappa)). A stick then replaces the remaining impacts. This replacement conserves
+    the momentum of box and ball. It neglects that the hops change the spring forces. The neglected effect is of the
     order u^3 / a^2.
     """
     q, boxes, balls, wall = flow.coefficients, motion.boxes, motion.balls, motion.touching[i]
@@ -272,8 +275,8 @@ def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
     """Apply the impact of the flying ball i if the ball has reached a wall; return (motion, soon).
 
     due: True if the impact is due now.
-    soon: True if a chatter that starts with this impact would end soon. The limits are half of `remaining`, and half of
-    LOOKAHEAD * flow.unit, the longest time that one proof covers.
+    soon: True if a chatter that starts with this impact would end within half of `remaining` and within half of
+    LOOKAHEAD * flow.unit. The time LOOKAHEAD * flow.unit is the longest time that one proof covers.
     """
     q, boxes, balls = flow.coefficients, motion.boxes, motion.balls
     relative, velocity = boxes[i] - balls[i], boxes[2 + i] - balls[2 + i]
@@ -301,7 +304,9 @@ def _apply_impact(flow, motion, i, due, elapsed, remaining, log):
 
 @inlined
 def _stick_or_release(q, motion, i, pulled, elapsed, log):
-    """Return the motion after ball i, which rests on a wall, sticks, stays stuck or is released.
+    """Update the contact of ball i, which rests on a wall, and return the motion.
+
+    The ball may stick, stay stuck or be released.
 
     pulled: True if the release of the sticking ball i is due now.
     """
@@ -337,7 +342,7 @@ def _complete_both(flow, motion, chatters, elapsed, log):
             if end >= 0.0:
                 log.counters[CHATTERS] += 1
                 motion = with_contacts(_joined(flow.coefficients, motion, i), i, motion.touching[i], 0)
-    for i in range(2):  # the end of a chatter may pull the other ball off its wall
+    for i in range(2):  # completing a chatter may release the ball of the other module
         if motion.walls[i] != 0 and ends[i] < 0.0:
             motion = _stick_or_release(flow.coefficients, motion, i, False, elapsed, log)
     sooner = 0 if ends[0] <= ends[1] else 1

@@ -1,7 +1,7 @@
 """Energy balance of a run: work of the forces, dissipation in dampers and impacts, stored energy.
 
-Each term is computed independently, so that the balance tests all terms. The stick that completes a chatter dissipates
-the remaining energy of the relative motion.
+Each term is computed independently. Therefore the balance tests all terms. The stick that completes a chatter
+dissipates the remaining energy of the relative motion.
 
 Work and dissipation in dampers are integrals of quadratic forms z G z over the flights, with a matrix G. In flight, the
 vector z = [X1, X2, X1', X2', sin, cos] obeys z' = A z; sin and cos belong to the forcing phase. If the system is
@@ -94,7 +94,7 @@ def potentials_of(rates, kernels) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     images = UNITS @ rates[:, :, None]
     images = (images + images.swapaxes(-1, -2))[..., ROWS, COLUMNS]  # A^T S + S A for each matrix S in UNITS
     equations[..., :-1, :-1] = images.swapaxes(-1, -2)
-    # The equation leaves a multiple of the constant form sin^2 + cos^2 in S open. These entries select one S.
+    # The equation determines S only up to a multiple of sin^2 + cos^2. These entries select one S.
     equations[..., :-1, -1] = equations[..., -1, :-1] = (ROWS == COLUMNS) & (ROWS >= 4)
     sides = np.zeros((TRIANGLE + 1, len(kernels)))
     sides[:-1] = kernels[:, ROWS, COLUMNS].T
@@ -250,7 +250,7 @@ def _follow(flow, squares, motion, t, row):
 
 @inlined
 def add_potentials(squares, mode, boxes, sine, cosine, sign, sums):
-    """Add the k potentials z S z at one point of a flight, multiplied by `sign`, to `sums`, shape (k,)."""
+    """Add `sign` times the k potentials z S z at one point of a flight to `sums`, shape (k,)."""
     z = (boxes[0], boxes[1], boxes[2], boxes[3], sine, cosine)
     for k in range(squares.drifts.shape[1]):
         total = 0.0

@@ -2,8 +2,8 @@
 
 Between events the flow is linear and has a closed form (flow.advance). exclusion.module_time proves that a module has
 no event over some time, or brackets the time of its next event. If it is certain which event comes first, Newton's
-method finds the time of this event. Otherwise the flight continues to the end of the proved interval, so that no event
-is missed. The events are (contact.resolve):
+method finds the time of this event. Otherwise the flight continues only up to a time before which no event happens.
+The events are (contact.resolve):
 
 impact    a ball meets a wall with outward relative velocity. Newton's restitution rule and the conservation of momentum
           determine the velocities after the impact;
@@ -13,7 +13,7 @@ release   a sticking ball leaves its wall, because its contact force falls to ze
           makes this force negative.
 
 A chatter is not simulated to its end. A stick replaces the remaining impacts as soon as this changes the state by less
-than rounding. Long runs lose no digits, because time is represented by the forcing phase, which is reduced to one turn.
+than rounding. Long runs lose no digits, because time is represented by the forcing phase, which is reduced modulo 2 pi.
 """
 
 import math
@@ -45,9 +45,10 @@ STUCK_IN_TIME, OUT_OF_PROOFS = -2, -3
 def fly(flow, motion, remaining, most_proofs, counters):
     """Advance a motion to the next event, or to the end of the run or of the flow table.
 
-    Return (time, module, boxes, balls), where `time` is the duration of the flight. `module` is the module (0 or 1)
-    with the event, or -1 without an event. `module` is STUCK_IN_TIME if the time does not advance. It is OUT_OF_PROOFS
-    if the run has used more than `most_proofs` proofs that no event happens.
+    Return (time, module, boxes, balls), where `time` is the duration of the flight. If the flight ends with an event,
+    `module` is the module (0 or 1) of the event. Otherwise `module` is -1. In two cases the flight fails. If the time
+    does not advance, `module` is STUCK_IN_TIME. If the run has used more than `most_proofs` proofs that no event
+    happens, `module` is OUT_OF_PROOFS.
     """
     q = flow.coefficients
     mode = mode_of(motion.walls)
@@ -82,7 +83,7 @@ def fly(flow, motion, remaining, most_proofs, counters):
 
 @inlined_source
 def _first_event(q, motion, jets, bound, horizon, short):
-    """Return (module, time, width, safe, doubt) for the first event of both modules.
+    """Return (module, time, width, safe, doubt) for the first event in the two modules.
 
     The event happens in `module` at `time` +- `width`. If it is not certain which event is the first, `module` is -1.
     No event happens before the time `safe`. `doubt` is True if rounding decides whether the event happens.
@@ -154,7 +155,7 @@ PATIENCE = 100_000  # number of successive flights of zero duration after which 
 MOST_PROOFS, MOST_PROOFS_PER_EVENT, MOST_PROOFS_PER_UNIT = 1_000_000, 100, 100
 """A run may use MOST_PROOFS proofs that no event happens, plus MOST_PROOFS_PER_EVENT per event and MOST_PROOFS_PER_UNIT
 per time `Flow.unit`."""
-ROWS_PER_PIECE = 65536  # number of rows in an array of events: an array of 8 MB gets large memory pages
+ROWS_PER_PIECE = 65536  # number of rows in an array of events; such an array has 8 MB and gets large memory pages
 EARLIER_EVENTS, SPAN, CLOCK, RUN_LENGTH = 19, 20, 23, 24
 """Indices in the array of a run, (RUN_LENGTH,). EARLIER_EVENTS: number of events in earlier rows. SPAN: phase at the
 start, its rounding remainder, number of cycles. CLOCK: start time. The state (`contact.pack`) and the other fields of
@@ -164,9 +165,12 @@ start, its rounding remainder, number of cycles. CLOCK: start time. The state (`
 class Progress(NamedTuple):
     """State of an unfinished run.
 
-    motion: the `Motion` at this instant. due: module (0 or 1) with an event at this instant, or -1.
-    phase, tail: forcing phase in [0, 2 pi) and its rounding remainder. revolutions: number of full turns of the phase.
-    elapsed: time since the start. sampled: number of samples taken.
+    motion: the `Motion` at this instant.
+    due: module (0 or 1) with an event at this instant, or -1.
+    phase, tail: forcing phase in [0, 2 pi) and its rounding remainder.
+    revolutions: number of full revolutions (2 pi) that were subtracted from the phase.
+    elapsed: time since the start.
+    sampled: number of samples taken.
     stalled: number of successive flights of zero duration.
     """
 

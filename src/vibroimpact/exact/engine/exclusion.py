@@ -1,7 +1,7 @@
 """Prove that the constraints of a flight are satisfied over some time, and bracket the time of the first violation.
 
 A constraint is a smooth function g(t) >= 0: the gap to a wall, or the contact force of a sticking ball. The Taylor
-polynomial of g of degree 6 and a bound on the seventh derivative of g give a lower bound c0 + ... + c7 t^7. This bound
+polynomial of degree 6 of g and a bound on the seventh derivative of g give a lower bound c0 + ... + c7 t^7. This bound
 is positive on [0, T] if its coefficients in the Bernstein basis of [0, T] are positive. Steps of such lengths T
 approach the first zero of g and never pass the zero. If the rate of g keeps its sign, g has at most one zero, which can
 be approached from either side.
@@ -32,7 +32,7 @@ def least(c, t):
     second = c[4] * t4 * (1 / 35), c[5] * (t2 * t3) * (1 / 21), c[6] * (t3 * t3) * (1 / 7), c[7] * (t3 * t4)
     b = first + second
     low = c[0]
-    for _ in range(7):  # coefficient k sums b with row k of Pascal's triangle as weights
+    for _ in range(7):  # Bernstein coefficient k is the sum over j of binomial(k, j) b[j], with the initial b
         b = (b[0] + b[1], b[1] + b[2], b[2] + b[3], b[3] + b[4], b[4] + b[5], b[5] + b[6], b[6] + b[7], b[7])
         low = low if low < b[0] else b[0]  # this gives nan if a coefficient is nan
     return low
@@ -86,11 +86,12 @@ CONVERGING = 1e-8  # after a Newton step shorter than this, the error is below r
 def crossing(c, remainder, margin, horizon, short):
     """Return (certain, time, width) for the first zero of a decreasing constraint.
 
-    If `certain` is True and `width` is finite, the constraint certainly has its first zero at `time` +- `width`. A time
-    up to `short` is exact to rounding. If `certain` is True and `width` is inf, the constraint certainly has no zero
-    before the horizon. If `certain` is False, nothing is proved.
+    If `certain` is True and `width` is finite, the constraint certainly has its first zero at `time` +- `width`. If
+    also |time| <= short, `time` is exact to rounding. If `certain` is True and `width` is inf, the constraint certainly
+    has no zero before the horizon. If `certain` is False, nothing is proved.
 
-    c: the eight Taylor coefficients of the constraint, with c[1] < 0. remainder: bound on |seventh derivative| / 5040.
+    c: the eight Taylor coefficients of the constraint, with c[1] < 0.
+    remainder: bound on |seventh derivative| / 5040.
     margin: bound on the rounding error of c[0].
     """
     low = (c[0], c[1], c[2], c[3], c[4], c[5], c[6], -remainder)
@@ -117,13 +118,13 @@ def crossing(c, remainder, margin, horizon, short):
 
 @inlined
 def nearby_zero(c, t):
-    """Return the zero of the polynomial with the eight coefficients c that Newton's method reaches from t.
+    """Return the zero near t of the polynomial with the eight coefficients c, by Newton's method.
 
     If Newton's method does not converge, return nan.
     """
     inverse = 1.0 / c[1]
     near, b, d, e = -c[0] * inverse, c[2] * inverse, c[3] * inverse, c[4] * inverse
-    if abs(near * b) < 0.05:  # start from four terms of the series of the inverse function
+    if abs(near * b) < 0.05:  # the first value is the sum of four terms of the inverse series
         t = near + near * near * (near * ((2.0 * b * b - d) + near * (5.0 * b * (d - b * b) - e)) - b)
     for _ in range(MOST_STEPS):
         step = value(c, t) / slope(c, t)
@@ -135,7 +136,7 @@ def nearby_zero(c, t):
 
 @inlined
 def return_time(c, remainder, horizon):
-    """Return the time at which a very short hop of a ball from a wall back to this wall ends.
+    """Return the end time of a very short hop, in which a ball leaves a wall and returns to this wall.
 
     The time is exact to rounding. If the time is uncertain, return inf.
 
@@ -172,12 +173,12 @@ SHORT = 0.02  # time (in units of `Flow.unit`) up to which Taylor polynomials of
 def remainder(q, mode, jets, growth):
     """Return a bound on |X_i^(7)| / 7! that holds for both boxes.
 
-    The sixth derivatives of the displacements obey the equations of motion, with the sixth derivative of the force as
-    forcing. The velocities of this auxiliary motion are the seventh derivatives of the displacements. They are at most
-    sqrt(2 E), where E is the energy of the auxiliary motion. Damping can only reduce E. Therefore sqrt(2 E) grows by at
-    most `growth`.
+    The sixth derivatives of the displacements obey the equations of motion, with the sixth derivative of the external
+    force as forcing. The velocities of this auxiliary motion are the seventh derivatives of the displacements.
+    These derivatives are at most sqrt(2 E), where E is the energy of the auxiliary motion. Damping can only reduce E.
+    Therefore sqrt(2 E) grows by at most `growth`.
 
-    growth: bound on the time integral of the sixth derivative of the force.
+    growth: bound on the time integral of the sixth derivative of the external force.
     """
     one, two = jets
     m1, m2 = (q.mass if mode & 1 else 1.0), (q.mass if mode & 2 else 1.0)
@@ -233,7 +234,7 @@ def push(q, mode, jets, i, wall, sine, cosine, horizon):
     """Return (Taylor coefficients, remainder bound) of the force of the wall on the sticking ball i, per ball mass.
 
     Up to its sign, this force is the acceleration of the box. The accelerations of the boxes obey the equations of
-    motion, with the second derivative of the force as forcing.
+    motion, with the second derivative of the external force as forcing.
     """
     one, two = jets
     fall = -wall * q.omega * q.omega
@@ -264,9 +265,9 @@ def _safe_time(c, bound, margin, horizon):
 def _time_from_zero(c, bound, margin, horizon, rises):
     """Return a time up to which a constraint that is initially zero within rounding is certainly satisfied.
 
-    If the constraint rises, its polynomial is divided by t, which removes the initial zero. In two cases, the
-    constraint is only proved to stay above -margin. Either the constraint does not rise, or the remainder bound more
-    than halves the time.
+    If the constraint rises, its polynomial is divided by t, which removes the initial zero. If the constraint does not
+    rise, it is only proved to stay above -margin. The same holds if the remainder bound reduces the proved time to less
+    than half.
     """
     time = 0.0
     if rises:
@@ -278,7 +279,7 @@ def _time_from_zero(c, bound, margin, horizon, rises):
 
 @inlined_source
 def _hop_time(c, bound, margin, horizon, short):
-    """Return (time, back) for a hop of a ball: a flight from the wall that the ball touches now back to this wall.
+    """Return (time, back) for a hop of a ball: the ball leaves the wall that it touches, and returns to this wall.
 
     If `back` is True, the hop ends at `time`. If `back` is False, the hop certainly does not end before `time`.
     """

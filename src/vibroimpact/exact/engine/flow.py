@@ -5,7 +5,7 @@ table contains Taylor polynomials of the motion about the times j h (`jet_at`). 
 from t by at most h / 2. The polynomial about this j h gives the motion at t, exact to rounding. No eigenvalues are
 used, so repeated, defective, undamped and resonant spectra need no special treatment.
 
-At the start of a run, the forcing phase Omega tau is computed exactly (`Instant`) and reduced to one turn.
+At the start of a run, the forcing phase Omega tau is computed exactly (`Instant`) and reduced modulo 2 pi.
 """
 
 import math
@@ -37,11 +37,13 @@ _GUARD_BITS = 192
 class Coefficients(NamedTuple):
     """Coefficients of the equations of motion (10.2), for the compiled loops.
 
-    ground: stiffness between box 2 and the ground. drive: amplitude of the force vector, |(f1, f2)|.
-    growth: amplitude of the sixth derivative of the force, drive * omega^6.
+    ground: stiffness between box 2 and the ground.
+    drive: amplitude of the force vector, |(f1, f2)|.
+    growth: amplitude of the sixth derivative of the force vector, drive * omega^6.
     shift: bound on the displacement that the force causes in a period.
-    mass: mass of a box with its ball. impulse, impulse_rest: (1 + kappa) / (1 + epsilon) as a float, and the rounding
-    remainder.
+    mass: mass of a box with its ball.
+    impulse: the factor (1 + kappa) / (1 + epsilon) as a float.
+    impulse_rest: rounding remainder of `impulse`.
     """
 
     k11: float
@@ -69,7 +71,9 @@ class Flow(NamedTuple):
     """Coefficients and flow tables of one system.
 
     series, rotations: tables from `flow_tables.tables`, shapes (4, n, 6, 16) and (n, 2), for n times.
-    spacing: time step of the tables. density: 1 / spacing. longest: last time of the tables.
+    spacing: time step of the tables.
+    density: 1 / spacing.
+    longest: last time of the tables.
     unit: time unit of the system, the inverse of its fastest rate.
     rate: bound on the rate of change of the boxes in free flight, in the energy norm.
     """
@@ -106,7 +110,7 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
     e, kappa, omega, f1, f2 = parameters[:, [0, 1, 7, 8, 9]].T
     f1, f2, ground = e * f1, e * f2, 1.0 + e * parameters[:, 6]
     fastest = np.maximum(np.maximum(1.0, omega), np.maximum(stiff, damped))
-    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # multiples of a power of two are exact
+    spacing = 2.0 ** np.floor(np.log2(1.0 / (STEPS_PER_UNIT * fastest)))  # a power of two, so its multiples are exact
     drive, longest = np.hypot(f1, f2), spacing * (count - 1)
     # `shift` bounds the displacement of a box, since sqrt(2 energy) grows by at most the time integral of the force.
     shift = drive * (2.0 * np.pi / omega) * np.maximum(1.0, 1.0 / np.sqrt(ground))
@@ -122,8 +126,8 @@ def numbers_of(systems, count: int) -> tuple[np.ndarray, np.ndarray]:
 def flow_of(system) -> Flow:
     """Return the coefficients and flow tables of a system.
 
-    The tables cover at least one forcing period. If this needs more than LONGEST_TABLE times, the tables have
-    LONGEST_TABLE times.
+    The tables cover one forcing period. If a period needs more than LONGEST_TABLE times, the tables contain only the
+    first LONGEST_TABLE times.
     """
     (numbers,), (rates,) = numbers_of([system], 2)
     count = min(LONGEST_TABLE, int(np.ceil(system.period / numbers[SPACING])) + 1)
@@ -263,7 +267,7 @@ def advance(flow, mode, boxes, sine, cosine, t):
     jets = jet_at(flow, mode, boxes, sine, cosine, j)
     s, c = rotate_phase(flow, sine, cosine, j)
     angle = flow.coefficients.omega * r
-    h = angle * angle  # h is below 1e-3, so that the series for sa and ca are exact to rounding
+    h = angle * angle  # h is below 1e-3; therefore the series for sa and ca are exact to rounding
     sa = angle * (1.0 - h * (1 / 6) * (1.0 - h * (1 / 20) * (1.0 - h * (1 / 42))))
     ca = 1.0 - h * (1 / 2) * (1.0 - h * (1 / 12) * (1.0 - h * (1 / 30)))
     return evaluate(jets, r), s * ca + c * sa, c * ca - s * sa
@@ -380,7 +384,7 @@ def _series(c, z):
 def advance_phase(phase, tail, omega, t):
     """Return (phase, tail), the forcing phase and its rounding remainder, a time t later.
 
-    The phase is not reduced to one turn. The tail collects the rounding errors of the product omega t and of the sum.
+    The phase is not reduced modulo 2 pi. The tail collects the rounding errors of the product omega t and of the sum.
     """
     step = omega * t
     total = phase + step
@@ -390,7 +394,7 @@ def advance_phase(phase, tail, omega, t):
 
 @inlined
 def reduced(phase, tail):
-    """Subtract one full turn from phase + tail; return the new (phase, tail).
+    """Subtract 2 pi from phase + tail; return the new (phase, tail).
 
     The new tail is again the rounding remainder of the phase.
     """

@@ -63,7 +63,7 @@ def exact_rates(parameters):
 
 @inlined_source
 def _put(rows, i, j, base, e, first, second):
-    """Set entry (i, j) of `rows` to base + e (first + second) in double-double numbers."""
+    """Set entry (i, j) of `rows` to base + e * (first + second) in double-double numbers."""
     high, low = _plus_product(base, 0.0, e, 0.0, first, 0.0)
     high, low = _plus_product(high, low, e, 0.0, second, 0.0)
     rows[0, i, j], rows[1, i, j] = _normal(high, low)
@@ -96,7 +96,8 @@ def tables(rates, spacing, count):
 def fill_table(rates, mode, spacing, series, rotations, step, change):
     """Fill `series[mode]` and `rotations` as described in `tables`, and write exp(A t) - I to `change`.
 
-    The time in `change` is t = step * spacing. change: floats and their rounding remainders, shape (2, 6, 6).
+    change: matrix exp(A t) - I for the time t = step * spacing, as floats and their rounding remainders, shape
+    (2, 6, 6).
     """
     count = len(rotations)
     power, coefficients = np.zeros((2, SIZE, SIZE, count)), np.empty((SIZE, 2 * ORDERS))
@@ -127,8 +128,9 @@ def _fill_unit(matrices, place):
 
 @inlined_source
 def _fill_exponential(rates, k, spacing, powers, term, after):
-    """Write exp(A_k spacing), the first power, to index 1 of `powers`, for the rate matrix A_k with index k.
+    """Write the matrix exp(A h) to index 1 of `powers`, for a rate matrix A and the time step h.
 
+    k: index of the rate matrix A in `rates`. spacing: the time step h.
     term, after: arrays for intermediate results, shape (2, 6, 6, 1).
     """
     _fill_unit(powers, 1)
@@ -194,7 +196,7 @@ def _multiply(powers, last, many):
             _entries(powers, last, many, i, j, 0, BOXES)
         for j in range(BOXES, SIZE):
             _entries(powers, last, many, i, j, 0, SIZE)
-    for i in range(BOXES, SIZE):  # in these rows of the phase, the columns of the boxes are zero
+    for i in range(BOXES, SIZE):  # the rows of the phase are zero in the columns of the boxes
         for j in range(BOXES, SIZE):
             _entries(powers, last, many, i, j, BOXES, SIZE)
 
@@ -216,7 +218,7 @@ def _entries(powers, last, many, i, j, first, end):
 
 @inlined
 def _plus_product(high, low, a, a_low, b, b_low):
-    """Return (high, low) + (a, a_low) (b, b_low) as a pair (high, low).
+    """Return the sum of (high, low) and the product (a, a_low) * (b, b_low), as a pair (high, low).
 
     The pair is not yet normalised (see `_normal`).
     """
