@@ -18,7 +18,10 @@ def main() -> None:
 
 
 def beforehand() -> None:
-    """Prepare a process that only compiles: print no hint to compile in advance, and disable garbage collection."""
+    """Prepare a process that only compiles.
+
+    Print no hint about compiling in advance, and disable garbage collection.
+    """
     from vibroimpact.exact.engine.compiled import NOTICE
 
     NOTICE.hint = ""
