@@ -125,8 +125,10 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_
         Rows of `verdict_table.orbit_rows` for all cases.
     kappa
         Restitution coefficient of the manifold. Cases with another kappa are left out.
-    epsilon, values
-        Range and number of values of epsilon, evenly spaced on a log scale.
+    epsilon
+        Both ends of the range of epsilon.
+    values : int
+        Number of values of epsilon, evenly spaced on a log scale.
     C_max : float
         Largest C of the symmetric branch.
 
@@ -167,7 +169,7 @@ def compute(systems: dict, orbits: pd.DataFrame, kappa, epsilon, values: int, C_
 def _manifold(kappa, C_max):
     """Yield the pieces of the symmetric and of the asymmetric branch of the manifold.
 
-    The symmetric branch ends at C_max. The asymmetric branch ends at the B that the symmetric branch has at C_max.
+    The symmetric branch ends at C = C_max. Both branches end at the same value of B.
     """
     edges = (0.0, lower_limit(kappa), SYMMETRY_BREAKING_C, C_max)
     r, end = rho(kappa), branch.period_doubling(kappa)
@@ -180,9 +182,10 @@ def _manifold(kappa, C_max):
 
 
 def _pairs(system, orbits):
-    """Yield one orbit of each mirror-image pair: its row of the table, and its root of `AsymmetricConditions`.
+    """Yield one orbit of each pair of mirror images, as (row, root).
 
-    The root has the shape (6,).
+    row: row of the orbit in the table `orbits`.
+    root: solution of `AsymmetricConditions` for the orbit, shape (6,).
     """
     rows = orbits[~orbits["symmetric"].astype(bool) & ~(orbits["C1"] <= 0) & ~(orbits["C2"] <= 0)]
     one_each = rows.loc[~rows[["C1", "C2"]].round(7).duplicated()]
@@ -202,7 +205,7 @@ def _row(system, case, name, point, label, onset):
 
 @style.styled
 def draw(tables: dict) -> Figure:
-    """Draw the tables of `compute`: the manifold with both branches, and asymmetry of the pairs against epsilon."""
+    """Draw the tables of `compute`: the manifold with both branches, and the asymmetry of orbits against epsilon."""
     figure = style.new_figure(style.DOUBLE_COLUMN, 84.0)
     left, right = figure.subplots(1, 2)
     style.heading(left, "a", "both branches of the manifold")
@@ -236,7 +239,10 @@ def _draw_manifold(axes, table):
 
 
 def _draw_pairs(axes, pairs):
-    """Draw the asymmetry of the orbits against epsilon; return the lines, grouped by the end of their orbit (ENDS)."""
+    """Draw the asymmetry of the orbits against epsilon, and return the drawn lines.
+
+    The lines are grouped by the way in which their orbits end (an entry of ENDS).
+    """
     last, named = pairs.drop_duplicates(["case", "label"], keep="last"), {}
     meets = last.round({"asymmetry": 1}).duplicated(["case", "epsilon", "asymmetry"], keep=False)
     ends = pd.Series(np.select([last["epsilon"] == 0, last["asymmetry"] == 0, meets], ENDS, ""), last.index)

@@ -55,12 +55,13 @@ _MARK = {"linestyle": "none", "color": "white", "markeredgecolor": BLACK, "marke
 
 
 def compute(system, case: str, points: int, observation: dict) -> dict:
-    """Return the regimes of starts that differ only in the positions of the balls.
+    """Return the regimes that are reached from initial states with different positions of the balls.
 
-    The positions of the boxes and all velocities are those of the stable asymmetric orbit at tau = 0. If there is no
-    such orbit, they are 0.
+    All initial states have the same positions of the boxes and the same velocities, namely those of the stable
+    asymmetric orbit at tau = 0. If there is no such orbit, these positions and velocities are 0.
 
-    points: number of starts along each axis W_i = X_i - Y_i. observation: arguments of `Observation`.
+    points: number of initial states along each axis W_i = X_i - Y_i.
+    observation: arguments of `Observation`.
     """
     orbit = stable_response(system)
     states = plane(np.zeros(8) if orbit is None else orbit.state, points)
@@ -80,7 +81,10 @@ def compute(system, case: str, points: int, observation: dict) -> dict:
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the regimes of the starts, with a circle at the asymmetric orbit and a diamond at its mirror image."""
+    """Draw the regime that is reached from each initial state.
+
+    A circle marks the asymmetric orbit. A diamond marks its mirror image.
+    """
     starts, orbits = tables["csv"], tables["orbits"].set_index("series")
     figure = new_figure(SINGLE_COLUMN, 100.0)
     axes = figure.add_subplot()

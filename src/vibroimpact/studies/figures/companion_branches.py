@@ -134,20 +134,23 @@ def compute(
     observation: dict,
     systems: dict,
 ) -> dict:
-    """Return the branches along each path, their special points, and attractors from several starts.
+    """Return the branches along each path, their special points, and attractors from several initial states.
 
     Parameters
     ----------
     paths : list of dict
         For each path, `along` (names of the parameters that vary together) and `range` (low, high).
-    longest_step, seeds
-        Longest step of the continuation, and number of parameter values in the range at which branches are sought.
+    longest_step : float
+        Length of the longest step of the continuation.
+    seeds : int
+        Number of parameter values at which branches are searched for, evenly spaced in the range.
     attractors : dict
-        `values` (number of parameter values), `starts` (number of starts at each value) and `seed`.
+        `values` (number of parameter values), `starts` (number of initial states at each value) and `seed` (seed of the
+        initial states).
     observation : dict
         Arguments of `Observation`.
     systems : dict
-        System of each case, by name of the case. Cases on a path are marked.
+        System of each case, by name of the case. The figure marks the cases that lie on a path.
 
     Returns
     -------
@@ -195,7 +198,7 @@ def _special_points(nodes, names):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw C_2 along each path: the theory above, exact motions and simulations below."""
+    """Draw C_2 along each path: theory in the upper panel, exact motions and simulations in the lower panel."""
     nodes, attractors, cases = tables["csv"], tables["attractors"], tables["cases"]
     panels = list(dict.fromkeys(attractors["panel"]))
     figure = new_figure(DOUBLE_COLUMN, 112.0)
@@ -221,7 +224,7 @@ def draw(tables: dict) -> Figure:
 
 
 def _cases(theory, exact, cases):
-    """Draw a thin vertical line at each case, with its name at the bottom of the theory's panel."""
+    """Draw a thin vertical line at each case, and write the name of the case at the bottom of the panel `theory`."""
     for case, p in cases[["case", "p"]].itertuples(index=False):
         for axes in (theory, exact):
             axes.axvline(p, **CASE)
@@ -232,7 +235,8 @@ def _cases(theory, exact, cases):
 def _branches(axes, nodes):
     """Draw all branches; return (name, lines) of each long branch.
 
-    The lines are those of stable motions. If the branch has no stable motion, they are all of its lines.
+    If the branch has stable motions, `lines` are the lines of the stable motions. Otherwise, `lines` are all lines of
+    the branch.
     """
     named, spans = {}, nodes.groupby(["series", "branch"])["p"].agg(np.ptp)
     # Successive pieces with the same stability are drawn as one line. If dashes started again at each piece, the line

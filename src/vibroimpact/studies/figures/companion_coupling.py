@@ -1,4 +1,7 @@
-"""Companion: errors of the theory, predicted motions that do not exist, and asymmetric flights, over the coupling."""
+"""Companion: effect of the coupling on errors of the theory, false predictions and asymmetric flights.
+
+A false prediction is a fixed point of the theory to which no exact motion corresponds.
+"""
 
 import numpy as np
 import pandas as pd
@@ -69,7 +72,8 @@ def compute(systems: dict) -> dict:
     Parameters
     ----------
     systems : dict
-        System of each case, by name of the case. The case "equal" is required; the cases in STRONG and WEAK are used.
+        System of each case, by name of the case. The case "equal" is required. Only the cases in STRONG and
+        WEAK are used.
 
     Returns
     -------
@@ -103,8 +107,8 @@ def errors(system) -> list[dict]:
 
     error: larger error of C_1 and C_2, divided by the larger of C_1 and C_2 of the exact orbit.
     own_error: larger relative error of C_1 and C_2. The error of C_i is divided by C_i of the exact orbit.
-    predicted: True if the theory calls the fixed point stable. stable: True if the exact orbit is admissible and
-    stable.
+    predicted: True if the theory calls the fixed point stable.
+    stable: True if the exact orbit is admissible and stable.
 
     If a fixed point has no admissible exact orbit, both errors are nan.
     """
@@ -136,7 +140,10 @@ def _of_errors(table):
 
 
 def _of_patterns(system):
-    """Return the couplings at both ends of each range in which a pattern of flights is stable, by description."""
+    """Return the ends of each range of the coupling in which a pattern of flights has a stable orbit.
+
+    The result is a dict from a description of the end to the coupling at this end.
+    """
     return {
         f"{name}, from {start:g}: stable {end}": found[i][0]
         for name, start, found, _ in stable_ranges(system, LIMITS)
@@ -146,7 +153,10 @@ def _of_patterns(system):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw the table "csv" of `compute`: errors, and predicted motions that do not exist, over the coupling."""
+    """Draw the table "csv" of `compute` against the coupling.
+
+    The left panel shows the errors. The right panel shows the share of predicted motions that do not exist.
+    """
     table = tables["csv"]
     figure = new_figure(DOUBLE_COLUMN, 78.0)
     left, right = figure.subplots(1, 2)

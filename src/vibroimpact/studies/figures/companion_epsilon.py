@@ -1,4 +1,4 @@
-"""Companion: errors of the theory as epsilon tends to 0, in fixed points, slow rates and fast multipliers."""
+"""Companion: errors of the theory's fixed points, slow rates and fast multipliers as epsilon tends to 0."""
 
 from contextlib import suppress
 
@@ -70,8 +70,10 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
     ----------
     systems : dict
         System of each case, by name of the case.
-    epsilon, values
-        First and last epsilon, and number of values, evenly spaced on a log scale.
+    epsilon
+        First and last value of epsilon.
+    values : int
+        Number of values of epsilon, evenly spaced on a log scale.
     fit_below : float
         Upper limit of epsilon in the fit of the orders.
     mixed : dict, optional
@@ -120,10 +122,12 @@ def compute(systems: dict, epsilon, values: int, fit_below: float, mixed: dict |
 
 
 def _two_terms(system, point, found):
-    """Return the distances of exact orbits from a fixed point with its first-order term in epsilon added.
+    """Return the distance of each exact orbit from a prediction with two terms.
 
-    found: one `Comparison` of the orbit with the fixed point for each epsilon. If the first-order term does not exist,
-    all distances are nan.
+    The prediction is the fixed point plus its first-order term in epsilon. If the first-order term does not exist, all
+    distances are nan.
+
+    found: list of `Comparison`, one for each exact orbit.
     """
     added = np.nan
     with suppress(NoOrbit):
@@ -152,7 +156,10 @@ def draw(tables: dict) -> Figure:
 
 
 def _slope(axes, epsilon, error, slope, times):
-    """Draw a triangle whose sloping side has the given slope, on a line through the point (epsilon, times * error)."""
+    """Draw a triangle on logarithmic axes. Its sloping side has the given slope.
+
+    The line along the sloping side passes through the point (epsilon, times * error).
+    """
     x = epsilon * np.array([0.05, 0.5])
     y = error * times * (x / epsilon) ** slope
     axes.add_patch(Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1])], facecolor=LIGHT_GREY, edgecolor=GREY))

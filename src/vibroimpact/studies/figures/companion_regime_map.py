@@ -1,4 +1,4 @@
-"""Companion: map of the regimes over both forcing amplitudes, with borders that the theory predicts."""
+"""Companion: map of the regimes in the plane of both forcing amplitudes, with borders that the theory predicts."""
 
 from functools import cache
 from textwrap import fill
@@ -91,7 +91,7 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
         System of each case, by name of the case. Cases that differ from `system` only in the forcing amplitudes are
         marked.
     starts : int
-        Number of starts at each point, the first at rest.
+        Number of initial states at each point. Only the first initial state is at rest.
 
     Returns
     -------
@@ -111,9 +111,9 @@ def compute(table: pd.DataFrame, system, systems: dict, starts: int) -> dict:
 
 
 def _dominant(cells, starts):
-    """Return, for each cell, the regime in which most starts end, and the number of regimes in which starts end.
+    """Return two arrays: the regime that most initial states reach in each cell, and the number of reached regimes.
 
-    The number does not count "unsettled". The start from rest is ignored unless it is the only start.
+    The number does not count the regime "unsettled". The run from rest is ignored unless it is the only run.
     """
     counts = cells[[*REGIMES]].to_numpy(float) * starts
     if starts > 1:
@@ -125,7 +125,9 @@ def _dominant(cells, starts):
 
 
 def _border(system, cells, series):
-    """Yield both ends of each straight piece of a border, as (number of the piece, f10_hat, f20_hat).
+    """Yield both ends of each straight piece of a border.
+
+    Each end is a tuple (number of the piece, f10_hat, f20_hat). The pieces are numbered from 1.
 
     series: "fixed points" or "stable points". The number of these points changes at the border.
     """
@@ -151,12 +153,12 @@ def _border(system, cells, series):
 
 
 def _squares(cells, square):
-    """Yield the list of (centre, count) of the cells in each square of four adjacent cells.
+    """Yield a list of four tuples (centre, count) for each square of four adjacent cells.
 
-    The count is the number of fixed points, or of stable fixed points, in a cell. Neighbours in the list share a side.
-    Squares with an unknown count are left out.
+    The count is the number of fixed points, or of stable fixed points, in a cell. Successive cells in the list share a
+    side. If the count of a cell is unknown, squares with this cell are left out.
 
-    square: counts of all cells, with rows for f20_hat and columns for f10_hat; nan if unknown.
+    square: counts of all cells, with rows for f20_hat and columns for f10_hat. An unknown count is nan.
     """
     x, y = np.unique(cells["f10_hat"]), np.unique(cells["f20_hat"])
     for i, j in np.ndindex(len(y) - 1, len(x) - 1):
@@ -213,7 +215,7 @@ def draw(tables: dict) -> Figure:
 def _name(axes, regimes, name, lined):
     """Write the name of a regime in its largest patch; return False if this patch is too small.
 
-    lined: True in cells with a stroke or a piece of the border of stability. The name avoids these cells.
+    lined: mask of the cells that contain a stroke or a piece of the border of stability. The name avoids these cells.
     """
     patches, _ = ndimage.label(regimes.eq(name))
     sizes = np.bincount(patches.ravel())[1:]

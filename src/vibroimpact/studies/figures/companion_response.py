@@ -88,7 +88,7 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
     Parameters
     ----------
     frequency : DataFrame
-        Table of a sweep over sigma_e_hat and the pair of forces, with regimes and amplitudes.
+        Table of a sweep over sigma_e_hat and over pairs of forces, with regimes and amplitudes.
     force : DataFrame
         Table of a sweep over the amplitude of two equal forces, with regimes and amplitudes.
     band : dict
@@ -117,7 +117,11 @@ def compute(system, frequency: pd.DataFrame, force: pd.DataFrame, band: dict) ->
 
 
 def per_force(system, table: pd.DataFrame) -> pd.DataFrame:
-    """Return the table of a sweep with two more columns: ratio (the response) and label (the regime of most starts)."""
+    """Return the table of a sweep with two more columns.
+
+    ratio: the response.
+    label: the regime that most initial states reach.
+    """
     force = system.epsilon * table[FORCES].max(axis=1)
     largest = table[["largest_X1", "largest_X2"]].max(axis=1)
     return table.assign(ratio=largest / force, label=table[list(REGIMES)].idxmax(axis=1))
@@ -151,7 +155,7 @@ def ratios(system, linear, detunings):
 
 @styled
 def draw(tables: dict) -> Figure:
-    """Draw a panel of the responses over the detuning for each pair of forces, and a last panel over the force."""
+    """Draw the responses: one panel against the detuning for each pair of forces, and one panel against the force."""
     balls, linear = (dict(iter(tables[key].groupby("panel"))) for key in ("csv", "linear"))
     pairs = list(balls["frequency"].groupby(FORCES, sort=False))
     columns, rows = side_by_side(len(pairs) + 1, most=2)
@@ -197,7 +201,11 @@ def _draw_panel(axes, balls, linear, x):
 
 
 def logarithmic(axes, side: str, *ends: float) -> None:
-    """Make an axis logarithmic, with labels at 1, 2 and 5 times powers of ten and optional limits `ends`."""
+    """Make an axis logarithmic, with labels at 1, 2 and 5 times powers of ten.
+
+    side: "x" or "y".
+    ends: lower and upper limit of the axis, optional.
+    """
     axes.set(**{f"{side}scale": "log"})
     axis = getattr(axes, f"{side}axis")
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))

@@ -93,8 +93,10 @@ def compute(plant: dict, clearances, frequencies: dict, cycles: int, settle: int
         Clearances L [m].
     frequencies : dict
         `range` [Hz] and `values`, the number of frequencies.
-    cycles, settle : int
-        Length of each run, and length of the omitted transient at its start, in forcing periods.
+    cycles : int
+        Number of forcing periods of each run, including the transient.
+    settle : int
+        Number of forcing periods of the transient, which is omitted.
     shown : dict
         `L` [m], `frequency` [Hz] and `cycles` (number of forcing periods) of the motion that is shown in time.
 
@@ -128,7 +130,10 @@ def _machines(plant, L, hertz):
 
 
 def _linear(machine, band):
-    """Yield the curves without balls and with the best absorbers: displacement [mm] against frequency [Hz]."""
+    """Yield the curves of two linear machines: one without balls, and one with the best absorbers.
+
+    Each curve gives the largest displacement [mm] against the frequency [Hz].
+    """
     unit, fine = machine.omega10 / (2 * np.pi), np.linspace(*band, FINE)
     linear = compared(machine.dimensionless(), tuple(band / unit))
     for name in LINES:

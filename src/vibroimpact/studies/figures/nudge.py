@@ -51,7 +51,7 @@ def compute(system) -> dict:
         - "motion": X1, Y1, X2, Y2 at each sample and each event.
         - "impacts": module and wall of each impact.
         - "distance": Euclidean distance from the orbit, once a period.
-        - "flights": end and length of each flight of ball 2.
+        - "flights": time at the end of each flight of ball 2, and length of the flight in forcing periods.
         - "orbit": label of the fixed point, and modulus of the largest multiplier.
     """
     label, orbit = _called_stable(system)
@@ -120,7 +120,10 @@ def _called_stable(system):
 
 @styled
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
-    """Draw the tables of `compute`: the distance, with the growth that the multiplier predicts, and the flights."""
+    """Draw the tables of `compute`: the distance in the left panel, and the flights in the right panel.
+
+    A line in the left panel shows the growth that the largest multiplier predicts.
+    """
     figure = new_figure(DOUBLE_COLUMN, 62.0)
     left, right = figure.subplots(1, 2)
     distance, flights = tables["distance"], tables["flights"]

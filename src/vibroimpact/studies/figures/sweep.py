@@ -1,4 +1,4 @@
-"""Draw the results of a sweep: curves over one parameter, maps over two."""
+"""Draw the results of a sweep: curves if one parameter varies, maps if two parameters vary."""
 
 from itertools import cycle
 

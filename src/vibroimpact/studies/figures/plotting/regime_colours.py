@@ -41,7 +41,8 @@ _BOX = {"edgecolor": BLACK, "linewidth": 0.4}
 def paint(axes, square: pd.DataFrame) -> list[str]:
     """Paint the cells of `square` in the colours of their regimes, and return the regimes that occur.
 
-    square: table of regimes. Its index has the positions of the cells along y, its columns those along x.
+    square: table with the regime of each cell. The index contains the positions of the cells along y. The columns
+        contain the positions of the cells along x.
     """
     occurring = [name for name in COLOURS if square.eq(name).to_numpy().any()]
     codes = np.select([square.eq(name).to_numpy() for name in occurring], range(len(occurring)), np.nan)
