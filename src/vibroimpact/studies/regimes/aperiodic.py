@@ -33,7 +33,8 @@ CHAOTIC_REGIMES = {AT_TIMES: STRONGLY_MODULATED, ALWAYS: CHAOTIC, NEVER: HOPPING
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
     """Return the regime of a motion that does not repeat.
 
-    blocks, block: number of blocks for the Lyapunov exponent, and forcing cycles per block.
+    blocks: number of blocks in each run for the Lyapunov exponent.
+    block: number of forcing cycles in each block of the first of these runs.
     """
 
     def of_length(cycles):
@@ -61,7 +62,7 @@ def sign(exponent: Measured) -> str:
 
 
 def resonance(shares) -> str:
-    """Return AT_TIMES if a module enters and leaves resonance, else ALWAYS if one stays in resonance, else NEVER.
+    """Return AT_TIMES if a module enters and leaves resonance, else ALWAYS if a module stays in resonance, else NEVER.
 
     shares: for each module, the share of time during which it is in resonance.
     """

@@ -44,8 +44,10 @@ class Station:
 def follow(system, root, values) -> list[Station]:
     """Return the asymmetric orbit with the given root, followed by one orbit for each epsilon in `values`.
 
-    root: solution of `AsymmetricConditions`, shape (6,). values: decreasing values of epsilon. The list ends early if
-    the orbit becomes symmetric or if Newton's method fails.
+    The returned list ends early if the orbit becomes symmetric or if Newton's method fails.
+
+    root: solution of `AsymmetricConditions`, shape (6,).
+    values: decreasing values of epsilon.
     """
     root = np.asarray(root, dtype=float)
     stations = [Station(system, root)]

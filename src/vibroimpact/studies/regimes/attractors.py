@@ -153,7 +153,7 @@ def basins(
         Values of one or two coordinates by name. The names of displacements are X1, Y1, X2, Y2, W1 and W2. The names of
         velocities are dX1, dY1, dX2 and dY2. Ball i is between its walls if -1 < W_i = X_i - Y_i < 1.
     state : array_like, optional
-        State at tau = 0, shape (8,). It gives the coordinates that are not in `axes`; all are 0 by default.
+        State at tau = 0, shape (8,). Coordinates that are not in `axes` have their values in this state, 0 by default.
     observation, progress
         As for `attractors`.
 
@@ -241,6 +241,9 @@ def _same(one, other):
 
 
 def _moving(regime):
-    """Return the indices in the state of the displacements of boxes and moving balls in active modules."""
+    """Return the positions, in the state, of the displacements of boxes and moving balls.
+
+    Only active modules are included. A ball moves if its velocity is nonzero in at least one sample.
+    """
     samples, moves = regime.run.samples, active_mask(regime.run.system)
     return np.array([k for k in range(4) if moves[k] and (k in (0, 2) or samples[:, 4 + k].any())])

@@ -47,9 +47,12 @@ class Path:
 class Node:
     """A computed point of a branch.
 
-    p: value of the varied parameter. x: root of the equations at p. amplitudes: saw-tooth amplitudes C_1 and C_2.
-    kind: type of a special point, or "" at any other point. stable: True if the response is stable. admissible: True if
-    the response is a motion of the system. At a special point, `stable` and `admissible` are None.
+    p: value of the varied parameter.
+    x: root of the equations at p, shape (d,).
+    amplitudes: saw-tooth amplitudes (C_1, C_2), shape (2,).
+    kind: kind of the special point, or "" at any other point.
+    stable: True if the response is stable; None at a special point.
+    admissible: True if the response is a motion of the system; None at a special point.
     """
 
     p: float
@@ -64,9 +67,9 @@ class Node:
 class Branch(Representation):
     """A part of a solution curve, as a list of its nodes in order along the curve.
 
-    closed: True if the curve is closed; the last node is then equal to the first one. places: a Place (point of the
-    curve with its tangent) for each node that is not a special point. At each end of the curve, `places` may contain
-    one more Place.
+    closed: True if the curve is closed. In this case, the last node is equal to the first node.
+    places: a Place (point of the curve with the tangent at this point) for each node that is not a special point. At
+        each end of the curve, `places` may contain one more Place.
     """
 
     family: object
@@ -118,8 +121,8 @@ def branches(
 ) -> list[Branch]:
     """Return all branches of a family that pass a seed, and all branches that emanate from these branches.
 
-    A seed is a value of p at which all roots are searched. If the search fails, the seed is skipped with a warning. Of
-    two mirror images, only one is followed.
+    A seed is a value of p at which all roots are searched for. If the search fails, the seed is skipped with a warning.
+    Of two mirror images, only one is followed.
 
     Parameters
     ----------
@@ -157,7 +160,8 @@ def branches(
                 at = f"{' = '.join(path.names)} = {z[-1]:.6g}"
                 warnings.warn(f"{family.name}: skipped the branch through {at}: {error}", stacklevel=3)
                 continue
-            # If there is only one place, z is a branch point. Points on its branches are added to `starts` below.
+            # If only one point of the curve could be computed, no branch is added here. If this point is a branch
+            # point, points on the branches through it are added to `starts` below.
             if len(places) > 1:
                 found.append(Branch(family, nodes, places[-1].closing, places))
             for crossing in (np.append(node.x, node.p) for node in nodes if node.kind == BRANCH_POINT):
@@ -194,7 +198,10 @@ def _seeds(family, path, seeds):
 
 
 def _half(family, path, interval, curve, longest, start):
-    """Follow a branch from the Place `start` along the tangent there; return the nodes and the Places of the branch."""
+    """Follow a branch from the Place `start` in the direction of the tangent at `start`.
+
+    Return the list of the nodes and the list of the Places of the branch, in order along the branch.
+    """
     low, high = interval
     nodes, places, tests, kind = [], [], {}, ""
     for place in curve.trace(start, longest, inside=lambda z: low <= z[-1] <= high):

@@ -38,8 +38,9 @@ parameter."""
 class Regime:
     """A motion that is observed over some whole forcing cycles (a window), and its regime.
 
-    run: run over the window, with samples every half period. name: name of the regime, one of REGIMES. repeats: number
-    of cycles after which the motion repeats, or None if the motion does not repeat.
+    run: run over the window, with samples every half period.
+    name: name of the regime, one of REGIMES.
+    repeats: number of cycles after which the motion repeats, or None if the motion does not repeat.
     """
 
     run: Run
@@ -139,7 +140,9 @@ def _distance(run, samples):
 def classify(run: Run) -> tuple[str, int | None]:
     """Return the regime of a settled motion, and the number of cycles after which the motion repeats.
 
-    The number is None if the motion does not repeat. run: a run along the motion, with samples every half period.
+    If the motion does not repeat, the number is None.
+
+    run: a run along the motion, with samples every half period.
 
     A ball is idle if it is at rest in all samples. A ball that drifts slowly is not idle, since it will hit a wall. A
     1:1 response repeats every cycle, with one impact at each wall of each module. A 1:1 response is symmetric if all

@@ -54,8 +54,10 @@ class Lost(ArithmeticError):
 class Place(NamedTuple):
     """A point z = (x, p) of a curve F(z) = 0, with the unit tangent of the curve at this point.
 
-    z, tangent: vectors of shape (d + 1,). determinant: determinant of the matrix [[dF/dz], [tangent]], which is 0 at a
-    branch point. closing: True for the last Place of a closed curve, where the curve returns to its first Place.
+    z: the point, shape (d + 1,).
+    tangent: unit tangent at z, shape (d + 1,).
+    determinant: determinant of the matrix [[dF/dz], [tangent]]. At a branch point, it is 0.
+    closing: True for the last Place of a closed curve, where the curve returns to its first Place.
     """
 
     z: np.ndarray
@@ -156,10 +158,13 @@ class Curve:
             return (self._bisected(place, after, lambda at: function(at.z) * sign > 0) or (after,))[0].z
 
     def both_ways(self, z: np.ndarray, half: Callable) -> tuple[list, list[Place]]:
-        """Return two lists, the points and the Places of the whole curve through a root z, in order along the curve.
+        """Return the list of points and the list of Places of the whole curve through a root z.
 
-        half: function that returns both lists for the part of the curve from a given Place on, in the direction of the
-        tangent there. The root z is refined first, since a multiple root has few correct digits.
+        Both lists are in order along the curve. The root z is refined first, since a multiple root has few correct
+        digits.
+
+        half: function of a Place that returns the same two lists for one part of the curve. This part begins at the
+            given Place, in the direction of its tangent.
         """
         for _ in range(_STEPS):
             change = np.linalg.lstsq(self._by_z(z), self.equations(z[:-1], z[-1])[0])[0]
@@ -246,7 +251,7 @@ class Curve:
         """Return the Places that one step from `place` reaches, in order along the curve, or [] if the step fails.
 
         If there is a branch point within the step, the list contains this point and Places close to it on both sides.
-        If the determinant changes sign without a branch point, the step has jumped to another curve. It then fails.
+        If the determinant changes sign without a branch point, the step has jumped to another curve. Such a step fails.
         """
         after = self._next(place, length)
         if after is None or after.determinant * place.determinant > 0:
@@ -298,7 +303,7 @@ class Curve:
         return [one for one in after if one and abs(place.tangent @ one.tangent) < np.cos(_TURN)][:1]
 
     def _bisected(self, place, after, before: Callable):
-        """Bisect the curve between two Places; return two close Places between which `before` changes.
+        """Bisect the curve between two Places; return two close Places at which `before` has different values.
 
         The function `before` returns True for the first of the close Places, and False for the second. The close Places
         are at most _RESOLVED apart. Bisection ends earlier if dF/dz is singular at the first one and no step succeeds.

@@ -76,12 +76,17 @@ def patterns(system) -> dict[str, np.ndarray]:
 def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str, str]]]:
     """Yield the ranges of the coupling in which a pattern has a stable orbit.
 
-    limits: smallest and largest coupling alpha12_hat. At each coupling in SOUGHT, stable orbits of all patterns are
-    searched. Each orbit is then followed to smaller and to larger couplings.
+    limits: smallest and largest coupling alpha12_hat.
 
-    Each yielded tuple has four entries: the pattern, the coupling in SOUGHT, the orbits and two reasons. The orbits are
-    a list of (alpha12_hat, Orbit) in ascending order of alpha12_hat. The reasons explain the lower and the upper end of
-    the range. If the range ends at a limit, the reason is "".
+    At each coupling in SOUGHT, stable orbits of all patterns are searched for. Each orbit is then followed to smaller
+    and to larger couplings.
+
+    Each yielded tuple has four entries:
+
+    - the name of the pattern;
+    - the coupling in SOUGHT at which the orbit was found;
+    - a list of (alpha12_hat, Orbit) in ascending order of alpha12_hat;
+    - the reasons why the range ends, (at the lower end, at the upper end). If an end is a limit, its reason is "".
     """
     seen = []
     for start in SOUGHT:

@@ -1,8 +1,8 @@
 """Families of motions for continuation: equations, members, and test functions that vanish at special points.
 
-The test functions of an orbit are symmetric polynomials in the multipliers mu of the orbit. Only the test function for
-grazing is not. Symmetric polynomials in mu are real, and these polynomials change sign at their zeros. The product of
-all (1 + mu) vanishes at a period doubling. The product of all (1 - mu_i mu_j) with i < j vanishes where two multipliers
+Except for grazing, the test functions of an orbit are symmetric polynomials in the multipliers mu of the orbit.
+Symmetric polynomials in mu are real. The polynomials that are used here change sign at their zeros. The product of all
+(1 + mu) vanishes at a period doubling. The product of all (1 - mu_i mu_j) with i < j vanishes where two multipliers
 have the product 1. If these two multipliers are complex, they are on the unit circle (Neimark-Sacker).
 
 For a symmetric orbit, mu are the multipliers of a map that consists of two steps. The map follows the motion for half a
@@ -10,8 +10,9 @@ period, and then replaces the state by -state. The symmetry breaks where such a 
 double its period before its symmetry breaks (Swift and Wiesenfeld 1984). The continuation itself finds folds and branch
 points (mu = 1).
 
-The unknowns of an inactive module are constant. Phases and impact times are 0. The amplitude C_i and the velocity
-change I_i of the ball at an impact are 1. Therefore C_i = 0 or I_i = 0 always means that ball i has the speed 0.
+The unknowns of an inactive module i are constant. Its phase and its impact times are 0. Its amplitude C_i and the
+velocity change I_i of its ball at an impact are 1. Therefore C_i = 0 or I_i = 0 always means that ball i has the
+speed 0.
 """
 
 from itertools import combinations
@@ -92,7 +93,10 @@ class SymmetricOrbits:
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Return, for each kind of special point, the value of the test function that vanishes there."""
+        """Return the values of the test functions of `orbit`, as a dict from kind of special point to value.
+
+        At a special point, the test function of its kind is 0.
+        """
         return _tests(half_period_multipliers(orbit), SYMMETRY_BREAKING) | {GRAZING: 1 - orbit.excursion}
 
     @staticmethod
@@ -147,7 +151,10 @@ class AsymmetricOrbits(SymmetricOrbits):
 
     @staticmethod
     def tests(system, orbit) -> dict[str, float]:
-        """Return, for each kind of special point, the value of the test function that vanishes there."""
+        """Return the values of the test functions of `orbit`, as a dict from kind of special point to value.
+
+        At a special point, the test function of its kind is 0.
+        """
         return _tests(orbit.multipliers, PERIOD_DOUBLING) | {GRAZING: 1 - orbit.excursion}
 
 
@@ -202,7 +209,10 @@ class FixedPoints:
 
     @staticmethod
     def tests(system, point) -> dict[str, float]:
-        """Return, for each kind of special point, the value of the test function that vanishes there."""
+        """Return the values of the test functions of `point`, as a dict from kind of special point to value.
+
+        At a special point, the test function of its kind is 0.
+        """
         r = rho(system.kappa)
         # At a fold of the manifold, det M is 0, and an eigenvalue of the slow flow is infinite. Therefore the test
         # function of HOPF has a power of det M as a factor, which removes the pole.
@@ -242,7 +252,7 @@ FAMILIES = {
 
 
 def flight_fractions(system, x) -> np.ndarray:
-    """Return the flight time from wall +1 to wall -1 of each module, divided by the period, shape (2,).
+    """Return, for each module, the flight time from wall +1 to wall -1 divided by the period, shape (2,).
 
     x: root of `AsymmetricConditions`, shape (6,). For an inactive module, the result is 1/2.
     """
@@ -281,7 +291,7 @@ def asymmetric_root(system, x) -> np.ndarray:
 
 
 def _tests(mu, at_minus_one):
-    """Return the values of the test functions of the multipliers `mu`, by kind of special point.
+    """Return the values of the test functions of the multipliers `mu`, as a dict from kind of special point to value.
 
     at_minus_one: kind of the special point at which a multiplier is -1.
     """
