@@ -71,25 +71,36 @@ class Design:
     peak : float
         Largest displacement over the band [m], after the transient.
     near : tuple of float
-        Smallest and largest of three peaks [m]. They are measured with the clearance `L`, with 2 % less and with 2 %
-        more.
+        Smallest and largest of three peaks [m]. The three peaks are measured with three clearances: `L`, 0.98 `L` and
+        1.02 `L`.
     without : float
         Peak without ball [m].
     absorber : float
         Peak [m] with the best linear absorber of the same mass.
     absorber_stroke : float
-        Room [m] that this absorber needs on each side.
+        Largest displacement [m] of this absorber relative to the machine.
     window : tuple of int
-        Length of the transient, and length of the window after it in which `peak` is measured, in forcing periods.
+        Length of the transient, and length of the window after the transient, both in forcing periods. `peak` is
+        measured in this window.
     candidates : list of dict
-        One row per candidate: clearance_m, restitution, peak_m from few initial states, and near_m. For the best
-        candidates, near_m is the largest of the three peaks of `near`. For all other candidates, near_m is nan.
+        One row per candidate, with the entries:
+
+        - clearance_m, restitution: clearance and restitution coefficient of the candidate.
+        - peak_m: peak from few initial states.
+        - near_m: for the best candidates, the largest of the three peaks (see `near`). For all other candidates, near_m
+          is nan.
     response : list of dict
-        One row per frequency_Hz. The displacements are without_m (without ball), absorber_m (with the absorber),
-        settling_m (with the ball, in the transient from rest) and with_m (with the ball, in the window). with_m is the
-        largest of all initial states. The other entries describe the motion that reaches with_m: impacts_per_s, the
-        mean impact_speed_m_s, the mean impulse_Ns and later_m. later_m is the displacement of this motion in the 1000
-        periods after the window. If the motion is a transient, later_m is smaller than with_m.
+        One row per frequency, with the entries:
+
+        - frequency_Hz: frequency of the force.
+        - without_m: displacement without ball.
+        - absorber_m: displacement with the best linear absorber.
+        - settling_m: displacement with the ball, in the transient from rest.
+        - with_m: largest displacement with the ball, in the window, over all initial states.
+        - impacts_per_s: number of impacts per second in the motion that reaches with_m.
+        - impact_speed_m_s, impulse_Ns: mean speed and mean impulse of these impacts.
+        - later_m: displacement of the same motion in the 1000 periods after the window. If the motion is a transient,
+          later_m is smaller than with_m.
 
     Examples
     --------
@@ -188,9 +199,9 @@ def design(
     restitutions: Sequence[float] = RESTITUTIONS,
     progress: bool = True,
 ) -> Design:
-    """Find the clearance and the restitution coefficient of a ball with the lowest peak over a band of frequencies.
+    """Find the clearance and the restitution coefficient with which a ball gives the lowest peak.
 
-    The sign of the force has no effect.
+    The peak is the largest displacement over a band of frequencies. The sign of the force has no effect.
 
     Parameters
     ----------
@@ -274,7 +285,7 @@ def _choices(name, values, end) -> list[float]:
 
 
 def _best(rows) -> list[dict]:
-    """Return the rows with the lowest peaks, as many as FINALISTS says."""
+    """Return the rows with the lowest peaks, at most FINALISTS of them."""
     return sorted(rows, key=lambda row: row["peak_m"])[:FINALISTS]
 
 

@@ -26,7 +26,7 @@ def branches(
     seeds: int = 5,
     progress: bool = True,
 ) -> list[Branch]:
-    """Return the branches of 1:1 motions over a parameter, with stability and special points.
+    """Return the branches of 1:1 motions in a range of a parameter, with stability and special points.
 
     Pseudo-arclength continuation (Keller 1977) also follows branches that emanate from other branches. Special points
     are folds, branch points, symmetry breaking, period doubling, Neimark-Sacker, Hopf and grazing. If a branch ends
@@ -34,7 +34,7 @@ def branches(
 
     - "speed zero": the speed of a ball vanishes;
     - "symmetry breaking": a branch of asymmetric orbits meets its mirror image;
-    - "branch point": the continuation cannot pass it;
+    - "branch point": the continuation cannot pass a branch point;
     - "lost": no further point is found.
 
     Parameters

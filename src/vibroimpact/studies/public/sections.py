@@ -18,13 +18,14 @@ def sections(systems, states, cycles: int, settle: int = 0, progress: bool = Tru
 
     Parameters
     ----------
-    systems, states : System or array_like, array_like
-        One System or an array of Systems, and initial states at tau = 0 of shape (..., 8). They are combined as by
-        `ensemble`. A module that is inactive (not in `System.modules`) is put at rest.
+    systems : System or array_like
+        One System or an array of Systems. Systems and states are combined as in `ensemble`.
+    states : array_like
+        Initial states at tau = 0, shape (..., 8). A module that is inactive (not in `System.modules`) is put at rest.
     cycles : int
-        Forcing periods of each run, with the transient.
+        Number of forcing periods of each run, including the transient.
     settle : int, default 0
-        Forcing periods of the transient at the start of each run, which is omitted.
+        Number of forcing periods of the transient, which is omitted.
     progress : bool, default True
         Count the steps on standard error, if it is a terminal.
 

@@ -50,14 +50,16 @@ def sweep(
         - "regimes": share of the initial states that end in each regime, and the regime of the run from rest.
         - "fixed_points": number of fixed points of the theory, and number of stable fixed points.
     starts : int, default 5
-        Number of initial states, evenly spread, the first at rest. A ball may stay idle in the run from rest.
+        Number of initial states. The first one is at rest. The others are evenly spread. In the run from rest, a ball
+        may stay idle.
     seed : int, default 0
         Seed of the initial states.
     cycles : int, default 1000
-        Forcing periods of each run. For "regimes", `observation` sets the lengths of the runs.
+        Number of forcing periods of each run. For "regimes", `observation` sets the lengths of the runs.
     settle : int, default 800
-        Forcing periods of the omitted transient. Transients may be long: 210 of 225 motions with equal forces still
-        change by more than 1e-6 per period after 400 periods, but none after 2000.
+        Number of forcing periods of the transient, which is omitted. Transients may be long. In a test with equal
+        forces on both boxes, 210 of 225 motions still changed by more than 1e-6 per period after 400 periods. After
+        2000 periods, no motion did.
     band : mapping, optional
         For "peaks": name and values of the parameter along which the highest peak is sought.
     observation : Observation, optional
