@@ -1,7 +1,8 @@
-"""Measure how far a run is from a different event sequence, at every event and every turn.
+"""Compute the smallest errors of the state that would change the event sequence of a run.
 
-The constraint of a module is the gap between ball and wall while the ball flies, and the contact force while the ball
-sticks. A turn is a minimum of a constraint.
+Such an error changes what happens at an event, at a turn, or at the start or the end of the run. The constraint of a
+module is the gap between ball and wall while the ball flies, and the contact force while the ball sticks. A turn is a
+minimum of a constraint.
 
 To find all turns, a flight is cut into pieces. In a piece, the rate of the constraint or the derivative of this rate
 certainly keeps its sign. A piece therefore has at most one turn. The signs of the rate at both ends of a piece show
@@ -60,9 +61,11 @@ def turning_points(flow, flights):
 
 @inlined_source
 def _search(flow, motion, length, least_of):
-    """Search a free flight for turns and update `least_of`; return the boxes and balls at the end of the flight.
+    """Search a part of a flight for turns (minima of the gap or of the contact force), and update `least_of`.
 
-    length: duration of the flight, at most `flow.longest`. least_of: row of the result of `turning_points`.
+    Return the states of the boxes and of the balls at the end of the part.
+
+    length: duration of the part, at most `flow.longest`. least_of: row of the result of `turning_points`.
     """
     q, walls = flow.coefficients, motion.walls
     mode = mode_of(walls)
@@ -152,7 +155,7 @@ def _note(flow, motion, i, times, rates, least_of):
     q, walls, balls, mode = flow.coefficients, motion.walls, motion.balls, mode_of(motion.walls)
     (low, high), (early, late) = times, rates
     t = low + (high - low) * abs(early) / (abs(early) + abs(late))
-    for _ in range(MOST_STEPS):  # Newton's method for a zero of the rate, safeguarded by the bracket
+    for _ in range(MOST_STEPS):  # Newton's method for a zero of the rate; t stays between `low` and `high`
         x, s, c = advance(flow, mode, motion.boxes, motion.sine, motion.cosine, t)
         jets = jet(q, mode, x, s, c)
         p = jets[0] if i == 0 else jets[1]
@@ -229,10 +232,10 @@ def _lower(margins, margin):
 
 @inlined_source
 def _of_event(q, walls, boxes, balls, events, n, force, left):
-    """Return the smallest error of the state that would delay event n until the end of the run, a time `left` later.
+    """Return the smallest error of the state that would delay event n until the end of the run.
 
-    For a release, a smaller error may prevent the release; return this smaller error. For a stick that does not
-    complete a chatter, return inf.
+    left: time from event n to the end of the run. For a release, the result is smaller if a smaller error would
+    prevent the release. For a stick event that does not complete a chatter, the result is inf.
     """
     i, wall, kind = int(events[n, 1]) - 1, events[n, 2], events[n, 3]
     if kind == IMPACT:  # distance of the ball beyond the wall at the end of the run if this impact did not happen
@@ -284,7 +287,7 @@ def _force(q, walls, boxes, phase, i):
 
 @inlined
 def _force_weight(q, walls, i):
-    """Return the largest change of the acceleration of box i due to a unit error in the boxes."""
+    """Return the largest change of the acceleration of box i due to an error of norm 1 in the state of the boxes."""
     one, two = inverse_masses(q, mode_of(walls))
     if i == 0:
         return one * math.sqrt(q.k11 * q.k11 + q.k12 * q.k12 + q.c11 * q.c11 + q.c12 * q.c12)

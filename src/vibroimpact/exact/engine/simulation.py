@@ -123,9 +123,10 @@ class Run(Representation):
         States at the sample times, shape (n, 8). A sample at the time of an event is the state after the event.
     final : ndarray
         Final state, shape (8,).
-    pieces, counters : list of ndarray, ndarray
-        Rows of events, as arrays of shape (n, ROW), and counters of the run. `vibroimpact.exact.engine.contact`
-        defines the rows and the counters.
+    pieces : list of ndarray
+        Rows of events, as arrays of shape (n, ROW). `vibroimpact.exact.engine.contact` defines the rows.
+    counters : ndarray
+        Counters of the run. `vibroimpact.exact.engine.contact` defines the counters.
     """
 
     system: System
@@ -172,7 +173,7 @@ class Run(Representation):
         state: state just after the event, shape (8,).
         """
         rows = self.rows
-        if continues(self.begin):  # omit sticks of balls that already stuck in the previous run
+        if continues(self.begin):  # a ball that stuck at the end of the previous run gets no new stick event
             again = [n for n in range(min(event_loop.MOST_AT_ONCE, len(rows))) if rests_at_start(rows, n)]
             rows = np.delete(rows, again, axis=0)
         table = np.empty(len(rows), EVENT)
@@ -217,7 +218,9 @@ class Run(Representation):
         return Energy.of(self)
 
     def errors(self, times: ArrayLike) -> np.ndarray:
-        """Return estimated errors of the states at given times, including the rounding of these times.
+        """Return estimated errors of the states at given times.
+
+        The estimates include the effect of rounding the times.
 
         Parameters
         ----------
@@ -299,7 +302,7 @@ def simulate(
         Number of forcing periods, from 0 to ten million. A run stores all its events.
     tau0 : float, Fraction or Instant, default 0.0
         Dimensionless start time, used without rounding; |tau| must stay below 2**43. To continue a run, start from
-        `run.final` with tau0=run.end. A ball at rest on a wall then already sticks, without a new event.
+        `run.final` with tau0=run.end. A ball that stuck at the end of the first run then gets no new stick event.
     sample_times : array_like, optional
         Ascending times in [tau0, tau0 + cycles * system.period] at which to record states.
 

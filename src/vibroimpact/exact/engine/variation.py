@@ -1,9 +1,9 @@
-"""Flights of a finished run, replayed from its events, and their variational flow.
+"""Replay the flights of a finished run from its events, and propagate perturbations of the state along the run.
 
-A flight multiplies perturbations by the linear flow. An impact multiplies perturbations by the saltation matrix. If the
-impact forces a release of the other ball, the saltation matrix includes this release. Any other release leaves
-perturbations unchanged, since the contact force is then zero. For a completed chatter, one matrix replaces infinitely
-many saltation matrices.
+A flight multiplies perturbations by the derivative of its final state with respect to its initial state. An impact
+multiplies perturbations by the saltation matrix. If the impact forces a release of the other ball, the saltation matrix
+includes this release. Any other release leaves perturbations unchanged, since the contact force is then zero. For a
+completed chatter, one matrix replaces infinitely many saltation matrices.
 
 In this file, states are ordered [boxes, balls]. PUBLIC_ORDER converts them to [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], and
 INNER_ORDER converts back.
@@ -42,7 +42,7 @@ def replayed(flow, start, events, start_phase, duration):
     """Return the flights of a run as rows: one flight before each event, and one from the last event to the end.
 
     start: initial state [X1, Y1, X2, Y2, X1', Y1', X2', Y2']. events: rows of m events.
-    The result has shape (m + 1, COLUMNS). The flight before a stick that completes a chatter has zero length.
+    The result has shape (m + 1, COLUMNS). The flight before a stick event that completes a chatter has zero length.
     """
     q, flights = flow.coefficients, np.zeros((len(events) + 1, COLUMNS))
     leaving = first_departure(start, start_phase)
@@ -52,7 +52,7 @@ def replayed(flow, start, events, start_phase, duration):
         for k in range(4):
             flight[BEFORE + k], flight[BEFORE + 4 + k] = leaving.boxes[k], leaving.balls[k]
         following = next_departure(q, events, n, leaving, (duration, start_phase))
-        # correct the difference of times by the more accurate difference of phases
+        # phases are more accurate than times, so the difference of phases corrects the difference of times
         lapse, turned = following.time - leaving.time, following.phase - leaving.phase
         more = turned - q.omega * lapse
         flight[LENGTH] = max(lapse + (more - TWO_PI * math.floor(more / TWO_PI + 0.5)) / q.omega, 0.0)
@@ -132,12 +132,12 @@ def end_of(flight):
 
 @inlined
 def completes_chatter(events, n):
-    """Return True if event n is a stick that completes a chatter."""
+    """Return True if event n is a stick event that completes a chatter."""
     return events[n, 3] == STICK and events[n, APPROACH] > 0.0
 
 
 def rests_at_start(events, n):
-    """Return True if event n is the stick of a ball that rests on its wall at the start of the run."""
+    """Return True if event n is the stick event of a ball that rests on its wall at the start of the run."""
     first = events[n, 0] == 0.0 and events[n, 3] == STICK
     for k in range(n):
         first = first and events[k, 1] != events[n, 1]
@@ -304,12 +304,13 @@ def _fill_identity(matrix):
 
 @compiled
 def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
-    """Fill `matrix`, shape (8, 8), with the derivative of the state after a stick of ball i.
+    """Fill `matrix`, shape (8, 8), with the derivative of the state after a stick event of ball i.
 
-    The derivative is taken with respect to the state before the stick.
+    The derivative is taken with respect to the state before the event.
 
-    inward, push: for a completed chatter, the rebound speed u and the acceleration a of the box towards the ball. For
-    any other stick, both are 0. other_stuck: True if the other ball sticks.
+    inward: rebound speed u if the event completes a chatter, otherwise 0.
+    push: acceleration a of the box towards the ball if the event completes a chatter, otherwise 0.
+    other_stuck: True if the other ball sticks.
 
     Box and ball keep their momentum and centre of mass. During a chatter, springs and dampers act on the box, which is
     not at the centre of mass. The matrix includes this effect to first order. The effect depends on two time integrals
@@ -374,7 +375,8 @@ def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, 
     """Return the perturbations `frame`, shape (8, k), after the last cycle; fill `factors` and `counts`.
 
     factors: growth factors in each cycle, shape (n, k).
-    counts: numbers of impacts and of sticking balls in each cycle, shape (n, 2), initially 0.
+    counts: number of impacts and largest number of balls that stick at the same time, for each cycle, shape (n, 2),
+    initially 0.
     places: indices of the rows in which the frame is not 0.
     """
     matrix, later = np.empty((8, 8)), np.empty_like(frame)

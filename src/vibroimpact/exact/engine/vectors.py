@@ -40,7 +40,7 @@ def weighted_sum(_, table, mode, j, weights):
         )
         weights = [builder.extract_value(arguments[3], m) for m in range(signature.args[3].count)]
         wide, halves = [_in_all(builder, weight) for weight in weights], []
-        for half in range(2):  # vector instructions are written here, since the compiler does not vectorise a loop
+        for half in range(2):  # explicit vector instructions, since the compiler would not create them from a loop
             total = None
             for m, weight in enumerate(wide):
                 pointer = builder.gep(start, [context.get_constant(types.intp, WIDTH * (2 * m + half))])
