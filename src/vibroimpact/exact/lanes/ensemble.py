@@ -104,9 +104,9 @@ def ensemble(
     -----
     `simulate` gives the same numbers of impacts, with two exceptions. First, a grazing contact may be counted
     differently if the certificate of the run counts it as undecided. Second, an impact may be counted differently if
-    the ball then hops by less than four units of rounding. If a run has no undecided contacts, the error of its final
-    state is at most 2.6 times the estimate in the certificate (docs/engine.md). Use `simulate` for events, samples or a
-    certificate.
+    the ball returns to the same wall from a distance of less than four units of rounding. If a run has no undecided
+    contacts, the error of its final state is at most 2.6 times the estimate in the certificate (docs/engine.md). Use
+    `simulate` for events, samples or a certificate.
 
     Examples
     --------
@@ -149,8 +149,8 @@ def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
 def _combined(systems, states):
     """Return the distinct systems, the system index of each run and the initial state of each run.
 
-    The axes of the indices, and the axes of the states before the last, are the broadcast axes of `systems` and
-    `states`.
+    The indices have the broadcast shape of the runs. The initial states have this shape with an additional last axis
+    of length 8.
     """
     states = states_array("states", states)
     if states.ndim == 0 or states.shape[-1] != 8:

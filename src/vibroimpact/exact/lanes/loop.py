@@ -31,7 +31,7 @@ class Piece(NamedTuple):
     potentials, drifts: potentials and drifts of each system, from `energy.potentials_of`.
     owners: index of the system of each run, shape (n,).
     starts: initial state of each run, shape (n, 8).
-    stages: number of cycles before the observation, in the whole run, and in each of the k windows of the observation.
+    stages: three numbers of cycles: before the observation, in the whole run, and in each of the k observation windows.
     status: status of each run, shape (n,).
     final: state of each run at the end of each window, shape (n, k, 8).
     statistics: statistics of each run in each window, shape (n, k, STATISTICS).
@@ -53,9 +53,9 @@ class Piece(NamedTuple):
 class Memory(NamedTuple):
     """Runs in the lanes and their data, kept between two calls of `run_lanes`.
 
-    A lane is one of the eight runs that advance together in vector instructions. These fields have an entry per lane:
+    Vector instructions advance eight runs together, one run in each lane. These fields have an entry per lane:
     runs, constants: numbers of the runs and constants of their systems, one column per lane (module `rows`).
-    members: index of the initial state, or -1 if the lane is free.
+    members: index of the run in the lane, or -1 if the lane is free.
     slots: index of the slot that the lane uses.
     counters: counters of the event log.
 
@@ -65,7 +65,7 @@ class Memory(NamedTuple):
     series, rotations: flow tables.
     known: constants of the system.
 
-    begun: number of initial states that are begun or skipped.
+    begun: number of runs that are begun or skipped.
     work, log, statistics, change: workspace.
     """
 

@@ -1,6 +1,6 @@
 """Row indices of the arrays for eight runs at once, and Taylor polynomials of the box positions.
 
-Each of the eight runs is a lane and has one column in the arrays.
+Vector instructions advance eight runs together, one run in each lane. Each lane has one column in the arrays.
 """
 
 import math

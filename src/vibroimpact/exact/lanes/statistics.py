@@ -1,11 +1,11 @@
 """Compute the statistics of runs in an ensemble: impacts, displacements of boxes, speeds of balls, integrals.
 
-A lane is one of the eight runs that advance together in vector instructions. In lanes, the statistics are added up
-flight by flight (`observe`). In the event loop, they are added up event by event (`accumulate_statistics`). Integrals,
-such as the work of the forces, are differences of potentials (`energy.Squares`).
+Vector instructions advance eight runs together, one run in each lane. In lanes, the statistics are added up flight by
+flight (`observe`). In the event loop, they are added up event by event (`accumulate_statistics`). Integrals, such as
+the work of the forces, are differences of potentials (`energy.Squares`).
 
 A turn is an instant at which a box reverses its motion. Bernstein coefficients bound the displacement of the box at a
-turn. If this displacement may exceed the largest displacement so far, the turn is stored. A later turn with a larger
+turn. If the bound exceeds the largest displacement so far, the turn is stored. A later turn with a larger
 displacement may replace the stored turn. A computation in one lane makes all lanes wait. Therefore the displacements at
 the stored turns are computed for all lanes together (`find_turns`).
 """
@@ -176,10 +176,10 @@ def _add_piece(p, low, high, i, wall, statistics):
 
 @inlined
 def observe(runs, c, work, integrals, flight, hits, early, arrival):
-    """Add the statistics of the flights that end in this pass, and of the impacts at their ends, in each lane.
+    """Add the statistics of each flight that ends in this pass, and of the impact at its end, to `runs`.
 
-    flight: mask of the lanes in which a flight ends, duration of its last step, duration of the flight, and five times
-    the error bound of Hermite's polynomial.
+    flight: mask of the lanes in which a flight ends, duration of the last step of the flight, duration of the whole
+    flight, and five times the error bound of Hermite's polynomial.
     hits: for each module, mask of the lanes in which the flight ends with an impact in this module.
     early: state of the boxes, and sine and cosine of the forcing phase, at the start of the last step.
     arrival: numbers at the end of the flight: box positions, box velocities before and after the impact, ball
@@ -244,7 +244,7 @@ def keep_turns(runs, c, work, turns, wrong, early, late, step):
         if count(turned) == 0:
             continue
         lowest = abs(fused(part, after - before, before)) - wrong
-        # If a stored turn may have a larger displacement than the new turn, the stored turns are computed now.
+        # If the displacement at a stored turn may exceed that at the new turn, compute it at all stored turns first.
         if count(turned & (load(runs, row + rows.KEPT) > 0.0) & (load(runs, row + rows.HIGHEST) > lowest)) > 0:
             find_turns(runs, c, work)
         is_late, record = part > 0.5, load(runs, STATISTICS_AT + LARGEST + i)
@@ -273,7 +273,7 @@ def find_turns(runs, c, work):
                 later = t - _slope(work, first, t) / _bend(work, first, t)
                 t = where(abs(later) <= load(c, rows.STEP), later, t)
             value, slope = evaluate(work, first, t)
-            # The displacement at the turn is that of the vertex of a parabola with this value, slope and curvature.
+            # The parabola with this value, slope and curvature has its vertex at the turn.
             turned = abs(value - 0.5 * slope * slope / _bend(work, first, t))
             record = load(runs, STATISTICS_AT + LARGEST + i)
             replace_rows(runs, STATISTICS_AT + LARGEST + i, kept & (turned > record), (turned,))

@@ -3,19 +3,20 @@
 Between impacts, a step h multiplies z = [X1, X2, X1', X2', sin, cos] by exp(A h) (`advance_lanes`). Only the change of
 z is computed and added, so that the rounding error is small.
 
-A step needs a proof that no impact happens in it. The position w of a ball in its box and its rate r, at both ends of
-the step, define Hermite's cubic polynomial. The polynomial lies between its Bernstein coefficients w, w + h r / 3,
-w' - h r' / 3, w', where a prime marks the end of the step. Let B bound the fourth derivative of w. At the fraction s of
-the step, the error of the polynomial is at most B h^4 s^2 (1 - s)^2 / 24. The walls are at w = +-1. The proof requires
-that the two middle coefficients are at most 1 - B h^4 / 72 in magnitude. Their weight is 3 s (1 - s), so that this
-margin covers the error. A bound on rounding errors is also subtracted from 1. B follows from the energy of the boxes,
-which grows by at most the work of the force.
+A step needs a proof that no impact happens in it. Let w be the difference of box and ball position in a module, and r
+the rate of w. The values of w and r at both ends of the step define Hermite's cubic polynomial. The polynomial lies
+between the smallest and the largest of its Bernstein coefficients w, w + h r / 3, w' - h r' / 3, w', where a prime
+marks the end of the step. Let B bound the fourth derivative of w. At the fraction s of the step, the error of the
+polynomial is at most B h^4 s^2 (1 - s)^2 / 24. The walls are at w = +-1. The proof requires that the two middle
+coefficients are at most 1 - B h^4 / 72 in magnitude. Their total weight in the polynomial is 3 s (1 - s). Therefore the
+margin B h^4 / 72 covers the error. A bound on rounding errors is also subtracted from 1. B follows from the energy of
+the boxes, which grows by at most the work of the force.
 
 A lane waits if its next step has no proof. Once enough lanes wait, `step_to_event` advances all waiting lanes in one
 pass. Taylor polynomials of both boxes give the time of an impact. The Bernstein coefficients up to this time prove that
-no impact happens earlier. If this proof fails, the next pass tries half of the time. The event loop handles all other
-cases: the completion of a chatter (impacts at one wall in ever shorter flights), balls at rest on a wall, simultaneous
-events, and any doubt.
+no impact happens earlier. If this proof fails, the next pass tries a step of half the duration. The event loop
+handles all other cases: the completion of a chatter (impacts at one wall in ever shorter flights), balls at rest on a
+wall, simultaneous events, and any doubt.
 
 `vibroimpact.system.restitution` lists all implementations of the impact law, such as the one here.
 """
@@ -80,7 +81,7 @@ def advance_lanes(runs, c, work, enough):
         ok = ok & _inside(limit, w1, r1, q1, o1, third) & _inside(limit, w2, r2, q2, o2, third)
         if count(alive & ~ok) >= enough:
             break
-        # The turning points are stored at which a box may exceed its largest displacement so far.
+        # Store the turning points at which a box may exceed its largest displacement so far.
         wrong, s_later, k_later = 1.0 - limit, s + fused(k, sa, s * ca), k + fused(k, ca, -s * sa)
         turns1 = ok & may_turn_beyond(most1 - wrong, x1, v1, a1, b1, third)
         turns2 = ok & may_turn_beyond(most2 - wrong, x2, v2, a2, b2, third)
@@ -88,7 +89,7 @@ def advance_lanes(runs, c, work, enough):
             early, late = (x1, x2, v1, v2, s, k), (a1, a2, b1, b2, s_later, k_later)
             keep_turns(runs, c, work, (turns1, turns2), wrong, early, late, step)
             most1, most2 = _records(runs)
-        # Only the lanes with a proof take the step.
+        # Take the step only in lanes where the step is proved to be free of impacts.
         s, k = where(ok, s_later, s), where(ok, k_later, k)
         x1, x2, v1, v2 = where(ok, a1, x1), where(ok, a2, x2), where(ok, b1, v1), where(ok, b2, v2)
         passed, limit = where(ok, later, passed), where(ok, limit - less, limit)
@@ -145,8 +146,10 @@ class Contact(NamedTuple):
 class Clock(NamedTuple):
     """Forcing phase and time of the run in each lane.
 
-    phase, tail: forcing phase and its rounding remainder. turns: number of full turns of the phase. sine, cosine: sine
-    and cosine of the phase. left: time until the run stops.
+    phase, tail: forcing phase and its rounding remainder.
+    turns: number of times that the phase has passed 2 pi.
+    sine, cosine: sine and cosine of the phase.
+    left: time until the run stops.
     """
 
     phase: Lanes
@@ -159,9 +162,9 @@ class Clock(NamedTuple):
 
 @in_place
 def step_to_event(runs, c, work, integrals):
-    """Advance each waiting run by its trial step, or to an impact in this step.
+    """Advance each waiting run to the next impact, or by its trial step if no impact is found in this step.
 
-    If an impact before this time cannot be excluded, the run does not move, and the next trial step is half as long.
+    If an earlier impact cannot be excluded, the run does not move, and the next trial step is half as long.
     Return the number of runs that need the event loop or are at the end of a window.
     """
     pending, leaves = load(runs, rows.OUTCOME) == WAITING, load(runs, rows.TRIAL) < 0.0
@@ -214,7 +217,7 @@ def step_to_event(runs, c, work, integrals):
 def _locate(runs, c, work, now, leaves):
     """Return the Contact at the end of the trial step in each lane.
 
-    The step ends at the next impact, or else after its longest allowed time.
+    The step ends at the next impact. If no impact is found, the step has the longest duration that is allowed.
     """
     x1, x2, v1, v2, y1, y2, u1, u2 = now
     (touch1, touch2), (s, k) = load_rows(runs, rows.TOUCH1, 2), load_rows(runs, rows.SINE, 2)
@@ -280,10 +283,10 @@ def _advance_clock(runs, c, elapsed):
 
 @inlined
 def _collide(c, then, end, clock, rounding):
-    """Return the wall of the impact in each lane, the box and ball velocities after it, and the mask `plain`.
+    """Return the wall of the impact, the box and ball velocities after the impact, and the mask `plain`.
 
-    An impact is not plain in two cases: it begins a chatter (impacts at one wall in ever shorter flights) that ends
-    soon, or its relative velocities may be rounding errors.
+    `plain` is False in two cases. First, the impact begins a chatter (impacts at one wall in ever shorter flights) that
+    ends soon. Second, the relative velocity before or after the impact may be a rounding error.
     """
     x1, x2, v1, v2, y1, y2, u1, u2 = then
     kappa, epsilon = load(c, rows.KAPPA), load(c, rows.EPSILON)
