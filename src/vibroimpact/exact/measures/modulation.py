@@ -58,12 +58,12 @@ def swells(amplitudes) -> np.ndarray:
 
 
 def bursts(tau, wall, period: float) -> np.ndarray:
-    """Return the start and end time of each resonant burst, shape (b, 2), from the impacts of one ball.
+    """Return the start and end time of each resonant burst of one ball, shape (b, 2).
 
     A flight is resonant if it leads to the opposite wall in 1/4 to 3/4 of a forcing period. A burst consists of at
     least two successive resonant flights.
 
-    tau, wall: time and wall of each impact, shape (m,).
+    tau, wall: time and wall of each impact of the ball, shape (m,).
     """
     tau, wall = np.asarray(tau), np.asarray(wall)
     duration = np.diff(tau)
@@ -90,7 +90,7 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
 
     "amplitude variation" is the `variation` of the box amplitude. "resonant share" is the fraction of time that the
     `bursts` take. "burst length" is the mean length of a burst in cycles; it is nan if there are no bursts. The other
-    quantities are mean numbers of events.
+    quantities are "impacts per cycle" and "sticks per 1000 cycles".
     """
     run = sampled(system, state, cycles)
     found = {}

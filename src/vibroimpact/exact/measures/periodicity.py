@@ -36,15 +36,15 @@ def distance_after(displacements, per_cycle: int, cycles: int = 1) -> float:
     displacements, lag = np.asarray(displacements), cycles * per_cycle
     if not 0 < lag < len(displacements):
         window = len(displacements) / per_cycle
-        raise ValueError(f"cycles: must be at least 1 and below {window:g} (number of sampled periods), got {cycles}")
+        raise ValueError(f"cycles: must be above 0 and below the number of sampled periods, {window:g}; got {cycles}")
     return float(np.max(np.abs(displacements[lag:] - displacements[:-lag])))
 
 
 def repeats_after(displacements, per_cycle: int, tolerance: float) -> int | None:
-    """Return the smallest number of forcing periods after which a motion repeats within a tolerance, or None.
+    """Return the smallest number of forcing periods after which a motion repeats within a tolerance.
 
-    Only numbers up to half the number of sampled periods are tried. displacements: samples of k displacements, shape
-    (n, k), with `per_cycle` samples in each period.
+    Only numbers up to half the number of sampled periods are tried. If none of them fits, the result is None.
+    displacements: samples of k displacements, shape (n, k), with `per_cycle` samples in each period.
     """
     displacements = np.asarray(displacements)
     longest = (len(displacements) - 1) // (2 * per_cycle)
