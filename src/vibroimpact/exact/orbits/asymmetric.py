@@ -32,7 +32,7 @@ _KICKS = np.array([-1.0, 1.0, -1.0, 1.0])
 MODULES = np.array([1, 1, 2, 2, 1, 2])
 """Module of each unknown (p_1, q_1, p_2, q_2, I_1, I_2), and of each equation."""
 _MODULES = np.eye(2)[MODULES - 1]
-# For the module of each equation: derivatives of the flight time from wall +1 with respect to the impact times.
+# Row m: derivatives of the flight time q_i - p_i with respect to the impact times; i is the module of equation m.
 _LENGTHENING = np.kron(_MODULES, [-1.0, 1.0])
 _PLASTIC = 1.2207440846057596  # root of x^4 = x + 1; its inverse powers generate a low-discrepancy sequence
 
@@ -84,11 +84,11 @@ class AsymmetricConditions:
         return np.concatenate([velocity, distance], axis=1)
 
     def _linear(self, times):
-        """Return the coefficients of both changes of ball velocity in the equations, and the responses of the boxes.
+        """Return the coefficients of I_1 and I_2 in the six equations, and the responses of the boxes to the impacts.
 
-        The coefficients have shape (n, 6, 2). The responses are a pair of box velocities and accelerations, each of
-        shape (n, 4, 4). Entry [:, m, k] is the response just before impact m to impact k, if the ball velocity changes
-        by 1 at impact k.
+        The coefficients have shape (n, 6, 2). The responses are two arrays of shape (n, 4, 4): velocities and
+        accelerations. Entry [:, m, k] belongs to the box of impact m just before this impact. The entry is the response
+        to impact k, repeated in every period, if I_i = 1 in the module i of impact k.
         """
         system = self.system
         x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))
@@ -103,9 +103,12 @@ class AsymmetricConditions:
         return wrapped(times[:, 1::2] - times[:, 0::2], self.system.period) / self.system.period
 
     def _moved(self, forced, responses, strengths, times):
-        """Return the derivatives of the equations with respect to the impact times, shape (n, 6, 4).
+        """Return the derivatives of the residuals with respect to the impact times, shape (n, 6, 4).
 
-        forced: response to the forcing as for `_forced`. responses: responses to impacts from `_linear`.
+        forced: response to the forcing as for `_forced`.
+        responses: responses to impacts from `_linear`.
+        strengths: changes of ball velocity I_1, I_2, shape (n, 2).
+        times: impact times, shape (n, 4).
         """
         system = self.system
         others = 1 - np.eye(4)

@@ -66,9 +66,10 @@ class ImpulseResponse:
         self._readings = np.stack([np.eye(4)[:2], np.eye(4)[2:], self._rate[2:]], axis=2)
 
     def __call__(self, s: np.ndarray, boxes: np.ndarray) -> np.ndarray:
-        """Return the motion at the times s after an impulse on box `boxes` (0 or 1), shape (..., 4).
+        """Return the motion [X1, X2, X1', X2'] at the times s after an impulse of the train, shape (..., 4).
 
-        If an impulse acts at this time, the motion is the state just after the impulse.
+        boxes: index (0 or 1) of the box on which the impulses act. At the time of an impulse, the motion is the state
+        just after the impulse.
         """
         impulses, within = np.divmod(s, self.interval)
         node = np.rint(within / self._spacing).astype(int)
