@@ -20,14 +20,15 @@ _UNIT_IMPULSES = arb_mat(np.eye(4)[:, 2:].tolist())
 
 
 class SteadyBoxes:
-    """Steady motion [X1, X2, X1', X2'] of the boxes under the forcing and under trains of unit impulses.
+    """Steady motions [X1, X2, X1', X2'] of the boxes: one under the forcing, the others under trains of unit impulses.
 
     The float64 matrices and the forcing are taken as exact. The constructor raises ValueError if the boxes have an
     undamped resonance.
 
     sign: as in `ImpulseResponse`.
-    start: state just after an impulse without forcing, shape (4, 2); column j belongs to impulses on box j.
-    amplitude: complex amplitude of the state without impulses, which is Im(amplitude exp(i omega tau)).
+    start: state just after each impulse of a train, without forcing, shape (4, 2). Column j is for a train on box j.
+    amplitude: complex amplitude of the motion under the forcing alone, shape (4, 1). This motion is
+    Im(amplitude exp(i omega tau)).
     """
 
     def __init__(self, system, sign: int):
@@ -67,9 +68,9 @@ class EnclosedConditions:
         self.epsilon, self.kappa = arb(system.epsilon), arb(system.kappa)
 
     def __call__(self, unknowns):
-        """Return the residual, shape (6, 1), and the Jacobian, shape (6, 6), for six intervals.
+        """Return enclosures of the residual, shape (6, 1), and of the Jacobian, shape (6, 6).
 
-        unknowns: intervals of p_1, q_1, p_2, q_2, I_1, I_2. If two impacts may coincide, return None.
+        If two impacts may coincide, return None. unknowns: intervals of p_1, q_1, p_2, q_2, I_1, I_2.
         """
         lags = self.lags(unknowns)
         if lags is None:
@@ -105,10 +106,10 @@ class EnclosedConditions:
         return lags[2 * i + 1, 2 * i] / self.period
 
     def before(self, m, unknowns, lags):
-        """Return the state of the boxes just before impact m and its derivatives, shape (4, 7).
+        """Return the state of the boxes just before impact m, and the derivatives of this state, shape (4, 7).
 
-        Column 0 is the state. The other columns are its derivatives with respect to the six unknowns. lags: times
-        between the impacts, from `lags`.
+        Column 0 is the state. The other columns are its derivatives with respect to the six unknowns. lags: result of
+        the method `lags`.
         """
         rate = acb(0, self.boxes.omega)
         forced = (self.boxes.amplitude * (rate * unknowns[m]).exp()).entries()

@@ -2,7 +2,7 @@
 
 Krawczyk's test (Krawczyk 1969; Neumaier 1990) proves that exactly one root of the six equations of asymmetric.py lies
 in six intervals around the computed numbers. If the mirror image of the root also lies in these intervals, it is the
-root itself, so that the root is symmetric. If a flight certainly does not last half a period, the root is asymmetric.
+root itself. The root is then symmetric. If a flight certainly does not last half a period, the root is asymmetric.
 The enclosure of the root gives enclosures of the states at impacts, the monodromy matrix and its eigenvalues (flint's
 acb_mat.eig: Rump 2010; van der Hoeven and Mourrain 2017). Float64 numbers of the Orbit are called listed numbers.
 """
@@ -18,7 +18,7 @@ from vibroimpact.exact.orbits.proof.passage import NOT_PROVED, EnclosedPassage, 
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
 _BITS = 128
-_WIDEST, _NARROWEST = -4, -60  # the half-widths tried are 2^_WIDEST, ... down to, but without, 2^_NARROWEST
+_WIDEST, _NARROWEST = -4, -60  # half-widths 2^k are tried for the exponents k = -4, -5, ..., -59
 _TIGHT = 2.0**-90
 _SPOILT_STATE, _SPOILT_MULTIPLIER = 1e-9, 1e-4
 """Tolerances for differences between listed (float64) and proved states, and between listed and proved multipliers.
@@ -40,15 +40,15 @@ class OrbitProof:
         proved. Exactly one orbit lies in these intervals. This orbit is proved to be symmetric if `Orbit.symmetric` is
         True, and to be asymmetric otherwise.
     error : float
-        Bound on the error of the impact phases and ball speeds of the Orbit, or inf if nothing is proved.
+        Bound on the errors of the impact phases and of the ball speeds of the Orbit, or inf if nothing is proved.
     motion : str
-        "legal" if every ball meets its walls from inside and |W_i| < 1 between impacts, else "not legal" or "not
-        proved".
+        "legal" or "not legal" if this is proved, else "not proved". In a legal motion, every ball hits its walls from
+        inside, and |W_i| < 1 between impacts.
     multipliers : tuple of acb
         Enclosures of the 8 multipliers (4 for a single machine), by descending modulus. The tuple is empty if no
         enclosures were found.
     moduli_error : float
-        Bound on the error of the moduli of the multipliers of the Orbit, or inf if there are no enclosures.
+        Bound on the errors of the moduli of `Orbit.multipliers`, or inf if there are no enclosures.
     """
 
     radius: float
@@ -66,7 +66,7 @@ class OrbitProof:
         return STABLE if moduli and all(modulus < 1 for modulus in moduli) else NOT_PROVED
 
     def row(self) -> dict:
-        """Return the entries of the proof in a table of orbits, as {column name: number or verdict}."""
+        """Return the entries that the proof adds to a table of orbits, as {column name: number or verdict}."""
         numbers = {"box_radius": self.radius, "orbit_error": self.error, "moduli_error": self.moduli_error}
         return numbers | {"motion_proved": self.motion, "floquet_proved": self.stability}
 
@@ -145,18 +145,20 @@ def _near(listed, proved, spoilt):
 
 
 def _distance(enclosures, listed):
-    """Return an upper bound on the distances of the listed numbers from the exact numbers in `enclosures`."""
+    """Return an upper bound on the errors of the numbers `listed`, whose exact values lie in `enclosures`."""
     gaps = [abs(value - number).upper() for value, number in zip(enclosures, listed, strict=True)]
     return max(math.nextafter(float(gap), math.inf) for gap in gaps)
 
 
 def krawczyk(equations, approximate: np.ndarray):
-    """Return intervals that enclose a root near `approximate`, and the half-width of wider intervals.
+    """Return intervals that enclose a root near `approximate`, and a radius.
 
-    approximate: approximate root, shape (n,). The wider intervals have their centres at `approximate` and contain no
-    other root. On failure, the result is (None, 0.0).
+    No other root lies in the intervals with centres `approximate` and half-width radius. On failure, the result is
+    (None, 0.0).
+
     equations: function of a list of n intervals. It returns the residual, shape (n, 1), and the Jacobian, shape (n, n),
     or None if they are not defined.
+    approximate: approximate root, shape (n,).
     """
     centre = [arb(value) for value in approximate.tolist()]
     for exponent in range(_WIDEST, _NARROWEST, -1):
@@ -171,7 +173,7 @@ def krawczyk(equations, approximate: np.ndarray):
 def _image(equations, box):
     """Return the image of intervals under Krawczyk's operator, or None if the image cannot be computed.
 
-    Every root in the intervals `box` also lies in their image.
+    box: the list of intervals. Every root in these intervals also lies in their image.
     """
     found, at = equations(box), equations([value.mid() for value in box])
     if found is None or at is None:

@@ -19,11 +19,11 @@ GAPS = arb_mat([[1, -1] + [0] * 8, [0, 0, 1, -1] + [0] * 6])
 """Matrix (2, 10) that maps a state (10, 1) to W_1 and W_2."""
 LEGAL, ILLEGAL, NOT_PROVED = "legal", "not legal", "not proved"
 _NEAR = 1e-9
-_MOST = 2000  # largest number of pieces of a flight
+_MOST = 2000  # largest number of parts of a flight that are examined
 
 
 class EnclosedPassage:
-    """Enclosure of the periodic motion of a root of `EnclosedConditions`.
+    """Enclosure of the periodic motion that belongs to a root of `EnclosedConditions`.
 
     unknowns: intervals that contain the root.
     phases: {number of an impact: impact time in periods}.
@@ -125,8 +125,8 @@ def _of_flight(rate, start, end, state, duration):
 
     state: state at the beginning of the flight, shape (10, 1).
     """
-    # The flight is halved until each piece is proved. A piece is proved if |W_i| < 1 in it. If ball i hits a
-    # wall at an end of the piece, it suffices for this wall that W_i is monotonic.
+    # The flight is divided into parts. Parts are halved until |W_i| < 1 is proved in each part. If ball i hits a wall
+    # at an end of a part, it suffices for this wall to prove that W_i is monotonic in the part.
     pending = [(0.0, 1.0)]
     for _ in range(_MOST):
         if not pending:
@@ -144,23 +144,25 @@ def _of_flight(rate, start, end, state, duration):
 
 
 def _ranges(rate, state, duration, low, high):
-    """Return enclosures, for both modules, of W_i and W_i' on a piece of a flight, and of W_i at the piece's centre.
+    """Return enclosures of W_i on a part of a flight, of W_i' on this part, and of W_i at the centre of this part.
 
-    low, high: ends of the piece as fractions of the flight. state: state at the start of the flight.
+    Each of the three results is a list with one enclosure per module.
+    low, high: ends of the part as fractions of the flight.
+    state: state at the beginning of the flight, shape (10, 1).
     """
     centre = (rate * (duration * ((low + high) / 2))).exp() * state
     offset = arb(0, (high - low) / 2) * duration
     around = (rate * offset).exp() * centre
     W, V, A = (GAPS * term for term in (centre, rate * centre, rate * (rate * around)))
-    # W_i is expanded to first order about the centre of the piece. A encloses W_i'' and thus bounds the remainder.
+    # W_i is expanded to first order about the centre of the part. A encloses W_i'' and thus bounds the remainder.
     over = [W[i, 0] + V[i, 0] * offset + A[i, 0] * offset * offset / 2 for i in range(2)]
     return over, [V[i, 0] + A[i, 0] * offset for i in range(2)], [W[i, 0] for i in range(2)]
 
 
 def _inside(i, W, V, leaving, nearing):
-    """Return True if ball i is proved to stay between its walls on a piece of a flight.
+    """Return True if ball i is proved to stay between its walls on a part of a flight.
 
-    leaving, nearing: number of the impact at the start and at the end of the piece, or None if there is no impact.
+    leaving, nearing: numbers of the impacts at the beginning and at the end of the part, or None if there is no impact.
     """
     touched = {WALLS[k]: sign for k, sign in ((leaving, -1), (nearing, 1)) if k is not None and k // 2 == i}
     return all(touched[wall] * wall * V > 0 if wall in touched else wall * W < 1 for wall in (1, -1))
