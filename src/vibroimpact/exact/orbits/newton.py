@@ -1,4 +1,4 @@
-"""Apply Newton's method from many starts at once, or follow one root as a parameter changes."""
+"""Apply Newton's method to many first values at once, or follow one root as a parameter changes."""
 
 from collections.abc import Callable, Iterable, Iterator
 
@@ -12,9 +12,9 @@ _CONVERGED, _CONVERGED_LATE = 1e-12, 1e-8
 def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
     """Return the roots that Newton's method reaches from `starts`, in no particular order and with repetitions.
 
-    equations: function of x, shape (k, d), that returns residuals, shape (k, d), and Jacobians, shape (k, d, d).
-    starts: one start per row, shape (n, d). If there are more than d columns, the further columns are passed to the
-    equations and returned unchanged.
+    equations: function of k rows of values. It returns residuals, shape (k, d), and Jacobians, shape (k, d, d).
+    starts: first values of the d unknowns, one set per row, shape (n, d) or wider. Columns after the first d are passed
+    to `equations` and returned unchanged.
     reach: largest modulus of a component of a step; a longer step is shortened.
     """
     x = np.array(starts, dtype=float)
@@ -36,10 +36,11 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
 
 
 def follow(equations: Callable, x: np.ndarray, values: Iterable[float], near: float) -> Iterator[tuple]:
-    """Yield each value of a parameter with the root of equations(value), shape (d,).
+    """Yield pairs of a value of a parameter and the root of equations(value), shape (d,).
 
-    Newton's method starts at the previous root, and at `x` for the first value. The iteration ends if equations(value)
-    raises ValueError, if the method finds no root, or if a component of the root changes by `near` or more.
+    Newton's method starts at the previous root. At the first value of the parameter, it starts at `x`. The iteration
+    ends if equations(value) raises ValueError, if the method finds no root, or if a component of the root differs by
+    `near` or more from the point where the method started.
     """
     for value in values:
         try:

@@ -18,7 +18,7 @@ from vibroimpact.system.representation import Found, Representation, brief
 from vibroimpact.system.state import BALLS, BOXES, NAMES, inactive_at_rest
 from vibroimpact.system.verdict import STABLE, UNSTABLE
 
-_STEP = 0.005  # phase [rad] of the fastest oscillation between two samples of W; interpolation is exact to 2e-12
+_STEP = 0.005  # phase change [rad] of the fastest oscillation from sample to sample; interpolation is exact to 2e-12
 _SAMPLES = 4096  # largest number of samples of a flight in memory at a time
 _TOUCH = 1e-9
 _SIDES = "1_plus", "1_minus", "2_plus", "2_minus"
@@ -61,7 +61,7 @@ class Orbit(Representation):
     admissible : bool
         True if the orbit is a motion of the system: all ball speeds are positive, and |W_i| <= 1 at all times.
     residual : float
-        Largest error of |W_i| = 1 at the impacts and of state(T) = state(0).
+        Largest difference between W_i and the wall (+1 or -1) at the impacts, or between state(T) and state(0).
     proof : OrbitProof, optional
         Proof of the orbit if the orbit comes from `with_proof`, else None.
 
@@ -138,7 +138,8 @@ class Orbit(Representation):
     def C(self) -> np.ndarray:
         """Saw-tooth amplitudes C_i of (10.11), shape (2,); C_i can be negative if the orbit is not admissible."""
         plus, minus = self.ball_speeds.T
-        # Both flights of a ball cover an equal distance: plus t = minus (T - t). The flight from wall +1 takes t.
+        # The flight from wall +1 takes a time t, and the flight from wall -1 takes T - t. Both flights cover the same
+        # distance: plus * t = minus * (T - t), with the speeds `plus` and `minus`.
         path = self.system.period * plus * minus / np.where(plus + minus == 0, 1.0, plus + minus)
         return sawtooth_amplitude(self.system.epsilon, path)
 
@@ -159,10 +160,11 @@ class OrbitSearch:
     orbits : list of Orbit
         The symmetric orbits, which are complete up to rounding, and the asymmetric orbits that were found.
     starts : int
-        Number of Newton starts in the search for asymmetric orbits. The search may miss asymmetric orbits.
+        Number of first values of Newton's method in the search for asymmetric orbits. The search may miss some orbits.
     fewest_hits : int
-        Number of starts that led to the asymmetric orbit found least often, or 0 if no asymmetric orbit was found.
-        Starts that led to its mirror image are included. A small number suggests that orbits were missed.
+        For each asymmetric orbit, the first values that led to the orbit or to its mirror image are counted. This
+        number is the smallest count, or 0 if no asymmetric orbit was found. A small number suggests that orbits were
+        missed.
     """
 
     orbits: list[Orbit]
@@ -173,8 +175,8 @@ class OrbitSearch:
 def orbits(system: System) -> list[Orbit]:
     """Return all 1:1 responses of (10.2) with one impact per cycle at each wall of each module.
 
-    The orbits are exact at any mass ratio epsilon. Newton's method from many starts finds the asymmetric orbits and may
-    miss some of them.
+    The orbits are exact at any mass ratio epsilon. The symmetric orbits are complete up to rounding. The asymmetric
+    orbits are found by Newton's method from many first values. Some asymmetric orbits may be missed.
 
     Parameters
     ----------
@@ -185,8 +187,8 @@ def orbits(system: System) -> list[Orbit]:
     -------
     list of Orbit
         Orbits, including roots that are not motions of the system (see `Orbit.admissible`). Symmetric orbits come
-        first. The symmetric orbits and the asymmetric orbits are sorted by ball speeds. An asymmetric orbit is next to
-        its mirror image.
+        first. Within each of the two groups, orbits are sorted by ball speeds. An asymmetric orbit is next to its
+        mirror image.
 
     Raises
     ------
@@ -225,8 +227,8 @@ def prove(orbit: Orbit):
     Returns
     -------
     OrbitProof
-        Verdicts and error bounds. The attribute `radius` is the half-width of intervals around the numbers of the
-        orbit. Exactly one root lies in these intervals.
+        Verdicts and error bounds. The attribute `radius` is the half-width of intervals around the impact times and
+        the changes of ball velocity. Exactly one orbit lies in these intervals.
 
     Raises
     ------
@@ -249,10 +251,11 @@ def prove(orbit: Orbit):
 
 
 def half_period_multipliers(orbit: Orbit) -> np.ndarray:
-    """Return the half-period multipliers of a symmetric orbit, whose squares are its multipliers.
+    """Return the half-period multipliers of a symmetric orbit.
 
-    The half-period multipliers are the eigenvalues of the derivative of -state(T/2) with respect to state(0). At a
-    fold, one of them is +1. At symmetry breaking, one of them is -1. Raise ValueError if the orbit is not symmetric.
+    The half-period multipliers are the eigenvalues of the derivative of -state(T/2) with respect to state(0). Their
+    squares are the Floquet multipliers of the orbit. At a fold, one half-period multiplier is +1. At symmetry breaking,
+    one half-period multiplier is -1. Raise ValueError if the orbit is not symmetric.
     """
     if not orbit.symmetric:
         raise ValueError("orbit: must be symmetric; got an orbit that is not symmetric")
@@ -387,7 +390,7 @@ def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
         # Hermite interpolation between the samples gives the extrema of W.
         turns = V[:, :-1] * V[:, 1:] < 0
         w0, w1, v0, v1 = W[:, :-1][turns], W[:, 1:][turns], V[:, :-1][turns], V[:, 1:][turns]
-        s = v0 / (v0 - v1)  # zero of V with an error O(spacing^2); the error of W is smaller, since V = 0
+        s = v0 / (v0 - v1)  # zero of V to O(spacing^2); this error hardly changes W, since V = dW/ds is 0 there
         values = w0 + (w1 - w0) * s * s * (3 - 2 * s) + s * (1 - s) * (v0 * (1 - s) - v1 * s)
         np.maximum.at(found, turns.nonzero()[2], abs(values))
     return found

@@ -1,18 +1,18 @@
 """Find all symmetric 1:1 responses, state(tau + T/2) = -state(tau), as roots of a function of one variable.
 
-Ball i meets wall +1 at tau_i and wall -1 half a period later. Let C_i = 1 - U_i(tau_i), as in (10.12). In half a
+Ball i hits wall +1 at tau_i and wall -1 half a period later. Let C_i = 1 - U_i(tau_i), as in (10.12). In half a
 period, the ball flies the distance 2 C_i / (1 + epsilon). Its speed is therefore V_i = 4 C_i / ((1 + epsilon) T). The
 velocity of box i changes by -2 epsilon V_i at wall +1 and by +2 epsilon V_i at wall -1. The boxes respond to the
 forcing and to the trains of impulses of both balls. Each module has two conditions: the ball is at the wall, and
-Newton's rule holds. The conditions are the imaginary part and the real part of the module's component of the equation
+Newton's rule holds. They are the imaginary part and the real part of one component of the vector equation
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
 with the imaginary unit i, C = (C_1, C_2), a complex 2 x 2 matrix P and the forced amplitudes a_1, a_2. For a given
-delta, these equations are linear in C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Inserted into c^2 + s^2 =
-1, their solution gives one equation for delta. This equation is multiplied by the squared determinant of the linear
-system, so that it has no poles. It is analytic except at the kinks delta = 0 and T/2. Chebyshev interpolants between
-the kinks therefore give all roots up to rounding. An inactive module (see `System.modules`) has tau_i = C_i = 0.
+delta, these equations are linear in C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Their solution must also
+satisfy c^2 + s^2 = 1. This is one equation for delta. Multiplied by the squared determinant of the linear system, it
+has no poles. It is analytic except at delta = 0 and delta = T/2, where it has kinks. Chebyshev interpolants between the
+kinks therefore give all roots up to rounding. An inactive module (see `System.modules`) has tau_i = C_i = 0.
 """
 
 import math
@@ -26,9 +26,9 @@ from vibroimpact.system.amplitude import path_of
 from vibroimpact.system.matrices import stiffness_matrix
 
 _DEGREE = 32
-_PIECES_AT_ONCE = 256  # largest number of pieces of the range of delta in memory at a time
-_RADIANS_PER_PIECE = 1.0  # phase [rad] of the fastest oscillation per piece; degree 32 is then exact to rounding
-_NOISE = 16 * np.finfo(float).eps  # smaller relative coefficients at the end of a series count as rounding errors
+_PIECES_AT_ONCE = 256  # largest number of pieces in memory at a time; a piece is an interval of delta
+_RADIANS_PER_PIECE = 1.0  # phase change [rad] of the fastest oscillation per piece; degree 32 is then exact to rounding
+_NOISE = 16 * np.finfo(float).eps  # last coefficients below _NOISE times the largest one are rounding errors
 _NEAR = 1e-3  # smaller imaginary parts of roots count as zero, since rounding makes double roots complex
 _SAME = 1e-8
 _BOXES = np.array([0, 1])
@@ -39,8 +39,9 @@ MODULES = np.array([1, 2, 1, 2])
 class SymmetricConditions:
     """Conditions of symmetric 1:1 motions: each ball is at its wall, and Newton's rule holds.
 
-    forced: complex amplitudes of the boxes without balls, one row per force, shape (m, 2). If it is None, the
-    forces are those of the system. The constructor raises ValueError if the boxes have an undamped resonance.
+    forced: complex amplitudes of the boxes without balls, one row per pair of forces (f10_hat, f20_hat), shape (m, 2).
+    If it is None, the only pair is that of `system`. The constructor raises ValueError if the boxes have an undamped
+    resonance.
     """
 
     def __init__(self, system, forced=None):
@@ -67,8 +68,8 @@ class SymmetricConditions:
     def __call__(self, unknowns: np.ndarray):
         """Return the residuals of the conditions, shape (n, 4), and their Jacobians, shape (n, 4, 4).
 
-        unknowns: tau_1, tau_2, C_1, C_2 in each row, shape (n, 4). If there is a fifth column, it is the index of the
-        force.
+        unknowns: tau_1, tau_2, C_1, C_2 in each row, shape (n, 4). A fifth column, if present, is the index of the pair
+        of forces.
         """
         times, C = unknowns[:, :2], unknowns[:, 2:4]
         amplitudes = self.amplitudes[unknowns[:, 4].astype(int)] if unknowns.shape[1] > 4 else self.amplitudes
@@ -86,7 +87,7 @@ class SymmetricConditions:
         """Return the linear system of the conditions for given delta = tau_2 - tau_1.
 
         The matrix has shape (..., 4, 4) and the right-hand side has shape (4,). The unknowns are C_1, C_2, cos(Omega
-        tau_1) and sin(Omega tau_1). force: index of the force.
+        tau_1) and sin(Omega tau_1). force: index of the pair of forces.
         """
         times = np.stack([np.zeros_like(delta), delta], axis=-1)
         forced = (self.amplitudes[force] * np.exp(1j * self.omega * times))[..., None]
@@ -111,9 +112,9 @@ def symmetric_solutions_under(system, forces) -> list[np.ndarray]:
 
 
 def _solutions(system, systems):
-    """Return the roots of `SymmetricConditions` for each of several systems, each array of shape (n, 4).
+    """Return a list with the roots of `SymmetricConditions` for each of `systems`, shape (n, 4) per system.
 
-    The systems differ from `system` only in their forces.
+    The elements of `systems` differ from `system` only in their forces.
     """
     found = [np.empty((0, 4))] * len(systems)
     for modules in {one.modules for one in systems} - {()}:
@@ -130,14 +131,17 @@ def _solutions(system, systems):
 
 
 def _uncoupled_starts(conditions, modules):
-    """Return the Newton starts of uncoupled modules; each start combines a root of module 1 and a root of module 2."""
+    """Return first values of Newton's method for uncoupled modules, shape (n, 5).
+
+    Each row combines a root of module 1 with a root of module 2. The last column is the index of the pair of forces.
+    """
     diagonal = np.diagonal(conditions.matrix(np.zeros((1, 2)))[0][0])
     starts = []
     for force, amplitudes in enumerate(conditions.amplitudes):
         single = [[(0.0, 0.0)], [(0.0, 0.0)]]
         for i in (module - 1 for module in modules):
             p, a = diagonal[i], amplitudes[i]
-            # |P_ii C_i + i| = |a_i|, with the forced amplitude a_i, is quadratic in C_i.
+            # The equation |P_ii C_i + j| = |a_i| is quadratic in C_i; a_i: forced amplitude, j: imaginary unit.
             C = np.roots([abs(p) ** 2, 2 * p.imag, 1 - abs(a) ** 2])
             C = C.real[abs(C.imag) < _NEAR]
             single[i] = [(np.angle((p * c + 1j) / a) / conditions.omega, c) for c in C]
@@ -146,9 +150,10 @@ def _uncoupled_starts(conditions, modules):
 
 
 def _coupled_starts(system, conditions):
-    """Return the Newton starts of coupled modules.
+    """Return first values of Newton's method for coupled modules, shape (n, 5).
 
-    Each root of `_roots_of_condition` gives a linear system, for which `_line_starts` returns three starts.
+    Each root delta of `_roots_of_condition` gives a linear system. `_line_starts` computes three first values from this
+    system. The last column is the index of the pair of forces.
     """
     delta, force = _roots_of_condition(system, conditions)
     C1, C2, c, s = np.moveaxis(_line_starts(*conditions.linear_system(delta, force)), -1, 0)
@@ -157,7 +162,7 @@ def _coupled_starts(system, conditions):
 
 
 def _roots_of_condition(system, conditions):
-    """Return the roots delta of `_condition` in [0, T], and the index of the force for each root.
+    """Return the roots delta of `_condition` in [0, T], and for each root the index of the pair of forces.
 
     A root with a small imaginary part counts as real.
     """
@@ -183,14 +188,15 @@ def _roots_of_condition(system, conditions):
 def _condition(conditions, delta, force):
     """Return N_c^2 + N_s^2 - D^2 at each delta; this number is zero if c^2 + s^2 = 1.
 
-    By Cramer's rule, c = N_c / D and s = N_s / D are the cosine and sine of Omega tau_1. delta: shape (pieces, n).
-    force: index of the force of each piece, shape (pieces, 1).
+    By Cramer's rule, c = N_c / D and s = N_s / D are the cosine and sine of Omega tau_1.
+    delta: n values in each interval of delta, shape (pieces, n).
+    force: index of the pair of forces for each row of `delta`, shape (pieces, 1).
     """
     matrices, constant = conditions.linear_system(delta, force)
     size = np.abs(matrices).max(axis=2).mean(axis=1)  # one scale per unknown, so that the determinants are of order 1
     matrices, strength = matrices / size[:, None, None, :], size[:, 2, None]
 
-    # All determinants have a common positive factor, so that their squares stay within the range of floats.
+    # N_c, N_s and D are multiplied by the same positive factor, which keeps their squares within the range of floats.
     def cramer(column):
         replaced = matrices.copy()
         replaced[..., column] = constant
@@ -200,18 +206,18 @@ def _condition(conditions, delta, force):
 
 
 def _line_starts(matrices, constant):
-    """Return three starts (C_1, C_2, c, s) for each linear system, shape (n, 3, 4).
+    """Return three first values (C_1, C_2, c, s) of Newton's method for each linear system, shape (n, 3, 4).
 
-    One start is the solution of the system. The two other starts are points of a line. If the matrix is singular, as
-    for identical modules in phase, each point of this line solves the system. If a division by zero occurs, a start is
-    not finite.
+    One of the three is the solution of the system. The two others are points of a line. If the matrix is singular, as
+    for identical modules in phase, each point of this line solves the system. If a division by zero occurs, some of the
+    numbers are not finite.
     """
     u, values, v = np.linalg.svd(matrices)
     parts = constant @ u
     with np.errstate(divide="ignore", invalid="ignore"):
         strong = ((parts / values)[:, None, :3] @ v[:, :3])[:, 0]
-        # The line runs along the right singular vector of the smallest singular value. Two starts are the points of the
-        # line with c^2 + s^2 = 1. If there are no such points, both starts are the point with the smallest c^2 + s^2.
+        # The line runs along the right singular vector of the smallest singular value. Two first values are the points
+        # of the line with c^2 + s^2 = 1. If there are no such points, both are the point with the smallest c^2 + s^2.
         weak, along = v[:, 3], np.where(values[:, 3] > 0, parts[:, 3] / values[:, 3], 0.0)
         a, b, c = (weak[:, 2:] ** 2).sum(1), (weak * strong)[:, 2:].sum(1), (strong[:, 2:] ** 2).sum(1) - 1
         depth = np.sqrt(np.maximum(b * b - a * c, 0.0))
