@@ -22,9 +22,9 @@ from vibroimpact.system.verdict import STABLE, UNDECIDED
 SAME = 1e-6
 """Largest difference between states that count as equal; near a bifurcation, errors are about sqrt(rounding)."""
 _STEPS, _HALVINGS, _REACH = 40, 12, 0.5
-# A ball is neutral if no coordinate at the start of a run changes the difference between its final and initial
-# velocity. The row of its velocity in the matrix D = run.jacobian - identity is then zero. A row counts as zero if no
-# entry exceeds _NEUTRAL * max(1, m) in modulus, where m is the largest modulus in D.
+# A ball is neutral if the change of its velocity over a run does not depend on the initial state. In the matrix
+# D = run.jacobian - identity, the row of its velocity is then zero. A row counts as zero if no entry exceeds
+# _NEUTRAL * max(1, m) in modulus. Here m is the largest modulus of all entries of D.
 _NEUTRAL = 1e-10
 _BALL_VELOCITIES = np.isin(np.arange(8), BALLS[2:])
 _SETTLED = 1e-13
@@ -47,7 +47,7 @@ class PeriodicOrbit(Representation):
     state : ndarray
         State at tau = 0, shape (8,). If an event happens at this time, it is the state just after the event.
     run : Run
-        Run over one period of the motion, which starts between two events.
+        Run over one period of the motion. The run starts between two events.
 
     Examples
     --------
@@ -129,10 +129,10 @@ class PeriodicOrbit(Representation):
 
 
 def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> PeriodicOrbit:
-    """Find a periodic motion near a given state; it may have any period, impacts, chatter and sticking.
+    """Find a periodic motion near a given state.
 
-    Newton's method also finds unstable motions. If the state is far from a motion, the method may miss the nearest
-    motion.
+    The motion may have any period and any impacts, also with chatter or sticking. Newton's method also finds unstable
+    motions. If the state is far from a motion, the method may miss the nearest motion.
 
     Parameters
     ----------
@@ -207,8 +207,8 @@ def refined(system, state, periods) -> PeriodicOrbit:
 def _determined(run):
     """Return a mask of the coordinates that periodicity determines, shape (8,).
 
-    These are the coordinates of the active modules, without those of neutral balls. A neutral ball hits no wall or has
-    an immense mass, so that its position is free.
+    These are the coordinates of the active modules except the coordinates of neutral balls. A neutral ball hits no wall
+    or has an immense mass. Periodicity does not determine its position.
     """
     changes = np.abs(run.jacobian - np.eye(8))
     turned = changes[[5, 7]].max(axis=1) > _NEUTRAL * max(1.0, changes.max())
@@ -217,9 +217,9 @@ def _determined(run):
 
 
 def _nearer(run, step):
-    """Return the run from the start of `run` moved by `step`.
+    """Return the run whose initial state is `run.start` + `step`.
 
-    The step is halved until `_gap` is smaller than for `run`. If this never happens, return None.
+    The step is halved until `_gap` of the new run is smaller than `_gap` of `run`. If this never happens, return None.
     """
     for _ in range(_HALVINGS):
         x = run.start + step
