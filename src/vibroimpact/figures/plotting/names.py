@@ -1,4 +1,4 @@
-"""Write names of curves at places where they cover no line, marker or other name."""
+"""Write names of curves at positions where the names cover no line, marker or other name."""
 
 from itertools import pairwise
 
@@ -23,9 +23,10 @@ which curve the name belongs. OVERLAPS: the name covers something."""
 
 
 def name_curves(figure, panels: dict, **style) -> None:
-    """Write the name of each curve next to it, in its colour, where it covers no line, marker, text or inset.
+    """Write the name of each curve next to the curve, in the colour of the curve.
 
-    Call this function last, since the places of the names depend on axes limits and layout.
+    If possible, the names cover no line, marker, text or inset. Call this function last, since the positions of the
+    names depend on the limits of the axes and on the layout.
 
     Parameters
     ----------
@@ -78,8 +79,9 @@ class _Names:
     def _place(self, half, own, others):
         """Return the centre of a name near its curve, and both ends of the leader line from the name to the curve.
 
-        half: half the width and half the height of the name, shape (2,). own: discs that cover the curve. others:
-        discs that cover all other named curves. Discs are rows of `_outline`.
+        half: half the width and half the height of the name, shape (2,).
+        own: discs that cover the curve, as in `_outline`, shape (n, 3).
+        others: discs that cover all other named curves, shape (m, 3).
         """
         frame, margin = self.axes.get_window_extent(), half + GAP * self.point
         x = np.arange(frame.x0 + margin[0], frame.x1 - margin[0], STEP * self.point)

@@ -25,7 +25,7 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> pd.DataFrame
     samples : DataFrame
         Columns tau, X2, Y2, ascending in tau.
     events : DataFrame
-        Impacts, sticks and releases, columns tau, module, wall, X2.
+        Impacts, beginnings and ends of sticking phases; columns tau, module, wall, X2.
 
     Returns columns panel ("a", "b"), series ("X_2", "W_2"), tau, cycle (tau in forcing periods), value. The points
     include the events of module 2, where W_2 is exactly at a wall.
@@ -49,10 +49,13 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
     rise from low to high values (`exact.measures.modulation.swells`). A modulation period is the time from one swell to
     the next.
 
-    Returns the following columns. displacement: "X1" or "X2". smallest amplitude, largest amplitude: extremes over all
-    forcing periods. amplitude variation: standard deviation of the amplitudes, divided by their mean. modulation
-    periods: number of modulation periods. mean length in cycles: mean length of the modulation periods in forcing
-    periods, NaN without modulation periods.
+    Returns the following columns.
+    displacement: "X1" or "X2".
+    smallest amplitude: smallest amplitude of all forcing periods.
+    largest amplitude: largest amplitude of all forcing periods.
+    amplitude variation: standard deviation of the amplitudes, divided by their mean.
+    modulation periods: number of modulation periods.
+    mean length in cycles: mean modulation period [forcing periods], or NaN if there is no modulation period.
     """
     per_cycle = samples_per_cycle(samples["tau"].to_numpy(), system.period)
     amplitudes = {name: modulation.cycle_amplitudes(samples[name], per_cycle) for name in ("X1", "X2")}
@@ -74,7 +77,7 @@ def statistics(system, samples: pd.DataFrame) -> pd.DataFrame:
 def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
     """Draw the table of `compute`: X_2 in panel a, and below it W_2 with the walls in panel b.
 
-    shaded: time intervals that get a grey background, in forcing periods, shape (n, 2).
+    shaded: ends of the time intervals [forcing periods] that get a grey background, shape (n, 2).
     """
     figure = new_figure(SINGLE_COLUMN, 80.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True)
@@ -97,7 +100,7 @@ def draw(table: pd.DataFrame, shaded: np.ndarray = ()) -> Figure:
 
 
 def without_resonance(table: pd.DataFrame) -> np.ndarray:
-    """Return the time intervals without resonance in forcing periods, shape (n, 2).
+    """Return the ends of the time intervals [forcing periods] without resonance, shape (n, 2).
 
     In such an interval, ball 2 needs more than one forcing period to reach the opposite wall.
     """

@@ -41,12 +41,15 @@ def styled(function):
 
 
 def new_figure(width: float, height: float, layout: str | None = "constrained") -> Figure:
-    """Return an empty figure of exactly width by height in mm."""
+    """Return an empty figure with exactly the given width and height in mm."""
     return Figure(figsize=(width / 25.4, height / 25.4), layout=layout)
 
 
 def side_by_side(panels: int, most: int = 3) -> tuple[int, int]:
-    """Return the numbers of columns and rows for a number of panels, at most `most` in a row."""
+    """Return the number of columns and the number of rows of a grid for `panels` panels.
+
+    most: largest number of columns.
+    """
     columns = min(panels, most)
     return columns, -(-panels // columns)
 
@@ -57,7 +60,10 @@ def heading(axes, letter: str = "", words: str = "") -> None:
 
 
 def time_plot(axes, lines, walls: bool = True) -> None:
-    """Draw lines over time, each given as (times, values, style), and if `walls` is True, the walls W = +-1."""
+    """Draw lines against time. If `walls` is True, also draw the walls W = +-1.
+
+    lines: one tuple (times, values, style) per line.
+    """
     for wall in (-1.0, 1.0) if walls else ():
         axes.axhline(wall, color=BLACK, linewidth=0.4, zorder=0)
     for time, values, style in lines:
@@ -82,8 +88,8 @@ def png(figure: Figure) -> bytes:
 def save(figure: Figure, outputs: dict) -> None:
     """Write a figure to the files outputs["png"], outputs["pdf"] and outputs["svg"].
 
-    All files have the same layout. If `outputs` has the key "provenance", the package versions are written to this
-    file. A file whose key is missing is not written.
+    A file whose key is missing in `outputs` is not written. All files have the same layout. If `outputs` has the key
+    "provenance", write the package versions to the file outputs["provenance"].
     """
     # The order of the files is fixed, since each drawing can change the last digits of the positions of the axes.
     for kind in (kind for kind in _METADATA if kind in outputs):
@@ -110,8 +116,10 @@ def draw_tables(figure, read: dict) -> Figure:
 def write_and_draw(figure, computed, outputs: dict) -> None:
     """Write the tables of a figure to files, and draw the figure from the tables as written.
 
-    figure: Python module of the figure. computed: result of `figure.compute`. outputs: paths of the files to write. The
-    keys are the names of the tables and the keys of `save`, such as "png". A table without a path is not written.
+    figure: Python module of the figure.
+    computed: result of `figure.compute`.
+    outputs: paths of the files to write. The path of a table has the name of the table as its key. The path of a
+    picture has a key that `save` knows, such as "png". A table without a path is not written.
     """
     drawn = _by_name(computed)
     for name in drawn.keys() & outputs.keys():
@@ -121,10 +129,11 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
 
 
 def shown(figure, inputs: dict, *args, **settings) -> tuple:
-    """Return the tables of a figure, in the form in which `figure.compute` returns them, and the PNG of the figure.
+    """Return the tables of a figure as `figure.compute` returns them, and the PNG of the figure.
 
-    figure: Python module of the figure. inputs: paths of the tables, keyed by the names of the tables, and path of the
-    PNG, keyed "png". args, settings: arguments of `figure.compute`.
+    figure: Python module of the figure.
+    inputs: path of each table, with the name of the table as its key, and path of the PNG, with the key "png".
+    args, settings: arguments of `figure.compute`.
 
     The tables are read from their paths, and the path of the PNG is returned. If `inputs` is empty, the figure is
     computed and drawn, and the bytes of the PNG are returned.
