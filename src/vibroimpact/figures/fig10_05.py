@@ -62,7 +62,7 @@ def compute(C_range: tuple[float, float]) -> pd.DataFrame:
 def key_points(table: pd.DataFrame) -> pd.DataFrame:
     """Return a table with one row for each of six evenly spaced kappa.
 
-    The columns are kappa, the limit of C by (10.26), C_min, and C_min minus the limit.
+    The columns are kappa, border (the limit of C from (10.26)), C_min, and stable_left_arm (C_min minus border).
     """
     fold = select(table, "regions", "C_min")["C"].to_numpy()
     border = select(table, "regions", "stable").iloc[: len(fold)]

@@ -167,7 +167,7 @@ def verdict(table: pd.DataFrame, label: str) -> str:
     """Return the verdict of (10.26) on a fixed point, or "" if `table` does not contain the point.
 
     The verdict is "stable" if P_i lies on the stable branch for each active module, else "unstable". A module is active
-    if a force drives it.
+    if a force drives it, directly or through the coupling.
     """
     beyond = [
         select(table, f"{label}{module}", "SIM stable")["C"].min() < C
@@ -190,14 +190,14 @@ def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
-    """Draw the plane (C_i, B_i) of one panel, and return the points to be named.
+    """Draw the plane (C_i, B_i) of one panel, and return the names of its points with their lines.
 
-    The result is a part of the argument `panels` of `name_curves`.
+    The result has the form of the argument `panels` of `name_curves`.
     """
     module = panel[-1]
     end = select(table, panel, "SIM stable")["C"].iloc[-1]
     top = table["B"][table["series"].str.startswith("SIM")].max()
-    # Round the limit, since a rounding error in it can change Matplotlib's ticks.
+    # Round the end of the axis, since a rounding error in it can change Matplotlib's ticks.
     axes.set(xlim=(0.0, round(end, 9)), ylim=(0.0, 1.08 * top), ylabel=f"$B_{module}$")
     axes.locator_params(nbins=4, steps=[1, 2, 5, 10])
     points = [

@@ -50,7 +50,7 @@ COORDINATES = {
 
 
 def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, model: str = "slow_flow") -> pd.DataFrame:
-    """Return U_i, X_i, W_i and Y_i of both modules at a fixed point, over `periods` forcing periods from tau = 0.
+    """Return U_i, X_i, W_i and Y_i of both modules at a fixed point, for `periods` forcing periods from tau = 0.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def compute(system, points: pd.DataFrame, fixed_point: str, periods: float, mode
     shown = motion(system, points, fixed_point, model)
     period, end, curves = system.period, periods * system.period, []
     for module, first in zip(MODULES, shown.impacts, strict=True):
-        # The ball hits a wall every half period. If the module is inactive, `first` is NaN.
+        # The ball hits a wall every half period. `first` is the time of one impact, or NaN if the module is inactive.
         impacts = np.arange(first - period, end, 0.5 * period) if np.isfinite(first) else np.empty(0)
         tau = np.union1d(np.linspace(0.0, end, 401), impacts[impacts >= 0])
         response = shown.response(tau)
@@ -100,9 +100,9 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def draw_response(axes, table: pd.DataFrame, module: int) -> dict:
-    """Draw the coordinates and walls of one module over tau, and return the curves to be named.
+    """Draw the coordinates and walls of one module against tau, and return the names of the curves with their lines.
 
-    The result is a part of the argument `panels` of `name_curves`.
+    The result has the form of the argument `panels` of `name_curves`.
     """
     lines = {name: select(table, f"module {module}", f"{name}_{module}") for name in COORDINATES}
     time_plot(axes, [(line["tau"], line["value"], COORDINATES[name]) for name, line in lines.items()])

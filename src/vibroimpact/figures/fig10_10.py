@@ -35,8 +35,8 @@ def compute(
 ) -> pd.DataFrame:
     """Return the planes of figure 10.6 and the response of figure 10.7 for one fixed point.
 
-    Returns columns panel, series, C, B, tau, value. The planes have values of C and B, the response has values of tau
-    and value.
+    Returns columns panel, series, C, B, tau, value. Rows of the planes have numbers in the columns C and B. Rows of
+    the response have numbers in the columns tau and value.
 
     Raises
     ------

@@ -56,6 +56,7 @@ def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> dict[str, pd
 def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     """Draw the tables of `compute` as in figure 10.8.
 
-    Grey shading marks intervals without resonance: ball 2 takes longer than a forcing period from wall to wall.
+    Grey shading marks time intervals without resonance. In such an interval, ball 2 needs more than one forcing period
+    to reach the opposite wall.
     """
     return simulated.draw(tables["csv"], simulated.without_resonance(tables["csv"]))

@@ -87,8 +87,8 @@ def draw(table: pd.DataFrame) -> Figure:
         axes.vlines(GOALS, 0, 1, transform=axes.get_xaxis_transform(), **GUIDE)
         measured = drawn[(drawn["problem"] == problem) & drawn["seconds_per_cycle"].notna()]
         by_method = measured.groupby("method", sort=False)
-        # `name_curves` writes names in this order. Methods without a result come first, since all their markers lie in
-        # the narrow grey lane, where names have little room.
+        # `name_curves` writes names in this order. Methods without a result come first. All their markers lie in the
+        # narrow grey strip, where there is little space for names.
         by_room = sorted(by_method, key=lambda one: one[1]["outcome"].eq("finished").any())
         curves[axes] = [(method, lines) for method, rows in by_room for lines in _method(axes, method, rows)]
         axes.set_xticks(10.0 ** np.arange(-15, 1, 3))
