@@ -28,8 +28,8 @@ def to_frame(result: Any) -> "pandas.DataFrame":
     -------
     pandas.DataFrame
         A run gives one row per event, an ensemble one row per run, and basins one row per initial state. A list gives
-        one row per fixed point, orbit or dict, or one row per computed point of each branch. An empty list that a
-        function of this package returned gives the usual columns and no rows.
+        one row per fixed point, orbit or dict, or one row per computed point of each branch. If a function of
+        this package returned an empty list, the data frame has the usual columns and no rows.
 
     Raises
     ------
@@ -98,7 +98,7 @@ def to_dataset(rows: Any, along: Sequence[str | tuple[str, ...]]) -> "xarray.Dat
             raise ValueError(f"along: {name!r} is not one of the columns {', '.join(table)}")
     first = [together[0] for together in moved]
     if table.duplicated(first).any() or len(table) != table[first].nunique().prod():
-        raise ValueError(f"rows: expected one row per point of a grid over {', '.join(first)}; got {len(table)} rows")
+        raise ValueError(f"rows: expected one row per point of the grid of {', '.join(first)}; got {len(table)} rows")
     data = table.drop(columns="point", errors="ignore").set_index(first).to_xarray()
     for name, *others in moved:
         at = dict.fromkeys(set(first) - {name}, 0)
@@ -117,7 +117,7 @@ def of_run(run):
 
 
 def plot(system, times, samples):
-    """Return a Matplotlib Figure of X_i and W_i = X_i - Y_i over time.
+    """Return a Matplotlib Figure of X_i and W_i = X_i - Y_i against time in forcing periods.
 
     times: times tau, shape (n,). samples: states at these times, shape (n, 8).
     """

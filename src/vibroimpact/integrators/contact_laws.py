@@ -30,7 +30,9 @@ NEARLY_ELASTIC = 1e-5
 class Law:
     """Contact force K p^n + D p^m p'.
 
-    stiffness: exponent n. damping: exponent m. walls: True if p is the depth beyond a wall, False if p = |W|.
+    stiffness: exponent n.
+    damping: exponent m.
+    walls: True if p is the depth beyond a wall, False if p = |W|.
     """
 
     stiffness: float
@@ -57,9 +59,13 @@ def stiffness_of(law: Law, mass: float, duration: float) -> float:
 
 
 def stiffness_turning_at_the_wall(law: Law, mass: float, kappa: float) -> float:
-    """Return the stiffness K of a law without walls, for which a ball with speed 1 at W = 0 turns at W = 1."""
+    """Return the stiffness K of a law without walls.
+
+    With this stiffness, a ball that has speed 1 at W = 0 turns round at W = 1.
+    """
     zeta = damping_ratio(kappa)
-    # The ball turns at u = `deepest` / sqrt(2 K / ((n + 1) mu)), and K makes this u = 1, since u = 1 at W = 1.
+    # The ball turns round at u = `deepest` / sqrt(2 K / ((n + 1) mu)). W = 1 corresponds to u = 1. Therefore, K follows
+    # from u = 1.
     deepest = math.exp(-zeta * math.acos(zeta) / math.sqrt(1.0 - zeta**2))
     return 0.5 * (law.stiffness + 1.0) * mass * deepest**2
 
