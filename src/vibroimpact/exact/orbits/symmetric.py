@@ -3,16 +3,17 @@
 Ball i hits wall +1 at tau_i and wall -1 half a period later. Let C_i = 1 - U_i(tau_i), as in (10.12). In half a
 period, the ball flies the distance 2 C_i / (1 + epsilon). Its speed is therefore V_i = 4 C_i / ((1 + epsilon) T). The
 velocity of box i changes by -2 epsilon V_i at wall +1 and by +2 epsilon V_i at wall -1. The boxes respond to the
-forcing and to the trains of impulses of both balls. Each module has two conditions: the ball is at the wall, and
-Newton's rule holds. They are the imaginary part and the real part of one component of the vector equation
+forcing and to the trains of impulses of both balls. Module i has two conditions: the ball is at the wall, and
+Newton's rule holds. They are the imaginary part and the real part of component i of the equation
 
     P(delta) C + i (1, 1) = (a_1 exp(i Omega tau_1), a_2 exp(i Omega tau_2)),        delta = tau_2 - tau_1,
 
 with the imaginary unit i, C = (C_1, C_2), a complex 2 x 2 matrix P and the forced amplitudes a_1, a_2. For a given
 delta, these equations are linear in C_1, C_2, c = cos(Omega tau_1) and s = sin(Omega tau_1). Their solution must also
-satisfy c^2 + s^2 = 1. This is one equation for delta. Multiplied by the squared determinant of the linear system, it
-has no poles. It is analytic except at delta = 0 and delta = T/2, where it has kinks. Chebyshev interpolants between the
-kinks therefore give all roots up to rounding. An inactive module (see `System.modules`) has tau_i = C_i = 0.
+satisfy c^2 + s^2 = 1. This condition is one equation for delta. After multiplication by the squared determinant of the
+linear system, this equation has no poles. It is analytic except at delta = 0 and delta = T/2, where it has kinks.
+Chebyshev interpolants between the kinks therefore give all roots up to rounding. An inactive module (see
+`System.modules`) has tau_i = C_i = 0.
 """
 
 import math

@@ -153,8 +153,8 @@ def _distance(enclosures, listed):
 def krawczyk(equations, approximate: np.ndarray):
     """Return intervals that enclose a root near `approximate`, and a radius.
 
-    No other root lies in the intervals with centres `approximate` and half-width radius. On failure, the result is
-    (None, 0.0).
+    No other root lies in the intervals with centres `approximate` and this radius as half-width. On failure, the result
+    is (None, 0.0).
 
     equations: function of a list of n intervals. It returns the residual, shape (n, 1), and the Jacobian, shape (n, n),
     or None if they are not defined.
