@@ -18,7 +18,7 @@ def one_line(text) -> str:
 def plain(text) -> str:
     """Return a text on one line with a backslash before each ASCII punctuation character.
 
-    Markdown then shows the text unchanged, also in a cell of a table.
+    Markdown then shows this text without interpreting it, also in a cell of a table.
     """
     return ESCAPED.sub(r"\\\1", one_line(text))
 

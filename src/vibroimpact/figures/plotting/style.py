@@ -118,8 +118,8 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
 
     figure: Python module of the figure.
     computed: result of `figure.compute`.
-    outputs: paths of the files to write. The path of a table has the name of the table as its key. The path of a
-    picture has a key that `save` knows, such as "png". A table without a path is not written.
+    outputs: paths of the files to write. The path of a table has the name of the table as its key. The path of any
+    other file has a key that `save` knows, such as "png". A table without a path is not written.
     """
     drawn = _by_name(computed)
     for name in drawn.keys() & outputs.keys():
