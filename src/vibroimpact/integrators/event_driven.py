@@ -11,7 +11,10 @@ from vibroimpact.system.state import IMPACT
 
 
 class Engine(Method):
-    """The engine of this package, `vibroimpact.simulate`: closed-form flights and certified events, no tolerance."""
+    """The engine of this package, `vibroimpact.simulate`.
+
+    It computes flights in closed form and certifies events. It needs no tolerance.
+    """
 
     name, family, knob, settings, careful = "this engine", "exact flow", "precision", ("float64",), "float64"
 
@@ -35,7 +38,7 @@ class CertifiedEngine(Engine):
 
 
 def _impacts(run):
-    """Return the impacts of a run as rows [tau, module, wall, speed]; sticks and releases are left out."""
+    """Return the impacts of a run as rows [tau, module, wall, speed]; all other events are left out."""
     rows = run.rows[run.rows[:, KIND] == IMPACT]
     return np.stack([run.tau0 + rows[:, TIME], rows[:, MODULE], rows[:, WALL], np.abs(rows[:, APPROACH])], axis=1)
 

@@ -1,10 +1,11 @@
 """Integrate with heyoka's adaptive Taylor method; callbacks of wall events apply the impact law.
 
-Sine and cosine of the forcing phase are two further states, so that the Taylor recursion contains no transcendental
+Sine and cosine of the forcing phase are two further states. Therefore the Taylor recursion contains no transcendental
 functions. No faster use of heyoka was found.
 
-After an event, heyoka ignores the same event during a cooldown. A short flight could end undetected in this time. So a
-ball sticks if its rebound is slower than max(sqrt(tolerance), SLOWEST) and the box presses it against the wall.
+After an event, heyoka does not detect the same event again until a short time, the cooldown, has passed. An impact at
+the end of a very short flight could be missed. Therefore a ball sticks if its rebound is slower than
+max(sqrt(tolerance), SLOWEST) and its box presses it against the wall.
 """
 
 from functools import lru_cache
@@ -101,7 +102,7 @@ class _Integrator:
 
     def _events(self, i, gap, acceleration):
         rising, falling = heyoka.event_direction.positive, heyoka.event_direction.negative
-        if self.stuck[i]:  # the event is a sign change of the contact force, at either wall
+        if self.stuck[i]:  # the event is a sign change of the contact force
             return [heyoka.t_event(acceleration, callback=lambda taylor, sign: self._stop(i))]
         return [
             heyoka.t_event(gap - 1.0, callback=self._impact(i, 1), direction=rising),
@@ -116,7 +117,7 @@ class _Integrator:
     def _impact(self, i, wall):
         """Return the callback that applies the impact law to ball i at a wall.
 
-        If a ball is stuck, or if ball i is so slow that it may stick, the callback only stops the flight.
+        The callback only stops the flight if one of the two balls sticks, or if ball i is slow enough to stick.
         """
         s_box, s_ball = 4 + BOXES[i], 4 + BALLS[i]
 

@@ -101,8 +101,8 @@ def _rates(tau, z, q, k, boxes, signs, d):
 def _step(tau, z, h, q, k, boxes, signs, locate):
     """Return the coordinates after a step of length h.
 
-    If `locate` is True, each stage uses the cells and signs of v at its own position. Otherwise all stages use `boxes`
-    and `signs`.
+    If `locate` is True, each Runge-Kutta stage uses the cells and the signs of v at the coordinates of this stage.
+    Otherwise all stages use the given `boxes` and `signs`.
     """
     rates, ahead, at = np.empty(8), z.copy(), z.copy()
     for stage in range(4):
@@ -129,7 +129,7 @@ def _locate(z, boxes, signs):
 
 @disk_cached()
 def _impact(tau, i, box, direction, speed, k):
-    """Return the row (tau, module, wall, speed) of the impact at which ball i leaves cell n = `box`."""
+    """Return the row (tau, module, wall, speed) of the impact at which ball i leaves the cell with the index `box`."""
     return tau, i + 1.0, (1.0 - 2.0 * (box % 2)) * direction, (1.0 + k) * abs(speed)
 
 
@@ -137,8 +137,8 @@ def _impact(tau, i, box, direction, speed, k):
 def _march_across_jumps(q, k, z, tau0, h, count):
     """Take `count` steps of length h without locating the jumps.
 
-    Return the last coordinates, the cells of the balls, the impacts, the number of steps, and NaN. `_march_to_jumps`
-    returns the time of an endless chatter in the place of NaN; this function does not detect a chatter.
+    Return the last coordinates, the cells of the balls, the impacts, the number of steps, and NaN. The NaN means that
+    no endless chatter was detected, as in `_march_to_jumps`. This function cannot detect an endless chatter.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, signs = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
@@ -206,7 +206,7 @@ def _first_jump(tau, z, part, h, q, k, boxes, signs):
 
 @disk_cached()
 def _beyond(z, boxes, signs):
-    """Return True if a ball has passed a wall, if a v has changed its sign, or if a coordinate is not finite."""
+    """Return True if a ball has passed a wall, if its v has changed the sign, or if a coordinate is not finite."""
     within = True
     for i in range(2):
         to_wall, speed = _ahead_of(z, i, boxes, signs)
@@ -216,9 +216,9 @@ def _beyond(z, boxes, signs):
 
 @disk_cached()
 def _ahead_of(z, i, boxes, signs):
-    """Return the distance of ball i to the wall ahead, and the coordinate v of ball i, counted towards this wall.
+    """Return the distance of ball i to the wall ahead, and the coordinate v of ball i times its sign in `signs`.
 
-    The distance is negative after the ball has passed the wall. The returned v is negative after v has changed its
+    The distance is negative after the ball has passed the wall. The second number is negative after v has changed its
     sign.
     """
     return 1.0 - signs[i] * (z[4 * i] - 2.0 * boxes[i]), signs[i] * z[4 * i + 1]

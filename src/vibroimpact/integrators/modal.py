@@ -1,4 +1,4 @@
-"""Compute flights exactly, as sums of modes of the boxes; find impacts from samples of 1 - |W| by Newton's method.
+"""Compute flights exactly, as sums of modes of the boxes; find impacts between samples of 1 - |W| by Newton's method.
 
 Unlike the engine of this package, this method does not prove that no event occurs between two samples.
 """
@@ -88,7 +88,7 @@ def _turn(rates, count, t, turns):
 
 @inlined()
 def _advance(turns, count, amplitudes, later):
-    """Multiply the complex amplitude of each mode by its factor of `_turn`; write the products into `later`."""
+    """Multiply the complex amplitude of each mode by its factor in `turns`; write the products into `later`."""
     for k in range(count):
         re, im, c, s = amplitudes[0, k], amplitudes[1, k], turns[0, k], turns[1, k]
         later[0, k], later[1, k] = re * c - im * s, re * s + im * c
@@ -96,7 +96,7 @@ def _advance(turns, count, amplitudes, later):
 
 @inlined()
 def _amplitudes(s, tau, omega, count, inverse, shape, amplitudes):
-    """Write the amplitudes of all modes in the state s at time tau into `amplitudes`, shape (2, 5).
+    """Decompose the state s at time tau into modes; write the amplitudes of the modes into `amplitudes`, shape (2, 5).
 
     The last mode is the forced response.
     """
@@ -131,7 +131,10 @@ def _state(s, walls, count, shape, amplitudes, t, there):
 
 @inlined()
 def _guess(before, there, i, low, high):
-    """Return an estimate of the time between `low` and `high` at which ball i reaches a wall, by a cubic fit."""
+    """Return an estimate of the time between `low` and `high` at which ball i reaches a wall.
+
+    W is approximated by the cubic polynomial that has the values and slopes of W at the times `low` and `high`.
+    """
     x = 2 * i
     wall = 1.0 if there[x] - there[x + 1] > 0.0 else -1.0
     h = high - low
@@ -174,7 +177,7 @@ def _march(q, tables, s, tau, end, step, limit):
 
 @inlined_source()
 def _fly(q, flight, tau, length, stride, most, memory):
-    """Sample a flight until an event occurs, the time `length` has passed or `most` samples are taken.
+    """Sample a flight until an event occurs, until the time `length` has passed, or until `most` samples are taken.
 
     Return the module of the event (-1 without an event), the time since the start of the flight, and the number of
     samples. Write the state at this time to memory[2].

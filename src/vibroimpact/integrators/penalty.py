@@ -55,7 +55,7 @@ class Penalty(Method):
         return MethodRun(final, rows, steps, 6 * steps)
 
     def law(self, system, setting) -> np.ndarray:
-        """Return the result of `law_numbers` for the contact law of this method and a setting."""
+        """Return the numbers of the contact law at this setting, as returned by `law_numbers`."""
         mass = system.epsilon / (1.0 + system.epsilon)
         stiffness = stiffness_of(self._law, mass, setting * system.period)
         return law_numbers(self._law, stiffness, damping_of(self._law, mass, system.kappa, stiffness), 1.0)
@@ -67,7 +67,7 @@ class Penalty(Method):
 class PowerLaw(Penalty):
     """Integration with a spring force K W^(2n - 1) instead of walls; the setting is n.
 
-    A ball with speed 1 at W = 0 turns at W = 1.
+    A ball with relative speed 1 at W = 0 reverses its relative motion at W = 1.
     """
 
     knob = "exponent"
@@ -87,10 +87,13 @@ class PowerLaw(Penalty):
 def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> np.ndarray:
     """Return [n, m, K, D, power, start, contact] of a contact law K p^n + D p^m p', shape (7,).
 
-    D is the damping of a contact at speed V = 1. At another speed V, the damping is D V**-power. The depth p is 0 at
-    |W| = start. A contact begins at |W| = contact.
+    n, m: exponents of the depth p in the spring force and in the damping force.
+    K, D: coefficients of the spring force and, for a contact at speed V = 1, of the damping force.
+    power: exponent in the damping coefficient D V**-power of a contact at another speed V.
+    start: value of |W| at which the depth p is 0.
+    contact: value of |W| at which a contact begins.
     """
-    # If D is proportional to (1 / V)**power, kappa is the same at every speed V.
+    # With the damping coefficient D V**-power, the coefficient of restitution is the same at every speed V.
     power = (2.0 * law.damping - law.stiffness + 1.0) / (law.stiffness + 1.0)
     return np.array([law.stiffness, law.damping, stiffness, damping, power, float(law.walls), contact])
 
@@ -118,8 +121,8 @@ def force(gap, speed, law, damping):
 def _rates(tau, s, contact, d):
     """Write the derivative of the state s into d.
 
-    contact: tuple of the result of `coefficients`, the result of `law_numbers`, and the damping D of the contact of
-    each ball, shape (2,).
+    contact: tuple of three arrays: the result of `coefficients`, the result of `law_numbers`, and the damping
+        coefficients of the contacts of both balls, shape (2,).
     """
     q, law, dampings = contact
     a = accelerations(math.sin(q[8] * tau), s, q, (0.0, 0.0))

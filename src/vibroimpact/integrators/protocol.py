@@ -19,11 +19,13 @@ in an endless chatter."""
 class MethodRun:
     """Result of a run of one method.
 
-    final: state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), or None after a failure. noted: impacts
-    (tau, module, wall, speed) in order of time, or a function that returns these impacts. steps: number of integration
-    steps. evaluations: number of evaluations of the right-hand side, or 0 if the method does not count them. outcome:
-    FINISHED, REFUSED or UNFINISHED. reason: text on why the run has no result, or "". doubt: function that returns a
-    text on what the method could not decide, or "".
+    final: state at the end, [X1, Y1, X2, Y2, X1', Y1', X2', Y2'], shape (8,), or None after a failure.
+    noted: impacts (tau, module, wall, speed) in order of time, or a function that returns these impacts.
+    steps: number of integration steps.
+    evaluations: number of evaluations of the right-hand side, or 0 if the method does not count them.
+    outcome: FINISHED, REFUSED or UNFINISHED.
+    reason: text on why the run has no result, or "".
+    doubt: function that returns a text on what the method could not decide, or "".
 
     The measured run time does not include the evaluation of `impacts` and `doubt`.
     """
@@ -48,11 +50,13 @@ class Method(ABC):
 
     To add an integrator, write a subclass and list an instance of it in `integrators.METHODS`.
 
-    name, family: texts for tables and legends. knob: meaning of the setting, such as "steps per cycle". settings:
-    values of the setting from coarse to fine. careful: setting that a careful user would choose for difficult motions.
-    order: expected order of convergence of the error with the quantity `scale`, or None. limit: largest number of steps
-    of a run; this number takes roughly half a minute. compiles_settings: True if each setting has its own compiled
-    code.
+    name, family: texts for tables and legends.
+    knob: meaning of the setting, such as "steps per cycle".
+    settings: values of the setting from coarse to fine.
+    careful: setting that a careful user would choose for difficult motions.
+    limit: largest number of steps of a run. A run with this number of steps takes roughly half a minute.
+    order: expected order of convergence of the error as the quantity `scale` tends to 0, or None.
+    compiles_settings: True if each setting has its own compiled code.
     """
 
     name: str
@@ -81,5 +85,5 @@ class Method(ABC):
 
 
 def failed(outcome: str, reason: str, steps: int, evaluations: int = 0, noted=()) -> MethodRun:
-    """Return a run without a result, with the impacts found up to the failure."""
+    """Return the MethodRun of a failed run; its final state is None, and `noted` are the impacts before the failure."""
     return MethodRun(None, noted, steps, evaluations, outcome, reason)

@@ -40,11 +40,14 @@ def guard(tau, s, q, walls, i):
 
 @disk_cached()
 def resolve(tau, s, q, walls, due, rows, count, slow):
-    """Update the state and the walls at an event of a module, and return the rows of all impacts and their number.
+    """Update `s` and `walls` at an event of a module; return the array of all impacts and the number of impacts.
 
-    s: state, shape (8,). walls: for each ball, the wall that it sticks to, or 0. due: index of the module with the
-    event, or -1 at the start of a run. rows, count: rows [time, module, wall, speed] of the impacts so far, and their
-    number. slow: speed of rebound below which a ball sticks if its box presses it against the wall.
+    s: state, shape (8,).
+    walls: for each ball, the wall that it sticks to, or 0.
+    due: index of the module with the event, or -1 at the start of a run.
+    rows: array whose first `count` rows are the impacts so far, [time, module, wall, speed].
+    count: number of impacts so far.
+    slow: speed of rebound below which a ball sticks if its box presses it against the wall.
     """
     for i in range(2):
         x = 2 * i

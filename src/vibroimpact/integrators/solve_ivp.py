@@ -16,8 +16,8 @@ PATIENCE = 100  # largest number of successive events without progress in time
 class SolveIvp(Method):
     """One method of solve_ivp; the setting is the relative tolerance rtol.
 
-    The first step after an impact is at most half the expected duration of the flight. So no impact of a chatter
-    (impacts at one wall in ever shorter flights) is missed.
+    The first step after an impact is at most half the expected duration of the flight that follows. Therefore no
+    impact of a chatter (impacts at one wall in ever shorter flights) is missed.
     """
 
     family, knob = "solve_ivp", "rtol"
