@@ -11,7 +11,7 @@ from contextlib import contextmanager
 def without_traceback() -> Iterator[None]:
     """End the process on Ctrl-C with a line of text instead of a traceback.
 
-    The signal of Ctrl-C itself ends the process, so that a script that called the command also stops.
+    The signal SIGINT ends the process. Therefore a script that called the command also stops.
     """
     try:
         yield
