@@ -66,5 +66,5 @@ def test_unfinished_runs_are_counted_and_excluded():
     assert np.isnan(peak_of(by_cycle(BAND, states[2:], 12, 8).largest)).all()
     with pytest.raises(ArithmeticError, match="4 runs"):
         peak(BAND, states, 12, 8)
-    with pytest.raises(ValueError, match=r"^cycles: 8 is not above settle = 8"):
+    with pytest.raises(ValueError, match=r"^cycles: must be greater than settle = 8, got 8"):
         peak(BAND, states[:2], 8, 8)

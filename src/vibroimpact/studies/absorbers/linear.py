@@ -16,9 +16,11 @@ POINTS = 400
 class Linear:
     """Linear system M X'' + C X' + K X = F sin(Omega tau), dimensionless.
 
-    mass, damping, stiffness: matrices M, C and K, shape (n, n). The coordinates are X_1 and X_2 of the boxes. If there
-    are absorbers, Y_1 and Y_2 follow. force: amplitudes F, shape (n,). scale: function that returns a factor of F for
-    each frequency Omega.
+    The coordinates are X_1 and X_2 of the boxes. If there are absorbers, their coordinates Y_1 and Y_2 follow.
+
+    mass, damping, stiffness: matrices M, C and K, shape (n, n).
+    force: amplitudes F, shape (n,).
+    scale: function of the frequency Omega that returns a factor by which F is multiplied.
     """
 
     mass: np.ndarray

@@ -26,9 +26,11 @@ QUANTILE = 0.99
 class CycleMaxima:
     """Displacements of the boxes in the observed cycles of runs.
 
-    Each of m systems runs from each of n initial states. largest: largest |X_1| or |X_2| in each observed cycle, shape
-    (m, n, cycles), nan for unfinished runs. rms: root mean square of X_1 or X_2 over the observed cycles of a run, the
-    largest value of all finished runs. unfinished: number of unfinished runs.
+    Each of m systems runs from each of n initial states.
+
+    largest: larger of max |X_1| and max |X_2| in each observed cycle, shape (m, n, cycles); nan for unfinished runs.
+    rms: largest root mean square of a box displacement over the observed cycles, among all boxes and finished runs.
+    unfinished: number of unfinished runs.
     """
 
     largest: np.ndarray
@@ -39,8 +41,10 @@ class CycleMaxima:
 def peak(systems: Sequence[System], states: ArrayLike, cycles: int, settle: int) -> tuple[float, float]:
     """Return the peak displacement in a band of frequencies, and its standard error.
 
-    systems: one system per frequency. states: initial states, shape (n, 8); each system runs from each of them. cycles:
-    number of forcing periods of a run. settle: number of forcing periods before the observation.
+    systems: one system per frequency.
+    states: initial states, shape (n, 8). Each system runs from each initial state.
+    cycles: number of forcing periods of a run.
+    settle: number of forcing periods of a run before the observation.
 
     Raises
     ------
@@ -59,7 +63,7 @@ def by_cycle(systems: Sequence[System], states: ArrayLike, cycles: int, settle: 
     The arguments are those of `peak`. A module that no force drives, directly or through the coupling, starts at rest.
     """
     if not cycles > settle:
-        raise ValueError(f"cycles: {cycles} is not above settle = {settle}, so that no cycle is left to observe")
+        raise ValueError(f"cycles: must be greater than settle = {settle}, got {cycles}; no cycle would be observed")
     systems, states = np.array(systems, dtype=object), np.array([inactive_at_rest(one, states) for one in systems])
     runs = ensemble(systems[:, None], states, cycles, settle=settle, by_cycle=True)
     largest, squares = runs["largest"].max(axis=-1), runs["mean_square"].sum(axis=-2)
@@ -80,8 +84,9 @@ def peak_of(largest: ArrayLike) -> np.ndarray:
 
 
 def standard_error(largest: ArrayLike) -> float:
-    """Return the standard error of the highest peak of all systems, by a jackknife over the initial states.
+    """Return the standard error of the highest peak of all systems.
 
+    The error is computed by a jackknife: each initial state is left out once.
     Runs from different initial states must be independent. The error is nan for a single initial state.
     """
     largest = np.asarray(largest)

@@ -52,7 +52,7 @@ def tuned(system, tuning: Tuning, scale=np.ones_like) -> Linear:
 
 
 def textbook_tuning(system) -> Tuning:
-    """Return the linear absorbers tuned by Den Hartog's rule, each with the mass of a ball.
+    """Return the tuning of the linear absorbers by Den Hartog's rule; each absorber has the mass of a ball.
 
     The response curve of a single undamped box passes through the same two points for every damping of its absorber.
     The rule makes both points equally high: sqrt(1 + 2 / epsilon) times the static deflection. The peaks of the curve
@@ -73,10 +73,11 @@ def textbook_tuning(system) -> Tuning:
 
 
 def best_tuning(system, band: tuple[float, float], scale=np.ones_like) -> Tuning:
-    """Return the linear absorbers with the lowest peak in a band of frequencies, each with the mass of a ball.
+    """Return the tuning of the linear absorbers that gives the lowest peak in a band of frequencies.
 
-    The peak is not a smooth function of the tuning. Therefore the optimisation minimises an upper bound on the response
-    at all frequencies of the band. If it converges from none of its starting points, ArithmeticError is raised.
+    Each absorber has the mass of a ball. The peak is not a smooth function of the tuning. Therefore the optimisation
+    minimises an upper bound on the response at all sampled frequencies of the band. If the optimisation converges from
+    none of the first values in STARTS, ArithmeticError is raised.
     """
     book, frequencies = textbook_tuning(system), np.linspace(*band, POINTS)
     textbook = np.log([*book.frequency, *book.damping])
@@ -100,7 +101,7 @@ def best_tuning(system, band: tuple[float, float], scale=np.ones_like) -> Tuning
         if result.success:
             found.append(_tuning(result.x[:4]))
     if not found:
-        raise ArithmeticError(f"the tuning of the absorbers for the band {band} did not converge from any start")
+        raise ArithmeticError(f"the tuning of the absorbers for the band {band} did not converge from any first values")
     return min(found, key=lambda tuning: tuned(system, tuning, scale).peak(band))
 
 
@@ -131,7 +132,8 @@ def _levels(logarithms, system, frequencies, scale):
 
     logarithms: logarithms of `Tuning.frequency` and `Tuning.damping`, shape (4,).
 
-    An amplitude below 1e-12 times the largest amplitude is raised to this bound, since a box may be at rest.
+    An amplitude below 1e-12 times the largest amplitude is replaced by this bound. Otherwise the logarithm would be
+    infinite for a box at rest.
     """
     amplitudes = tuned(system, _tuning(logarithms), scale).amplitudes(frequencies)
     return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
