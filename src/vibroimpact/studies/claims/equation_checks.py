@@ -87,7 +87,7 @@ def equations_in_U_and_W(evidence):
     left = damping * speed + stiffness * place + system.gamma12 * (speed - speed[::-1])
     left += system.alpha12 * (place - place[::-1])
     printed = {"U1": f[0], "W1": f[1], "U2": f[1], "W2": f[1]}  # amplitude of the force in each line as printed
-    # Between impacts the ball flies freely, so that U'' = W'' = X''.
+    # Between impacts Y'' = 0, since the ball flies freely. Therefore U'' = W'' = X''.
     both = dict(zip("12", ddX + left, strict=True))
     residual = {line: both[line[1]] - amplitude * phase[0] for line, amplitude in printed.items()}
     parts = {f"line {line} holds as printed": abs(value) < ROUNDING for line, value in residual.items()}
@@ -128,11 +128,12 @@ def leading_order_solution(evidence):
 
 
 def _vanish(found, **others):
-    """Return a Finding with one part for each name of a residual.
+    """Return a Finding with one part for each relation; the part is True if all residuals of the relation vanish.
 
-    A part holds if the largest residual of its name is below ROUNDING.
+    A residual counts as zero if its absolute value is below ROUNDING.
 
-    found: list of dictionaries name -> residuals, all with the same names. others: further residuals by name.
+    found: list of dictionaries {name of the relation: residuals}, all with the same names.
+    others: for each further relation, its largest residual.
     """
     worst = {name: max(np.abs(residuals[name]).max() for residuals in found) for name in found[0]} | others
     parts = {f"{name} holds": value < ROUNDING for name, value in worst.items()}
@@ -149,8 +150,8 @@ def manifold_from_impact_conditions(evidence):
             cosine = 4 * C / (np.pi * (1 + kappa)) - 2 * C / np.pi  # equals B cos(phase), by (10.14)
             B = np.hypot(sine, cosine)
             residuals = {"(10.16)": B**2 - (1 - 2 * C + (1 + r**2) * C**2)}
-            # Close to the fold, the square root in (10.15) loses half of the digits. The distance from the fold, as a
-            # factor, makes up for this loss.
+            # Close to the fold, the square root in (10.15) loses half of the digits. Therefore the residual is
+            # multiplied by the distance of C from the fold, at most 1.
             residuals["(10.15)"] = min(abs(arm - C) for arm in C_of_B(B, r)) * min(1, abs(C - C_min(r)))
             residuals["(10.17)"] = [sine - B * np.sin(impact_phase(C, r)), cosine - r * C]
             found.append(residuals)

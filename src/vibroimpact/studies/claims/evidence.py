@@ -1,4 +1,4 @@
-"""Results of a build that the checks of claims use: the systems of the cases, and tables of the pipeline."""
+"""Data for the checks of claims: the systems of the cases, and results of a build."""
 
 from dataclasses import dataclass, field
 
@@ -29,7 +29,8 @@ class Simulation:
 class Evidence:
     """Results of a build with the parameters of the chapter.
 
-    Each data frame is the result table with the name of the field. Each dictionary has the cases as keys.
+    Each data frame contains the result table that has the same name as the field. The keys of each dictionary are the
+    names of the cases.
     """
 
     fixed_points: pd.DataFrame
@@ -59,7 +60,10 @@ class Evidence:
         return orbits[orbits["admissible"].astype(bool)]
 
     def measured(self, case: str, start: str, quantity: str) -> pd.DataFrame:
-        """Return the rows of the table `modulation` for a case, a kind of start ("spread" or "rest") and a quantity."""
+        """Return the rows of the table `modulation` for a case, a kind of initial state and a quantity.
+
+        start: kind of initial state, "spread" or "rest".
+        """
         return self.modulation.query("case == @case and start == @start and quantity == @quantity")
 
     def shares(self, case: str) -> pd.Series:

@@ -14,9 +14,9 @@ VERDICTS = (HOLDS, IN_PART, REFUTED, OPEN, MISPRINT)
 class Finding:
     """The outcome of one check.
 
-    parts: for each assertion of the claim, True, False, or None if the text of the chapter is ambiguous.
+    parts: for each assertion of the claim, True or False; None if the text of the chapter is ambiguous.
     numbers: measured values by name.
-    corrected: True if the claim holds once a misprint is corrected, else False. If there is no correction, it is None.
+    corrected: True if the claim holds once a misprint is corrected, False if not, None if no correction is known.
     """
 
     parts: dict[str, bool | None]
@@ -59,8 +59,9 @@ def _plain(value):
 def as_printed(holds: bool, corrected: bool, **numbers) -> Finding:
     """Return the Finding on a printed statement.
 
-    holds: True if the printed statement holds. corrected: True if the corrected statement holds. The verdict on the
-    corrected statement is added to `numbers`.
+    holds: True if the printed statement holds.
+    corrected: True if the corrected statement holds. The function adds the verdict on this statement to `numbers`.
+    numbers: measured values by name.
     """
     numbers["verdict on the corrected statement"] = HOLDS if corrected else REFUTED
     return Finding({"the statement holds as printed": holds}, numbers, corrected=bool(corrected))

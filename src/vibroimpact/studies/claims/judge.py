@@ -1,9 +1,20 @@
 """Judge each claim of the chapter by a computed check; no verdict is written by hand.
 
-docs/studies/claims.yaml lists the claims. A claim has the keys id, place, statement, check (name of a function in
-`MODULES`) and refuted_by (a result that would refute the claim). Optional keys are arguments (of the check), central
-(true for an important claim) and fact (why the claim does not hold). Claims that fail for the same reason have the
-same text under fact. A check takes the Evidence and the arguments, and returns a Finding.
+docs/studies/claims.yaml lists the claims. Each claim has the keys
+
+- id: name of the claim,
+- place: equation, figure or passage of the chapter with the claim,
+- statement: text of the claim,
+- check: name of a function in one of the `MODULES`,
+- refuted_by: a result that would refute the claim,
+
+and may have the keys
+
+- arguments: arguments of the check,
+- central: true for an important claim,
+- fact: the reason why the claim does not hold; claims that fail for the same reason have the same text here.
+
+A check takes the Evidence and the arguments, and returns a Finding.
 """
 
 from inspect import isfunction
@@ -43,7 +54,7 @@ def problems(claims: list[dict]) -> list[str]:
 
 
 def judge(claims: list[dict], evidence: Evidence) -> list[dict]:
-    """Return the claims, each with its verdict, parts and numbers; raise ValueError if `problems` finds any."""
+    """Return the claims, each with its verdict, parts and numbers; raise ValueError if `problems` finds a problem."""
     found = problems(claims)
     if found:
         raise ValueError("claims: " + "; ".join(found))

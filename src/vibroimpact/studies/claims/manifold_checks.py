@@ -94,14 +94,14 @@ def printed_condition(evidence):
 
 
 def _limits_of_the_captions(evidence):
-    """Return both ends of the open interval of lower limits on C that agree with all CAPTIONS.
+    """Return both ends of the open interval of limits that could replace (10.26) and agree with all CAPTIONS.
 
-    Such a limit replaces (10.26). It calls a fixed point stable if C_1 and C_2 are above the limit. It agrees if the
-    captions call the same fixed points stable. All limits in the interval are also below the fold of the manifold, so
-    that a part of the left arm is stable.
+    By such a limit, a fixed point is stable if both C_1 and C_2 exceed the limit. A limit agrees with the captions if
+    the same fixed points are stable by the limit and by the captions. The interval ends at the fold of the manifold or
+    below it, since a part of the left arm must be stable.
 
     If the labels of fixed points were exchanged, the interval would stay the same or become empty. The reason is that
-    every limit calls the fixed points with the largest min(C_1, C_2) stable.
+    by every limit, the stable fixed points are those with the largest min(C_1, C_2).
     """
     smallest = {True: [], False: []}
     for case, captions in CAPTIONS.items():

@@ -27,20 +27,23 @@ def modulation_tables(
 ) -> dict:
     """Return measures of the modulation and Lyapunov exponents for each case and regime.
 
-    Spread starts are evenly spread initial states. Those spread starts of a case that end in the same regime are
-    evaluated together. The start from rest is evaluated separately. All lengths are in forcing periods.
+    The runs of each case start from evenly spread initial states and from rest. The runs from spread initial states
+    that end in the same regime are evaluated together. The run from rest is evaluated separately. All lengths are in
+    forcing periods.
 
-    starts: number of spread starts. cycles: length of the runs from which the measures are computed.
-    windows: lengths of windows. Measures of the envelope are compared between these windows.
-    blocks, block: number and length of the blocks of the runs from which Lyapunov exponents are computed. If a spread
-        start ends in a regime of CHAOS, its run has `blocks` blocks. All other runs have the length `cycles`.
+    starts: number of evenly spread initial states of each case.
+    cycles: length of the runs from which the measures are computed.
+    windows: lengths of the observation windows for which measures of the envelope are compared.
+    blocks, block: number and length of the blocks of the runs from which Lyapunov exponents are computed. A run from a
+        spread initial state has `blocks` blocks if it ends in a regime of CHAOS. All other runs have the length
+        `cycles`.
 
-    The tables are "measures", "windows" and "spectra". The table "windows" is about strongly modulated spread starts.
-    Module 0 stands for both modules.
+    The tables are "measures", "windows" and "spectra". The table "windows" describes strongly modulated motions from
+    spread initial states. Module 0 stands for both modules.
 
-    The uncertainty of a share of starts is its binomial standard error. All other uncertainties are standard errors
-    over the starts. If there is a single start, only its Lyapunov exponent has an uncertainty. It comes from the blocks
-    of the run.
+    The uncertainty of a share of initial states is its binomial standard error. All other uncertainties are standard
+    errors of the mean over the runs. For a single run, only the Lyapunov exponent has an uncertainty. This uncertainty
+    comes from the blocks of the run.
     """
     tables = [
         _case(case, system, starts, seed, cycles, blocks, block, windows, observation)

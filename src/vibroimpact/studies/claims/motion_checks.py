@@ -68,9 +68,9 @@ def transients_are_long(evidence, case):
 
 
 def only_possible_behaviour(evidence, case):
-    """Check that no 1:1 response is stable, and that all motions end strongly modulated, with no ball idle.
+    """Check that no 1:1 response is stable, and that all motions end strongly modulated, with impacts of both balls.
 
-    The motions start from evenly spread states and from rest.
+    The motions start from evenly spread initial states and from rest.
     """
     shares = evidence.shares(case)
     (rest,) = evidence.measured(case, "rest", "resonant share")["regime"].unique()
@@ -97,7 +97,7 @@ def no_practical_importance(evidence, case, label):
 
 
 def resonant_intervals(evidence, case):
-    """Check that bursts of resonance are longer than a cycle and than the pauses between bursts.
+    """Check that resonance lasts on average longer than a cycle, and longer than the intervals without resonance.
 
     The motion must also be chaotic: its largest Lyapunov exponent must exceed five times the uncertainty of this
     exponent.
@@ -121,7 +121,7 @@ def resonant_intervals(evidence, case):
 def beating(evidence, case):
     """Check that the amplitude of each box varies more than the amplitude of a beat.
 
-    The amplitude variation must exceed BEAT_VARIATION by more than two uncertainties.
+    The amplitude variation must exceed BEAT_VARIATION by more than twice the uncertainty of the amplitude variation.
     """
     rows = evidence.measured(case, "spread", "amplitude variation").set_index("module")
     lowest = rows["mean"] - 2 * rows["uncertainty"]
@@ -230,8 +230,8 @@ def restitution_far_from_unity(evidence, kappas, forces):
     """Compare fixed points with exact orbits at each restitution coefficient of `kappas` and each force of `forces`.
 
     Both boxes have the same force. Each fixed point must belong to one symmetric orbit, and each symmetric orbit to one
-    fixed point. The distance between them must be proportional to epsilon. At each fixed point, the balls must stay
-    between the walls. For each restitution coefficient, at least one force must give a fixed point.
+    fixed point. The distance of a fixed point from its orbit must be proportional to epsilon. At each fixed point, the
+    balls must stay between the walls. For each restitution coefficient, at least one force must give a fixed point.
     """
     parts, numbers = {}, {}
     for kappa in kappas:
@@ -247,9 +247,9 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
 
 def _points_beside_orbits(system, kappa, force):
-    """Return the fixed points, and True if the symmetric exact orbits tend to exactly these points.
+    """Return the fixed points, and True if each is the limit of one symmetric exact orbit as epsilon tends to 0.
 
-    The limit is epsilon -> 0. Both boxes have the force `force`.
+    If a symmetric exact orbit has no fixed point, the second result is False. Both boxes have the force `force`.
     """
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)
