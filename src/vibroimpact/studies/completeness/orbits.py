@@ -36,9 +36,9 @@ need("reference", "flint")
 
 from flint import acb, acb_series, arb, arb_series  # noqa: E402 (after the dependency check)
 
-_NARROWEST = 2.0**-24  # smallest width of an interval of delta / (T/2); the 53-bit numbers of arb resolve it
+_NARROWEST = 2.0**-24  # smallest width of an interval of delta / (T/2), far above the rounding errors of arb
 _FIRST = 8
-_MOST = 10_000  # largest number of intervals that are examined; all others are reported as undecided
+_MOST = 10_000  # largest number of intervals that are examined; the remaining ones are reported as undecided
 _TERMS = 3
 
 
@@ -185,7 +185,7 @@ class _Condition:
         return _series([self.kick * acb(m[2 + row, column] / self.omega, m[row, column]) for m in terms])
 
     def _own(self, i):
-        """Return the diagonal entry P[i, i], which depends on box i just before an impact of its own ball."""
+        """Return the diagonal entry P[i, i], computed from the state of box i just before an impact of ball i."""
         velocity = self.own_velocity + self.kick * (self.start[2 + i, i] - 1)
         return _series([acb(velocity / self.omega, self.kick * self.start[i, i] - self.place)])
 

@@ -6,16 +6,15 @@ the fixed points are the zeros of |Delta|^2 - |beta_i m_i|^2 for i = 1, 2. docs/
 functions; in the code, m_1 and m_2 are n1 and n2. Together, the squares |x_i| <= 1 of all pairs of charts cover every
 real C_i, and v_i^2 from -1 to 1.
 
-Each square is quartered into interval boxes: an interval of x_1 and one of x_2. If the interval of
-|Delta|^2 - |beta_i m_i|^2 excludes 0 for one i, the interval box has no zero. Otherwise a contraction is tried
-(Krawczyk's test, Neumaier 1990). It may prove that the interval box has no zero, or that the interval box of twice the
-width has exactly one zero. If the interval box is still undecided, it is quartered again. Interval boxes that are
-undecided at the smallest width are reported.
+Each square is divided into interval boxes. An interval box is a pair of intervals, one of x_1 and one of x_2. If the
+interval of |Delta|^2 - |beta_i m_i|^2 excludes 0 for i = 1 or i = 2, the interval box has no zero. Otherwise Krawczyk's
+test (Neumaier 1990) is tried. The test may prove that the interval box has no zero. Or it may prove that the enlarged
+interval box, of twice the width, has exactly one zero. An interval box that is still undecided is divided into four.
+Interval boxes that are undecided at the smallest width are reported.
 
 The functions of a chart are computed in interval arithmetic and expanded to second order about the centre of an
-interval box. The remainder of the expansion holds in the interval box of twice the width. Where the interval of Delta
-excludes 0, the phases are unique. An inactive module i (uncoupled and without force) has the condition x_i = 0 instead,
-and q_i = 1.
+interval box. The bound on the remainder holds in the enlarged interval box. Where the interval of Delta excludes 0, the
+phases are unique. An inactive module i (uncoupled and without force) has the condition x_i = 0 instead, and q_i = 1.
 """
 
 import functools
@@ -40,7 +39,7 @@ _BITS = 128
 _REACH = 2  # a tested interval box is enlarged by this factor, so that a zero on its edge is inside
 _NARROWEST = 2.0**-24
 _ISOLATED_WIDTH = 2.0**-20  # half-width to which the interval box around a zero is narrowed
-_MOST = 20_000  # after so many interval boxes per pair of charts, no further ones are quartered
+_MOST = 20_000  # after this number of tests per pair of charts, no interval box is divided further
 _TERMS = 30
 # Remainder of the series in v^2 for |v^2| <= 2. The omitted terms and their derivatives are below 5^30 100^2 / 60!.
 _TAIL = arb(0, 2.0**-150)
@@ -56,8 +55,8 @@ class Proof:
 
     isolated: interval boxes in ascending order, each with exactly one fixed point. An interval box is a pair of
         intervals (lower end, upper end), one of C_1 and one of C_2. For asymmetric fixed points, each entry is (pair of
-        charts, intervals of the parameters x_i) instead; see the module docstring. For a single machine, each entry
-        has one interval, and one chart, instead of two.
+        charts, intervals of the parameters x_i) instead; see the module docstring. For a single machine, there is one
+        interval instead of a pair of intervals, and one chart instead of a pair of charts.
     undecided: interval boxes in which nothing is proved, in the format of `isolated`. Outside the isolated and the
         undecided interval boxes, no fixed point exists for any real C_i and v_i^2 in [-1, 1].
     motions: number of isolated fixed points with C_i > 0 for each symmetric module and v_i^2 > 0 for each asymmetric
@@ -162,7 +161,7 @@ def _active(system, both) -> tuple:
 
 
 def _subdivide(conditions):
-    """Subdivide the square |x_i| <= 1; return the interval boxes with exactly one zero, and the undecided ones."""
+    """Divide the square |x_i| <= 1; return the interval boxes with exactly one zero, and those left undecided."""
     pending, found, undecided = [(0.0, 0.0, 1.0)], [], []  # half-widths are powers of two, so that centres are exact
     for visited in itertools.count():
         if not pending:
@@ -229,9 +228,11 @@ class _Conditions:
     def count(self, x, y, half):
         """Return the number of zeros in an interval box (0, 1 or None), and an interval box around a single zero.
 
-        x, y, half: centre and half-width of the interval box. If the number is 1, the interval box enlarged by the
-        factor _REACH has exactly one zero. None means that the number is undecided. If the number is 1, the
-        second result is (centre x, centre y, half-width), otherwise None.
+        x, y, half: centre and half-width of the interval box.
+
+        The number None means that the number of zeros is undecided. The number 1 means that the interval box, enlarged
+        by the factor _REACH, has exactly one zero. Then the second result is (centre x, centre y, half-width) of an
+        interval box that contains this zero. Otherwise the second result is None.
         """
         delta, one, two = self.sides(x, y, half)
         local = np.array([delta - one, delta - two])
@@ -243,8 +244,8 @@ class _Conditions:
         (a, b), (c, d) = (map(float, (polynomial[1, 0], polynomial[0, 1])) for polynomial in local)
         if (determinant := a * d - b * c) == 0:
             return None, None
-        # The map t - Y F(t) has F = `local` and Y = `inverse`. It maps |t| <= s into -Y F(0) plus or minus a bound on
-        # all other terms.
+        # The test uses the map t - Y F(t) with F = `local` and Y = `inverse`. The constant term of the map is -Y F(0).
+        # For |t_i| <= s, `_size` bounds the sum of all other terms of the map.
         inverse = np.array([[d, -b], [-c, a]]) / determinant
         mapped = np.tensordot(inverse.astype(object), local, 1)
         mapped[0, 1, 0] -= 1
