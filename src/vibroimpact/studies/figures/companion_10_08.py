@@ -62,7 +62,7 @@ def compute(system, points: pd.DataFrame, samples: pd.DataFrame, events: pd.Data
     sampled = pd.DataFrame({"phase": (samples["tau"] - start) / period, "W2": samples["X2"] - samples["Y2"]})
     impacts = pd.DataFrame({"phase": (hits["tau"] - start) / period, "W2": hits["wall"].astype(float)})
     motion = pd.concat([sampled, impacts]).drop_duplicates("phase").sort_values("phase")
-    # A motion that is shifted by half a period, with all signs changed, still solves the equations.
+    # If a motion is shifted by half a period and all its signs are changed, it still solves the equations.
     image = motion.assign(phase=motion["phase"] - 0.5, W2=-motion["W2"])
     return join(
         [
@@ -94,7 +94,7 @@ def _theory(system, points, samples):
 
 @styled
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the table of `compute`: the theory above, the simulation below."""
+    """Draw the table of `compute`: the theory in the upper panel, the simulation in the lower panel."""
     figure = new_figure(SINGLE_COLUMN, 88.0)
     grid = figure.subplots(len(PANELS), 1, sharex=True, sharey=True)
     for axes, (panel, title) in zip(grid, PANELS.items(), strict=True):

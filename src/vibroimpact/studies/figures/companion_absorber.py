@@ -103,8 +103,9 @@ SUMMARY_COLUMNS = ["quantity", "who", "value", "spread", "kappa", *FORCES, "clea
 def compute(system, response, clearance, design, band: dict, seed: int, cycles: int, settle: int) -> dict:
     """Return the peaks with balls, and a summary that compares them with linear systems.
 
-    The lowest peak of a sweep is too low, since it is the lowest of many values with random errors. So the lowest peaks
-    are measured again from other starts. The new value is a lower bound, since all starts may miss the largest motion.
+    The lowest peak of a sweep is too low, since it is the lowest of many values with random errors. Therefore the
+    lowest peaks are measured again from other initial states. The new value is a lower bound, since possibly no initial
+    state leads to the largest motion.
 
     Parameters
     ----------
@@ -116,7 +117,7 @@ def compute(system, response, clearance, design, band: dict, seed: int, cycles: 
     band : dict
         Arguments of `sweeps.grid.axis` for the band of detunings sigma_e_hat.
     seed : int
-        Seed of the starts in the sweeps.
+        Seed of the initial states in the sweeps.
     cycles, settle : int
         Length of each run, and length of the omitted transient at its start, in forcing periods.
 
