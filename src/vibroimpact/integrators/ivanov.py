@@ -206,7 +206,7 @@ def _first_jump(tau, z, part, h, q, k, boxes, signs):
 
 @disk_cached()
 def _beyond(z, boxes, signs):
-    """Return True if a ball has passed a wall, if its v has changed the sign, or if a coordinate is not finite."""
+    """Return True if a ball has passed a wall, if its v has changed its sign, or if its s or v is nan."""
     within = True
     for i in range(2):
         to_wall, speed = _ahead_of(z, i, boxes, signs)
