@@ -1,13 +1,14 @@
 """Compute Lyapunov exponents from the exact Jacobian through impacts, chatter and sticking.
 
-A frame is a set of perturbations of the state. The Jacobian of every cycle, saltation matrices included (Müller 1995),
-propagates the frame. A QR decomposition then orthonormalises the frame (Benettin et al. 1980; Geist, Parlitz and
-Lauterborn 1990). The logarithms of the diagonal of R are the growth in the cycle. The initial time is not perturbed. If
-the time were a further coordinate, there would be a further exponent 0, and the dimension would be larger by one.
+A frame is a set of perturbations of the state. In every cycle, the frame is multiplied by the Jacobian of this cycle,
+which contains the saltation matrices (Müller 1995). A QR decomposition then orthonormalises the frame (Benettin et al.
+1980; Geist, Parlitz and Lauterborn 1990). The moduli of the diagonal entries of R are the growth factors in this cycle.
+The initial time is not perturbed. If the time were a further coordinate, there would be a further exponent 0, and the
+dimension would be larger by one.
 
 When a ball sticks, perturbations in two directions of the state space vanish. When both balls stick at the same time
-(a double stick), perturbations in four directions vanish. If double sticks occur with a positive frequency, four
-exponents are -inf, and the dimension of the attractor is at most 4.
+(a double stick), perturbations in four directions vanish. If double sticks occur again and again, four exponents are
+-inf, and the dimension of the attractor is at most 4.
 """
 
 from dataclasses import dataclass
@@ -34,11 +35,12 @@ _RESAMPLES = 200  # number of draws of the bootstrap
 
 
 class Exponent(NamedTuple):
-    """Mean growth rate of a perturbation per forcing period, in nats, and the error of this mean.
+    """Mean growth rate [nats per forcing period] of a perturbation, and the error of this mean.
 
-    The error is sqrt(a^2 + b^2). Here a is the standard error of the mean over blocks of cycles. For an average from
-    the time t0 to the time t1, b = ln(t1 / t0) / (t1 - t0). A perturbation that grows in proportion to time has the
-    exponent 0, but its mean growth rate is b. An example is a small velocity of a ball that is otherwise at rest.
+    The error is sqrt(a^2 + b^2). Here a is the standard error of the mean over blocks of cycles. If the growth rate is
+    averaged from the time t0 to the time t1 [forcing periods], b = ln(t1 / t0) / (t1 - t0). A perturbation that grows
+    in proportion to time has the exponent 0, but its mean growth rate is b. An example of such a perturbation is a
+    small velocity of a ball that would otherwise be at rest.
     """
 
     mean: float
@@ -54,7 +56,7 @@ class Measured(Exponent):
 def largest_lyapunov(
     system: System, state, cycles: int = 2000, settle: int = 1000, blocks: int = 20, discarded: int = 10
 ) -> Measured:
-    """Return the largest Lyapunov exponent of the motion reached from an initial state, in nats per period.
+    """Return the largest Lyapunov exponent [nats per forcing period] of the motion that an initial state leads to.
 
     An exponent above about three times its error indicates chaos. If a motion repeats after n forcing periods, the
     exponent is ln |mu| / n, where mu is the largest Floquet multiplier.
@@ -73,14 +75,14 @@ def largest_lyapunov(
     blocks : int, default 20
         Number of blocks into which `cycles` are divided for the standard error, at least 2.
     discarded : int, default 10
-        Number of blocks after the transient that are not used. In these blocks, the perturbation turns to the direction
+        Number of blocks that are left out after the transient. In these blocks, the perturbation turns to the direction
         of largest growth.
 
     Returns
     -------
     Measured
-        The exponent is .mean, and its standard error is .scatter. The larger .error also allows for perturbations that
-        grow in proportion to time.
+        The exponent is .mean, and its standard error is .scatter. The attribute .error is larger, since it also allows
+        for perturbations that grow in proportion to time.
 
     Raises
     ------
@@ -123,9 +125,9 @@ class Spectrum:
     Attributes
     ----------
     growth : ndarray
-        Logarithm of the growth in each direction in each of n cycles. The shape is (n, 8), or (n, 4) if only one module
-        is active. If a ball sticks in a cycle, two values of this cycle are -inf. If both balls stick at the same time,
-        four values are -inf.
+        Logarithm of the growth factor in each direction, for each of n cycles. The shape is (n, 8), or (n, 4) if only
+        one module is active. If a ball sticks in a cycle, two values of this cycle are -inf. If both balls stick at the
+        same time, four values are -inf.
     contraction : ndarray
         Logarithm of the factor by which a volume in state space changes in each cycle, shape (n,).
     stuck : ndarray
@@ -152,7 +154,7 @@ class Spectrum:
 
     @property
     def exponents(self) -> np.ndarray:
-        """Lyapunov exponents per forcing period, in nats, largest first.
+        """Lyapunov exponents [nats per forcing period], largest first.
 
         The shape is (8,), or (4,) if only one module is active.
         """
@@ -192,7 +194,7 @@ class Spectrum:
 
 
 def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1000, discarded: int = 100) -> Spectrum:
-    """Return all Lyapunov exponents of the motion reached from an initial state, in nats per period.
+    """Return all Lyapunov exponents [nats per forcing period] of the motion that an initial state leads to.
 
     The exponents are those of the map from one forcing period to the next. Therefore they do not include the exponent 0
     of a perturbation along the flow. If a ball sticks, two exponents are -inf. If both balls stick at the same time,
@@ -206,7 +208,7 @@ def lyapunov_spectrum(system: System, state, cycles: int = 2000, settle: int = 1
     state, cycles, settle
         As for `largest_lyapunov`.
     discarded : int, default 100
-        Number of forcing periods after the transient that are not used. In these periods, each perturbation turns to
+        Number of forcing periods that are left out after the transient. In these periods, each perturbation turns to
         the direction of its exponent.
 
     Returns
@@ -246,11 +248,12 @@ def _largest_first(rates):
 def contraction(system, impacts, stuck) -> np.ndarray:
     """Return the logarithm of the factor by which a volume in state space changes in each cycle, shape (n,).
 
-    impacts: number of impacts in each cycle. stuck: largest number of balls that stick at the same time in each cycle.
+    impacts: number of impacts in each cycle, shape (n,).
+    stuck: largest number of balls that stick at the same time in each cycle, shape (n,).
 
-    A flight of time t multiplies the volume by exp(-tr(D) t), with the damping matrix D of the active modules. An
-    impact multiplies the volume by kappa^2, for the following reason. The saltation matrix is triangular in the
-    coordinates W = X - Y, W', and position and velocity of the centre of mass. The diagonal of this matrix is
+    A flight of time t multiplies the volume by exp(-tr(D) t). D is the damping matrix of the boxes of the active
+    modules. An impact multiplies the volume by kappa^2, the determinant of the saltation matrix. In the coordinates
+    W = X - Y, W', and position and velocity of the centre of mass, this matrix is triangular. Its diagonal is
     (-kappa, -kappa, 1, 1). If a ball sticks, the volume becomes 0.
     """
     damping = np.diag(damping_matrix(system))[active_mask(system)[[0, 2]]].sum()
@@ -288,6 +291,6 @@ def _frame_growth(system, state, runs, directions):
 
 
 def _settled(system, state, settle):
-    """Return the state after a transient of `settle` forcing periods from `state`, shape (8,)."""
+    """Simulate a transient of `settle` forcing periods from `state`; return the final state, shape (8,)."""
     instance("system", system, System)
     return finals(system, checked_state(state)[None], whole("settle", settle, 0, _MOST))[0]

@@ -1,4 +1,4 @@
-"""Find the forces at which the response is modulated, once by the slow flow and once by simulation."""
+"""Find the forces that give a modulated response, first from the slow flow and then from simulations."""
 
 import numpy as np
 
@@ -27,7 +27,9 @@ def predicted(path, values) -> np.ndarray:
 def observed(values, p, names) -> np.ndarray:
     """Return a mask of the entries of `values` at which a run ends in a modulated or chaotic response, shape (n,).
 
-    p: value of the parameter in each run. names: regime at the end of each run.
+    values: values of the parameter that varies along the path, shape (n,).
+    p: value of this parameter in each run.
+    names: regime at the end of each run.
     """
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
@@ -46,10 +48,11 @@ def longest_range(values, flags) -> tuple[float, float]:
 
 
 def onsets(path, values, p, names) -> list[tuple]:
-    """Return two rows with the columns COLUMNS: one for the slow flow and one for simulation.
+    """Return a row for the slow flow and a row for the simulations; both rows have the columns COLUMNS.
 
     Each row contains the first and the last entry of the longest unbroken part of `values` with modulated responses. If
-    a parameter other than the forces varies along the path, the list is empty. p, names: as for `observed`.
+    a parameter other than the forces varies along the path, the list is empty. The arguments `p` and `names` are those
+    of `observed`.
     """
     if not set(path.names) <= FORCES:
         return []

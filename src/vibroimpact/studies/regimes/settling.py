@@ -1,7 +1,7 @@
 """Find the regime that each initial state ends in.
 
-A motion is simulated in runs of equal length (rounds) until it repeats. If the motion does not repeat after the last
-round, quantities such as the Lyapunov exponent determine its regime. A longer run then tests this regime.
+A motion is simulated in runs of equal length (rounds) until it repeats. If the motion has not repeated by the end of
+the last round, quantities such as the Lyapunov exponent determine its regime. A longer run then tests this regime.
 """
 
 from dataclasses import dataclass, replace
@@ -34,12 +34,13 @@ class Observation:
     Parameters
     ----------
     cycles, rounds : int, default 250 and 3
-        From each initial state, there are up to `rounds` runs (rounds) of `cycles` forcing periods each, until the
-        motion repeats.
+        Number of forcing periods in a round (one run), and largest number of successive rounds for each initial state.
+        As soon as the motion repeats, no further round follows.
     window : int, default 24
-        Number of forcing periods after each round in which a repetition of the motion is searched.
+        Number of forcing periods that are simulated after each round to find a repetition of the motion.
     nearness : float, default 0.02
-        A motion repeats if its displacements after some periods differ by at most this value, dimensionless.
+        A motion repeats if, after some forcing periods, no displacement differs from its earlier value by more than
+        this dimensionless number.
     blocks, block : int, default 6 and 20
         Number of blocks from which the Lyapunov exponent is estimated, and number of forcing periods per block.
     retest : int, default 10000
@@ -77,8 +78,8 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)
     for name in (*APERIODIC, IDLE):
-        # A test can change the kind of chaos of a motion. Chaotic motions are selected by their regimes before all
-        # tests, so that no motion is tested twice.
+        # A test can replace one chaotic regime of a motion by another. So that no motion is tested twice, chaotic
+        # motions are selected by the regimes that they had before the first test.
         now = first if name in CHAOS else regimes
         members = [k for k, regime in enumerate(now) if regime.name == name and regime.repeats is None]
         if members:
@@ -130,13 +131,13 @@ def _test_classification(regimes, members, observation, progress):
     members: indices in `regimes` of the motions in the tested regime.
     """
     before = regimes[members[-1]].name
-    # One or more motions of the regime (witnesses) continue in longer runs. If other motions are periodic, the motions
-    # of the regime may be chaotic transients. In this case, several witnesses are needed.
+    # Some motions of the regime, called witnesses, are continued in longer runs. If other motions are periodic, the
+    # motions of the regime may be chaotic transients. Then several witnesses are needed, otherwise one.
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
     _continue(regimes, witnesses, observation, progress)
-    # If all witnesses stay in the regime, the other motions are not continued. They get the name of the last witness,
-    # which may have changed to another kind of chaos.
+    # If all witnesses stay in the regime, the other motions of the regime are not continued. They get the name of
+    # the regime of the last witness, since its longer run may have replaced one chaotic regime by another.
     if all(_same_kind(before, regimes[k].name) for k in witnesses):
         for k in set(members) - set(witnesses):
             regimes[k] = replace(regimes[k], name=regimes[members[-1]].name)

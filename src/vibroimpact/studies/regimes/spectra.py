@@ -12,10 +12,11 @@ DOUBLE, OF_CYCLES = "double sticks per million cycles", 1e6
 
 
 class MotionSpectrum(NamedTuple):
-    """Spectrum of a motion without double sticks (cycles in which both balls stick at the same time).
+    """Spectrum of a motion, from all cycles except those in which both balls stick at the same time.
 
-    errors: standard errors of the exponents, by bootstrap. dimension_error: standard error of the dimension, by
-    bootstrap. double_sticks: number of double sticks that are left out.
+    errors: standard errors of the exponents, from the bootstrap.
+    dimension_error: standard error of the dimension, from the bootstrap.
+    double_sticks: number of excluded cycles.
     """
 
     spectrum: Spectrum
@@ -27,8 +28,8 @@ class MotionSpectrum(NamedTuple):
 def spectra_of(system, states, cycles: int, block: int) -> list[MotionSpectrum]:
     """Return the spectrum of the motion from each initial state, over `cycles` cycles after a transient.
 
-    block: number of cycles per block of the bootstrap, which is reduced to half of `cycles` if it is larger. The
-    transient is as long as ten blocks.
+    block: number of cycles per block of the bootstrap. A number above half of `cycles` is reduced to half of `cycles`.
+    The transient is as long as ten blocks.
     """
     found, block = [], max(1, min(block, cycles // 2))
     for state in states:
