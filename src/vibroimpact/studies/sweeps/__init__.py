@@ -1,1 +1,1 @@
-"""Sweeps of one or two parameters over a grid: observations at each point, and their cost."""
+"""Sweeps over a grid with one or two axes: observations at each point of the grid, and their computing time."""

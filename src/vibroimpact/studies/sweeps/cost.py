@@ -37,9 +37,9 @@ def core_seconds(request: Mapping) -> float:
 
 
 def tiles(request: Mapping, seconds: float) -> int:
-    """Return the number of tiles of a sweep for which each tile takes about `seconds` core seconds.
+    """Return the number of tiles into which to divide a sweep, so that a tile takes about `seconds` core seconds.
 
-    The number is at most MOST_TILES. It is also at most the number of points of the sweep.
+    The number of tiles is at most MOST_TILES, and at most the number of points of the sweep.
     """
     return max(1, min(math.ceil(core_seconds(request) / seconds), points(request["axes"]), MOST_TILES))
 

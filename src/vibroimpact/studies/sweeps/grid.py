@@ -18,8 +18,9 @@ SPACED = {LINEAR: np.linspace, LOGARITHMIC: np.geomspace}
 class Axis:
     """Axis of a sweep, along which one or more parameters of System vary together.
 
-    along: names of the parameters. values: value of the parameters at each point of the axis. A value is one number for
-    all parameters, or a tuple with one number per parameter.
+    along: names of the parameters.
+    values: one entry per point of the axis. An entry is one number for all parameters, or a tuple with one number per
+    parameter.
     """
 
     along: tuple[str, ...]
@@ -66,7 +67,8 @@ def axis(
 class Grid:
     """Points of a sweep, numbered from 0; the last axis varies fastest.
 
-    system: gives the parameters that no axis varies. axes: one or two axes.
+    system: system whose parameters are used unless an axis varies them.
+    axes: one or two axes.
     """
 
     def __init__(self, system: System, axes: Sequence[Axis]):

@@ -51,10 +51,10 @@ def _amplitudes(system, states, spec):
 
 
 def _peaks(system, states, spec):
-    """Return the highest peak of a displacement over the parameter values in `spec.band`, and three more values.
+    """Return the highest displacement peak among all parameter values in `spec.band`, and three further numbers.
 
-    The three values are the largest root mean square of X_1 or X_2, the parameter value at the highest peak, and the
-    number of unfinished runs.
+    The further numbers are the largest root mean square of X_1 or X_2, the parameter value that gives the highest peak,
+    and the number of unfinished runs.
     """
     band = Grid(system, [axis(**spec.band)])
     systems = np.array([band.system(number) for number in range(len(band))])
