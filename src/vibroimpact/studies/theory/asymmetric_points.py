@@ -1,12 +1,12 @@
-"""Find all fixed points of the slow flow with unequal flights in a module, by Newton's method from a grid of starts.
+"""Find all fixed points of the slow flow at which the two flights of a module are unequal, by Newton's method.
 
 The manifold of a module has three parts, called charts (see `branch`). On a chart, a parameter x_i in [-1, 1] describes
 module i. The complex amplitude of the module is z_i u_i / beta_i with |u_i| = 1, where z_i and beta_i are polynomials
 in x_i. The balance of the slow flow is a linear system for u_1 / beta_1 and u_2 / beta_2. The coefficients of this
 system depend on x_1 and x_2 alone (docs/derivation.md, section 11). Cramer's rule gives u_i / beta_i = m_i / Delta,
 with the determinant Delta. In the code, m_1 and m_2 are called n1 and n2. Since |u_i| = 1, a fixed point satisfies
-|Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2. For a given system, `completeness.points` can prove that no fixed point is
-missed.
+|Delta|^2 = |beta_1 m_1|^2 = |beta_2 m_2|^2. Newton's method solves these two equations from a grid of initial pairs
+(x_1, x_2). For a given system, `completeness.points` can prove that no fixed point is missed.
 
 On the asymmetric chart, x_i = v^2, where v is the difference of the two flight times of a cycle, divided by the period.
 A fixed point with v^2 < 0 is not a motion at leading order. Such a point is kept, since terms of order epsilon may
@@ -33,7 +33,7 @@ from vibroimpact.theory.manifold import stays_within_walls
 from vibroimpact.theory.slow_flow import descending, impedances, pencil
 
 PAIRS = [pair for pair in itertools.product((SMALL, LARGE, ASYMMETRIC), repeat=2) if ASYMMETRIC in pair]
-_STARTS = 20  # number of starts along each side of the square |x_1| <= 1, |x_2| <= 1
+_STARTS = 20  # Newton's method starts from _STARTS^2 points in the square |x_1| <= 1, |x_2| <= 1.
 _REACH = 0.25
 _SAME = 1e-7
 _ROUNDING = 1e-10  # rounding error of an eigenvalue, relative to the largest eigenvalue
@@ -176,7 +176,7 @@ def fixed_points(system: System) -> list[AsymmetricPoint]:
 
 
 def search(system: System) -> list[AsymmetricPoint]:
-    """Return all fixed points with unequal flights in at least one module, also those with negative C_i.
+    """Return all fixed points with unequal flights in at least one module, including points with a negative C_i.
 
     Raises
     ------
@@ -189,9 +189,9 @@ def search(system: System) -> list[AsymmetricPoint]:
 
 
 def pairs_of(system, pairs) -> list[tuple[str, str]]:
-    """Return the entries of `pairs` (one chart per module) for which the system can have fixed points.
+    """Return those pairs of charts in `pairs` that can contain fixed points of the system.
 
-    An inactive module only has the chart of small C.
+    A pair contains the name of one chart per module. The only chart of an inactive module is SMALL.
     """
     idle = {1, 2} - set(system.modules)
     return [pair for pair in pairs if system.modules and all(pair[module - 1] == SMALL for module in idle)]

@@ -62,7 +62,10 @@ class Chart:
 
 
 def series(terms, pi=math.pi):
-    """Return `terms` coefficients of cos(pi v / 2) and of sin(pi v / 2) / (pi v / 2) in powers of v^2."""
+    """Return the first `terms` coefficients of two power series in v^2, as two lists.
+
+    The series are those of cos(pi v / 2) and of sin(pi v / 2) / (pi v / 2).
+    """
     power = [(-pi * pi / 4) ** k for k in range(terms)]
     return tuple([p / math.factorial(2 * k + odd) for k, p in enumerate(power)] for odd in (0, 1))
 
@@ -119,9 +122,9 @@ def multipliers(squared: float, kappa: float) -> np.ndarray:
 
 
 def period_doubling(kappa: float) -> float:
-    """Return the v^2 at which a multiplier is -1, so that the stable part of the asymmetric branch ends.
+    """Return the v^2 at which a multiplier is -1.
 
-    For every kappa, this v^2 is between 0.17 and 0.22.
+    The stable part of the asymmetric branch ends at this v^2, which is between 0.17 and 0.22 for every kappa.
     """
     return brentq(lambda squared: trace(squared, kappa) + 1 + kappa**4, 0.0, 0.3, xtol=1e-15)
 

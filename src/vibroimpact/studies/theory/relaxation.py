@@ -30,8 +30,8 @@ _FOLLOWED, _SMALLEST, _JUMP = 0.01, 0.5, 0.1
 class Relaxation:
     """Results of `relax` for both modules.
 
-    share: fraction of the time in which each ball is in resonance, shape (..., 2). largest: largest amplitude B of each
-    box, shape (..., 2).
+    share: fraction of the time in which each ball is in resonance, shape (..., 2).
+    largest: largest amplitude B of each box, shape (..., 2).
     """
 
     share: np.ndarray
@@ -39,7 +39,7 @@ class Relaxation:
 
 
 def describing_function(kappa: float):
-    """Return a function of the amplitude B: the describing function of a ball on the stable part of the manifold."""
+    """Return the describing function of a ball on the stable part of the manifold, as a function of B."""
     r, chart = rho(kappa), charts(kappa)[ASYMMETRIC]
     squared = np.linspace(0.0, _LARGEST_SQUARED, _NODES)
     skewed = np.abs(chart.z(squared) / chart.beta(squared))
@@ -77,10 +77,12 @@ def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Re
 
 
 def lost_at(system, point) -> float:
-    """Return the factor on both forces at which the symmetric module of a fixed point leaves resonance.
+    """Multiply both forces by a falling factor; return the factor at which the symmetric module leaves resonance.
 
-    point: fixed point with one symmetric and one asymmetric module. As the factor decreases from 1, the amplitude C of
-    the symmetric module falls to the fold of the manifold. If no such factor above 0.5 is found, return nan.
+    The factor decreases from 1. The symmetric module of the fixed point leaves resonance when its amplitude C has
+    fallen to the fold of the manifold. If no such factor above 0.5 is found, return nan.
+
+    point: fixed point with one symmetric and one asymmetric module.
     """
     symmetric = np.flatnonzero(~point.asymmetric & np.isfinite(point.C))
     if len(symmetric) != 1 or not point.asymmetric.any():
