@@ -31,7 +31,7 @@ def curve(panel: str, series: str, **quantities) -> pd.DataFrame:
 def join(curves) -> pd.DataFrame:
     """Return one tidy table of several curves.
 
-    The table has every column that a curve has. Text columns come first.
+    The columns of all curves are columns of the table. Text columns come first.
     """
     table = pd.concat(list(curves), ignore_index=True)
     text = [name for name in TEXT if name in table]

@@ -66,7 +66,7 @@ def test_forces_that_do_work_on_an_undamped_resonance_are_refused(changes, load)
     """Forces orthogonal to the mode, small damping and detuning are accepted."""
     one, other = load
     for f10, f20 in ((one, other), (-0.01 * one, -0.01 * other), (one + other, other - one)):
-        with pytest.raises(ValueError, match=r"\Asigma_e_hat: .* drives the undamped boxes at their resonance"):
+        with pytest.raises(ValueError, match=r"\Asigma_e_hat: .* the forces excite an undamped resonance of the boxes"):
             vi.System(**CHAPTER | changes | dict(f10_hat=f10, f20_hat=f20))
     if any(dynamic_stiffness(vi.System(**CHAPTER | changes | dict(f10_hat=0.0, f20_hat=0.0))).ravel()):
         vi.System(**CHAPTER | changes | dict(f10_hat=-other, f20_hat=one))

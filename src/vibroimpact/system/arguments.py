@@ -100,7 +100,7 @@ def reals(name: str, values) -> np.ndarray:
     except (TypeError, ValueError):  # the rows have different lengths
         array = None
     if array is not None and array.dtype == object and all(map(_is_real, array.flat)):
-        array = np.array(array.tolist())  # Part of a table row can have dtype object.
+        array = np.array(array.tolist())  # Numbers from a table row can have dtype object.
     if array is None or array.dtype.kind not in "iuf":
         raise ValueError(f"{name}: {short_repr(values)} is not an array of real numbers")
     if np.ma.isMaskedArray(values) or (array.ndim > 1 and any(map(np.ma.isMaskedArray, values))):

@@ -81,7 +81,7 @@ class System:
             raise ValueError(f"sigma_e_hat: the frequency 1 + epsilon sigma_e_hat = {self.Omega} is not above 0")
         if self._resonates():
             raise ValueError(
-                f"sigma_e_hat: {self.sigma_e_hat} drives the undamped boxes at their resonance "
+                f"sigma_e_hat: at {self.sigma_e_hat}, the forces excite an undamped resonance of the boxes, "
                 f"Omega = {self.Omega}; add damping or change the frequency"
             )
 
@@ -182,7 +182,7 @@ class System:
         """Return True if a force drives the undamped boxes at a resonance."""
         stiffness = dynamic_stiffness(self)
         # Rounding errors are proportional to the sum of the moduli of all terms. The entries of the matrix can be much
-        # smaller, since terms with opposite signs cancel.
+        # smaller than this sum, since terms with opposite signs cancel.
         springs = 1.0 + self.stiffness2 + 2.0 * self.alpha12
         dampers = self.gamma1 + self.gamma2 + 2.0 * self.gamma12
         rounding = 1e-12 * (springs + self.Omega * (dampers + 2.0 * self.Omega))

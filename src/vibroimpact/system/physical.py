@@ -101,10 +101,10 @@ class PhysicalSystem:
     ) -> "PhysicalSystem":
         """Return the parameters of one machine with a ball in its box.
 
-        The machine is module 1. Module 2 is a copy without coupling and force, and is therefore inactive
-        (`System.modules`). Results describe module 1, so that there are only 4 multipliers, 4 exponents and 2 slow
-        eigenvalues. In arrays with one entry per module, the entry of module 2 is NaN. In states, the components of
-        module 2 are 0.
+        The machine is module 1. Module 2 is a copy of module 1. No force drives the copy, and it is not coupled to
+        module 1. Therefore module 2 is inactive (`System.modules`). Results describe module 1 only, with 4 multipliers,
+        4 Lyapunov exponents or 2 slow eigenvalues. In arrays with one entry per module, the entry of module 2 is NaN.
+        In states, the components of module 2 are 0.
 
         Parameters
         ----------

@@ -1,6 +1,6 @@
 """Impact law: Newton's restitution rule with conservation of momentum (section 10.2).
 
-The following files contain their own implementation of the law. A change of the law must include them:
+The following files contain their own implementation of the law. If the law is changed, change these files too:
 
 - `exact.engine.contact`, `exact.lanes.steps`, `exact.lanes.statistics`: simulations,
 - `exact.orbits.symmetric`, `exact.orbits.asymmetric`, `exact.orbits.proof.conditions`: equations of orbits,
