@@ -51,14 +51,14 @@ class Stability(NamedTuple):
 
 
 def of_fixed_point(system, point) -> dict[str, str]:
-    """Return, by name, the verdict of each criterion in CRITERIA on a fixed point of the slow flow."""
+    """Apply all CRITERIA to a fixed point of the slow flow; return the verdicts by name of the criterion."""
     return _of(system, point.psi, point.C, fixed_point_error(system, point))
 
 
 def of_orbit(orbit) -> dict[str, str]:
-    """Return, by name, the verdict of each criterion in CRITERIA on an exact orbit.
+    """Apply all CRITERIA to an exact orbit; return the verdicts by name of the criterion.
 
-    The criteria assume a symmetric motion. For an asymmetric orbit, they use psi and C from `slow_variables`.
+    The criteria assume a symmetric motion. They use psi and C from `slow_variables`, even if the orbit is asymmetric.
     """
     psi, C = slow_variables(orbit)
     error = (orbit.residual + ROUNDING) / np.min(np.abs(orbit.multipliers - 1))
@@ -92,7 +92,7 @@ def fixed_point_error(system, point) -> float:
 
 
 def _of(system, psi, C, error):
-    """Return, by name, the verdict of each criterion in CRITERIA on a motion with the phases psi and amplitudes C.
+    """Return the verdicts of all CRITERIA, by name of the criterion, for a motion with phases psi and amplitudes C.
 
     psi [rad] and C have the shape (2,). `error` is an upper bound on the errors of their entries.
     """

@@ -22,7 +22,7 @@ _ROUNDING = 100 * np.finfo(float).eps
 class Balance:
     """Coefficients of the balance q_i u_i + K (z_i u_i - z_j u_j) = f_i of module i, where j is the other module.
 
-    z: coefficients of z_i = z[0] + z[1] C_i, shape (2,), for both modules.
+    z: coefficients of z_i = z[0] + z[1] C_i, shape (2,); both modules have the same coefficients.
     q: coefficients of q_i = q[i - 1, 0] + q[i - 1, 1] C_i for module i = 1 or 2, shape (2, 2).
     K: complex impedance of the coupling.
     forcing: forcing amplitudes f_1 and f_2, shape (2,).
@@ -56,9 +56,9 @@ class Balance:
         return numerators, q[0] * q[1] + self.K * (z[0] * q[1] + z[1] * q[0])
 
     def phases(self, C) -> np.ndarray:
-        """Return the phases psi [rad] of the fixed point with the saw-tooth amplitudes C, each of shape (2,).
+        """Return the phases psi [rad] of the fixed point that has the saw-tooth amplitudes C.
 
-        C must be a common zero of the two `polynomials`.
+        The arrays psi and C have the shape (2,). C must be a common zero of the two `polynomials`.
         """
         numerators, denominator = self.solve(C)
         return -np.angle(self.at(C)[0] * numerators / denominator)
@@ -69,8 +69,8 @@ class Balance:
         Both arrays have the shape (n,) with n = 0, 1 or 2. The flag is True if two fixed points coincide within
         rounding. Both arrays then have a single entry.
         """
-        # Without coupling, |q_i| = |f_i|. The values of q_i for all C_i form a line in the complex plane. The fixed
-        # points are the intersections of this line with the circle of radius |f_i|.
+        # Without coupling, fixed points satisfy |q_i| = |f_i|. The values of q_i for all C_i form a line in the complex
+        # plane. The fixed points are the intersections of this line with the circle of radius |f_i|.
         (q0, q1), f = self.q[i], self.forcing[i]
         along = q0 * q1.conjugate() / abs(q1)
         nearest, force, noise = abs(along.imag), abs(f), _ROUNDING * (abs(q0) + abs(f))
@@ -85,11 +85,12 @@ class Balance:
         """Return the coefficients of two polynomials equivalent to (10.24), and the magnitudes of the coefficients.
 
         Both arrays have the shape (2, 3, 3), and entry [:, j, k] belongs to C_1^j C_2^k. The polynomials are
-        |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2, with n_i and Delta of `solve`. They vanish where |u_1| = |u_2| = 1.
-        Each coefficient is a sum of terms. Its magnitude is the sum of the moduli of these terms, to which the
-        rounding error is proportional.
+        |n_2|^2 - |n_1|^2 and |Delta|^2 - |n_1|^2, with n_i and Delta of `solve`. Both vanish if |u_1| = |u_2| = 1.
+        Each coefficient is a sum of terms. Its magnitude is the sum of the moduli of these terms. The rounding error of
+        the coefficient is proportional to its magnitude.
         """
-        # Squares of tiny forces would underflow. Scaling by a power of 2 causes no rounding error.
+        # Since squares of tiny forces would underflow, the forces are divided by a power of 2. This division causes no
+        # rounding error.
         unit = np.ldexp(1.0, np.frexp(np.abs(self.forcing).max())[1])
         parts = self.z, self.q, self.K, self.forcing / unit
         delta, one, two = map(_modulus_squared, _solution(*parts))
@@ -162,6 +163,6 @@ def _real_roots(coefficients):
         discriminant = 0.0
     if discriminant < 0:
         return np.empty(0)
-    # The square root gets the sign of b, so that the sum of both loses no digits by cancellation.
+    # The square root gets the sign of b. Therefore the sum of b and the root loses no digits by cancellation.
     q = -(b + np.copysign(np.sqrt(discriminant), b)) / 2
     return np.array([top / bottom for top, bottom in ((q, a), (c, q)) if bottom != 0])

@@ -1,8 +1,8 @@
 """Find all real common zeros, in a square, of two polynomials of degree 2 in each of the variables x and y.
 
-The resultant of the polynomials is a polynomial in x alone, of degree 8. The roots of the resultant are only used as
-starts of Newton's method, so that rounding errors of these roots do not matter. Zeros that are equal within rounding
-are returned as one multiple zero. (Resultants: Cox, Little and O'Shea 2015, Ideals, Varieties, and Algorithms,
+The resultant of the polynomials is a polynomial in x alone, of degree 8. The roots of the resultant only give the first
+values of x for Newton's method. Therefore rounding errors of these roots do not matter. Zeros that are equal within
+rounding are returned as one multiple zero. (Resultants: Cox, Little and O'Shea 2015, Ideals, Varieties, and Algorithms,
 section 3.6.)
 """
 
@@ -37,7 +37,7 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
         If the zeros are not isolated.
     """
     radius = max(radius, _SMALLEST_RADIUS)
-    # The scaled coefficients belong to powers of x / radius and y / radius, so that the square becomes [-1, 1]^2.
+    # The scaled coefficients belong to powers of x / radius and y / radius. In these variables the square is [-1, 1]^2.
     scale = np.multiply.outer(radius ** np.arange(3.0), radius ** np.arange(3.0))
     scaled, size = coefficients * scale, magnitudes * scale
     heights = size.max(axis=(1, 2), keepdims=True)
@@ -54,7 +54,9 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 
 
 def _starts(pair, size):
-    """Return points from which Newton's method starts, shape (n, 2); at least one is near every real zero.
+    """Return the points from which Newton's method starts, shape (n, 2).
+
+    Every real zero in the square [-1, 1]^2 has at least one of these points close to it.
 
     `size` contains the sum of the moduli of the terms of each coefficient.
 
@@ -65,11 +67,11 @@ def _starts(pair, size):
     """
     resultant, bound = _resultant(*pair.transpose(0, 2, 1)), _resultant(*np.abs(pair).transpose(0, 2, 1), sign=1)
     if (np.abs(resultant) <= _ROUNDING * bound).all():
-        raise ArithmeticError("the fixed points are not isolated, so that they cannot be listed")
+        raise ArithmeticError("the fixed points are not isolated and therefore cannot be listed")
     nonzero = np.flatnonzero(np.abs(resultant) > np.finfo(float).tiny)
     roots = poly.polyroots(resultant[: nonzero[-1] + 1])
     roots = roots[np.abs(roots.imag) <= _NEARLY_REAL * np.abs(roots) + _RESOLUTION]
-    x = roots.real + roots.imag  # A nearly real pair of roots a +- b i gives the real starts a + b and a - b.
+    x = roots.real + roots.imag  # A nearly real pair of roots a +- b i gives the real values a + b and a - b.
     y = np.concatenate([_quadratic(one, x) for one in pair])
     points = np.column_stack([np.tile(x, 4), y])
     points = points[(np.abs(points) < 2).all(axis=1)]
@@ -81,8 +83,8 @@ def _resultant(one, other, sign=-1):
     """Return the coefficients of the resultant of two polynomials, shape (9,); the resultant is a polynomial in x.
 
     Entry [k, j] of `one` and of `other` is the coefficient of y^k x^j. Each coefficient of the resultant is a sum of
-    terms. If `one` and `other` contain moduli and `sign` is 1, the function returns the sums of the moduli of these
-    terms.
+    terms. If `one` and `other` contain the moduli of the coefficients and `sign` is 1, the function returns the sum of
+    the moduli of these terms, for each coefficient of the resultant.
     """
 
     def minor(j, k):
@@ -92,9 +94,9 @@ def _resultant(one, other, sign=-1):
 
 
 def _quadratic(polynomial, x):
-    """Return both roots y of a polynomial at each entry of x, which has the shape (n,), as an array of shape (2 n,).
+    """Return both roots y of a polynomial at each entry of x, as an array of shape (2 n,).
 
-    If the roots are complex, a negative discriminant is replaced by 0, which gives real numbers.
+    x has the shape (n,). A negative discriminant (complex roots) is replaced by 0. Therefore the results are real.
     """
     c, b, a = (poly.polyval(x, column) for column in polynomial.T)
     root = np.sqrt(np.maximum(b * b - 4 * a * c, 0.0))
@@ -104,9 +106,9 @@ def _quadratic(polynomial, x):
 
 
 def _newton(pair, size, points):
-    """Return the zeros that Newton's method reaches from the starts `points`, which have the shape (n, 2).
+    """Return the zeros that Newton's method reaches from `points`, an array of shape (n, 2).
 
-    A zero appears once for each start that leads to the zero.
+    If several points lead to the same zero, the zero appears several times.
     """
     found = [np.empty((0, 2))]
     for _ in range(_STEPS):
@@ -114,7 +116,7 @@ def _newton(pair, size, points):
         with np.errstate(all="ignore"):
             step = (_adjugate(gradient) @ value[..., None])[..., 0] / np.linalg.det(gradient)[:, None]
         there, later = (np.abs(value) <= noise).all(axis=1), points - np.nan_to_num(step)
-        # The step is this small close to a simple zero. One more step then gives the last digits.
+        # Close to a simple zero, `step` is below sqrt(_ROUNDING). Applying this step gives the last digits.
         last = np.abs(step).max(axis=1) < np.sqrt(_ROUNDING)
         found.append(np.where(last[:, None], later, points)[there])
         points = later[~there & (np.abs(later) < 2).all(axis=1)]
@@ -154,9 +156,9 @@ def _adjugate(matrix):
 def _contract(pair, size, points):
     """Return a mask of the points that are simple zeros, shape (n,).
 
-    A zero is simple if Newton's method contracts in a square around the zero (Kantorovich's theorem). The test adds two
-    bounds: on the shift of the zero by rounding, and on the change of the Newton step within the square. The method
-    contracts if the sum is below the half-width of the square.
+    A zero is simple if Newton's method contracts in a square around the zero (Kantorovich's theorem). The test adds a
+    bound on the shift of the zero by rounding and a bound on the change of the Newton step within the square. Newton's
+    method contracts if this sum is below the half-width of the square.
     """
     _, gradient, noise = _expanded(pair, size, points)
     by_x, by_y = _derivatives(pair)

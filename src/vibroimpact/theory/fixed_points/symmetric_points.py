@@ -23,11 +23,11 @@ from vibroimpact.theory.masri import printed_limit
 from vibroimpact.theory.slow_flow import FIRST_HARMONIC, equations, slow_eigenvalues
 
 _STEPS = 30
-_SETTLED = 1e-12  # After a smaller relative Newton step, the fixed point is exact within rounding.
+_SETTLED = 1e-12  # If the relative Newton step is below this value, the fixed point is exact within rounding.
 _SAME = 1e-9
-_NEAR = 1e-3  # If C changes more (relatively) in `_refined`, Newton's method moves to another fixed point.
-_TRIANGLE_GAP = 1e-3  # This is the tolerance of the triangle inequality in `_may_close`, relative to the perimeter.
-_REGULAR = 1e5  # A fixed point counts as simple if the condition number of its Jacobian is smaller.
+_NEAR = 1e-3  # If `_refined` changes C by more than this relative value, it moves to another fixed point.
+_TRIANGLE_GAP = 1e-3  # tolerance of the triangle inequality in `_may_close`, relative to the perimeter of the triangle
+_REGULAR = 1e5  # A fixed point counts as simple if the condition number of its Jacobian is below this value.
 _AMPLITUDES = tuple(f"{name}{i}" for name in ("C", "B", "psi") for i in (1, 2))
 COLUMNS = ("label", *_AMPLITUDES, FAST, SLOW, THEORY, "slow_growth", "multiple")
 """Columns of the table of fixed points."""
@@ -142,7 +142,7 @@ def search(system: System) -> list[FixedPoint]:
     if system.modules == (1, 2):
         zeros, multiple = real_zeros(*balance.polynomials(), search_radius(system))
         solutions = _solutions(system, balance, zeros, multiple)
-    else:  # If no module is active, there is no fixed point, since impacts dissipate energy.
+    else:  # At most one module is active. If none is active, there is no fixed point, since impacts dissipate energy.
         solutions = [solution for module in system.modules for solution in _of_one_module(balance, module - 1)]
     points = [FixedPoint.of(system, *solution) for solution in solutions]
     return sorted(points, key=lambda point: tuple(np.nan_to_num(point.C)))
@@ -181,7 +181,7 @@ def refuse_free_motion(system) -> None:
     if abs(denominator) <= 1e-12 * scale * own and np.abs(numerators).max() <= 1e-12 * scale * force:
         raise ValueError(
             f"sigma_e_hat: at {system.sigma_e_hat} the slow flow has an undamped resonance that the forces do not "
-            "excite, so that the fixed points may not be isolated; add damping or change the frequency"
+            "excite, and the fixed points may form a continuum; add damping or change the frequency"
         )
 
 
@@ -214,7 +214,7 @@ def _solutions(system, balance, zeros, multiple):
 
 
 def _mirrored_pair(system, balance, C):
-    """Return the two fixed points near a multiple zero C of the polynomials, each as a pair of C and psi.
+    """Return a list of the two fixed points near a multiple zero C of the polynomials, each as a tuple (C, psi).
 
     If there are not exactly two such fixed points, the list is empty. In the complex plane, the terms of the balance
     p_1 u_1 - K z_2 u_2 = f_1 with p_1 = q_1 + K z_1 form a triangle. The lengths of the sides determine two triangles,
