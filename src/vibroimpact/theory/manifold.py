@@ -3,8 +3,8 @@
 B is the amplitude of U, C is the amplitude of the saw-tooth, and rho measures dissipation, (10.15). The arguments B, C
 and rho are dimensionless numbers, or arrays with shapes that broadcast. Angles are in radians.
 
-C is admissible if the ball stays between the walls. Its relative displacement W_0 of (10.10) then satisfies
-|W_0| <= 1. At a time t <= pi after the impact at W = +1, W_0 = cos t + C h(t), where
+C is admissible if the ball stays between the walls, that is, if the relative displacement W_0 of box and ball, (10.10),
+satisfies |W_0| <= 1. At a time t <= pi after the impact at W = +1, W_0 = cos t + C h(t), where
 h(t) = 1 - 2 t / pi - cos t + rho sin t (docs/stability.md). Since W_0 is linear in C, the admissible values of C form
 one interval, which begins at C = 0. At the upper end of the interval, the ball leaves the wall W = +1 and grazes the
 same wall once. After that, the ball flies to the wall W = -1.
@@ -16,7 +16,8 @@ from scipy.optimize import brentq
 
 def sawtooth(tau0, C, theta):
     """Return Z = (2 C / pi) arcsin cos(tau0 - theta), (10.11)."""
-    # Impacts are at the peaks, where arcsin would lose half of the digits. The distance from the peak loses none.
+    # Impacts are at the peaks of the saw-tooth. At a peak, arcsin would lose half of the digits. The distance of tau0
+    # from the nearest peak loses no digits.
     from_peak = np.abs(np.remainder(np.asarray(tau0) - theta + np.pi, 2 * np.pi) - np.pi)
     return C * (1 - 2 * from_peak / np.pi)
 
@@ -50,7 +51,7 @@ def C_of_B(B, rho):
     above = B - B_min(rho)
     if not np.all(above >= 0):
         raise ValueError(f"B: {np.min(B)} is below B_min = {B_min(rho)} for rho = {rho}")
-    # Differences of squares would lose digits at the fold and near C = 0, so that products are used instead.
+    # Differences of squares would lose digits at the fold and near C = 0. Therefore they are written as products.
     root = np.sqrt((1 + rho**2) * above * (B + B_min(rho)))
     return (1 - B) * (1 + B) / (1 + root), (1 + root) / (1 + rho**2)
 
@@ -71,9 +72,9 @@ def impact_phase(C, rho):
 
 
 def overshoot(C, rho):
-    """Return the distance by which the ball passes a wall: the largest |W_0| - 1 in a cycle, or 0.
+    """Return the largest distance in a cycle by which the ball is beyond a wall, the maximum of |W_0| - 1.
 
-    W_0 is the relative displacement of (10.10). The result is 0 if the ball stays between the walls.
+    W_0 is the relative displacement of (10.10). If the ball stays between the walls, the result is 0.
     """
     C = np.asarray(C, dtype=float)
     B = B_of_C(C, rho)
@@ -85,10 +86,10 @@ def overshoot(C, rho):
 
 
 def grazing_time(kappa: float) -> float:
-    """Return the time t [rad] from an impact until the ball grazes the same wall, if C is largest_C(kappa).
+    """Return the time t [rad] from an impact until the ball grazes the same wall.
 
-    The half p = t / 2 solves p cot p = 1 / (1 + kappa). The solution is unique, since p cot p falls from 1 to 0 on
-    (0, pi/2).
+    The saw-tooth amplitude is C = largest_C(kappa). The number p = t / 2 is the solution of p cot p = 1 / (1 + kappa)
+    in the interval (0, pi/2). The solution is unique, since p cot p falls from 1 to 0 on this interval.
 
     Raises
     ------
@@ -97,8 +98,9 @@ def grazing_time(kappa: float) -> float:
     """
     if not 0 < kappa < 1:
         raise ValueError(f"kappa: {kappa} is not between 0 and 1 (both excluded)")
-    # The unknown of the root search is x = p / sqrt(3 kappa). Since tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3,
-    # x is at most 1. Since kappa < 1, p is at most 1.17. Both bounds give the upper end of the search interval.
+    # The unknown of the root search is x = p / sqrt(3 kappa), where p is half of the time. Since
+    # tan(p) / p = 1 + kappa and tan(p) >= p + p^3 / 3, x is at most 1. Since kappa < 1, p is at most 1.17. The two
+    # bounds give the upper end of the search interval.
     unit = np.sqrt(3 * kappa)
     return 2 * unit * brentq(lambda x: _tangent_excess(unit * x) - kappa, 0.6, min(1.1, 1.2 / unit), xtol=1e-15)
 
@@ -128,7 +130,7 @@ def largest_C(kappa: float) -> float:
 
 
 def stays_within_walls(C: float, kappa: float) -> bool:
-    """Return True if the ball stays between the walls, that is for 0 <= C <= largest_C(kappa).
+    """Return True if the ball stays between the walls, that is, if 0 <= C <= largest_C(kappa).
 
     Raises
     ------

@@ -11,7 +11,10 @@ from vibroimpact.theory.manifold import impact_phase, rho, sawtooth
 class Response:
     """Dimensionless coordinates of both modules at n times; each array has the shape (n, 2).
 
-    X: displacement of the box. Y: displacement of the ball. U: sum X + epsilon Y. W: difference X - Y.
+    - U: sum X + epsilon Y.
+    - X: displacement of the box.
+    - W: difference X - Y.
+    - Y: displacement of the ball.
     """
 
     U: np.ndarray
@@ -35,9 +38,9 @@ def leading_order(system, point, tau) -> Response:
 
 
 def impact_times(system, point) -> np.ndarray:
-    """Return the time tau in [0, period) at which each ball meets the wall W = +1, shape (2,).
+    """Return the time tau in [0, 2 pi / Omega) at which each ball hits the wall W = +1, shape (2,).
 
-    Each ball meets the wall W = -1 half a period later. The time is NaN for an inactive module.
+    Each ball hits the wall W = -1 half a forcing period later. The time is NaN for an inactive module.
     """
     phase = impact_phase(point.C, rho(system.kappa)) + point.psi
     return np.remainder(phase, 2 * np.pi) / system.Omega

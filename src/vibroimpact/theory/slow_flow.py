@@ -8,12 +8,12 @@ from vibroimpact.theory.manifold import B_of_C, rho, slope
 # Amplitude of the first harmonic of the saw-tooth with C = 1, (10.19).
 FIRST_HARMONIC = 8 / np.pi**2
 MODULES = np.array([1, 1, 2, 2])
-"""Module of each slow variable (C_1, psi_1, C_2, psi_2), and of the equation for its rate."""
+"""Number of the module to which each slow variable (C_1, psi_1, C_2, psi_2) belongs."""
 _ONE = np.eye(2)
 
 
 def impedances(system) -> tuple[np.ndarray, complex]:
-    """Return the slow impedances of the boxes, shape (2,), and the slow impedance K of the coupling.
+    """Return the slow impedances e_n of the boxes, shape (2,), and the slow impedance K of the coupling.
 
     The impedance e_n describes box n alone, without ball and coupling. With b_n = B_n exp(-i psi_n), the slow flow is
     2i D_1 b_n = f_n - (e_n + N(C_n)) b_n - K (b_n - b_m). Here m is the module other than n, N is the describing
@@ -34,9 +34,9 @@ def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rates_from_phasors(system, B, cosine, sine, C):
-    """Return the values of `rates` from B, cos psi, sin psi and C, each of shape (2,).
+    """Return the same values as `rates`, computed from B, cosine = cos psi, sine = sin psi and C, each of shape (2,).
 
-    The rates are rational functions of these arguments, so that computer algebra can use the function.
+    The rates are rational functions of these arguments. Therefore computer algebra can evaluate this function.
     """
     forcing = np.array([system.f10_hat, system.f20_hat])
     damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat
@@ -54,10 +54,11 @@ def rates_from_phasors(system, B, cosine, sine, C):
 
 
 def equations(system, psi, C) -> tuple[np.ndarray, np.ndarray]:
-    """Return the rates D_1 of B_1, psi_1, B_2, psi_2 on the manifold, shape (4,), and their Jacobian, shape (4, 4).
+    """Return the rates D_1 B_1, D_1 psi_1, D_1 B_2, D_1 psi_2 on the manifold, shape (4,), and their Jacobian.
 
-    The Jacobian contains the derivatives of the rates with respect to C_1, psi_1, C_2, psi_2. If exactly one module is
-    active, the shapes are (2,) and (2, 2). The phases psi [rad] and the saw-tooth amplitudes C have the shape (2,).
+    The Jacobian has the shape (4, 4). It contains the derivatives of the rates with respect to C_1, psi_1, C_2, psi_2.
+    If exactly one module is active, the shapes are (2,) and (2, 2). The phases psi [rad] and the saw-tooth amplitudes C
+    have the shape (2,).
     """
     psi, C = (np.where(_active(system)[::2], of, 0.0) for of in (psi, C))
     rest = np.column_stack(rates(system, B_of_C(C, rho(system.kappa)), psi, C)).ravel()

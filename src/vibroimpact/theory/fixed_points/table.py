@@ -19,7 +19,14 @@ COLUMNS = ["case", "label", "C1", "C2", "B1", "B2", "psi1", "psi2", "multiple"]
 
 @dataclass(frozen=True, eq=False)
 class LabelledPoint:
-    """A labelled fixed point of the slow flow from a table; C, B and psi [rad] have shape (2,)."""
+    """A labelled fixed point of the slow flow; the data are read from a table.
+
+    - label: label of the fixed point, such as "a".
+    - C: amplitudes of the saw-tooth, shape (2,).
+    - B: amplitudes of U, shape (2,).
+    - psi: phases [rad], shape (2,).
+    - multiple: True if several fixed points may coincide within rounding.
+    """
 
     label: str
     C: np.ndarray
@@ -29,7 +36,7 @@ class LabelledPoint:
 
 
 def fixed_point_table(case: str, system) -> pd.DataFrame:
-    """Return a table of all fixed points of a system with the columns COLUMNS, sorted by label."""
+    """Return a table with the columns COLUMNS and one row for each fixed point of a system, sorted by label."""
     rows = [[case, p.label, *p.C, *p.B, *p.psi, p.multiple] for p in fixed_points(system)]
     return pd.DataFrame(rows, columns=COLUMNS).sort_values("label", ignore_index=True)
 
