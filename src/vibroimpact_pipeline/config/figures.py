@@ -61,7 +61,7 @@ class Response(Section):
 
 
 class ResponseOnPlanes(Response):
-    """The theoretical response at a fixed point, and the place of this point on the manifold, as in figure 10.10."""
+    """The theoretical response at a fixed point, and the position of this point on the manifold, as in figure 10.10."""
 
     C_max: fields.Planes
 

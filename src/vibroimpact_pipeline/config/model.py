@@ -55,7 +55,7 @@ class Parameters(SystemSection):
             system = System(**dict(self))
             if system.Omega < MIN_FREQUENCY:
                 raise ValueError(
-                    f"sigma_e_hat: 1 + epsilon sigma_e_hat = {system.Omega} should be at least {MIN_FREQUENCY}"
+                    f"sigma_e_hat: the frequency 1 + epsilon sigma_e_hat = {system.Omega} is below {MIN_FREQUENCY}"
                 )
             _refuse_resonance(system)
         except ValueError as error:
@@ -67,8 +67,8 @@ def _refuse_resonance(system):
     """Raise ValueError for an undamped system whose periodic responses are not isolated or not bounded."""
     if system.gamma1 > 0 and system.gamma2 > 0:
         return
-    # These modules load SciPy, which takes longer than a run of Snakemake that has nothing to do. Therefore they are
-    # only imported here, for systems with an undamped box.
+    # These modules load SciPy, which takes longer than a run of Snakemake without jobs. Therefore these modules are
+    # imported only if a box is undamped.
     from vibroimpact.exact.orbits.impulse_response import impulse_response
     from vibroimpact.theory.fixed_points.symmetric_points import refuse_free_motion
 
@@ -78,7 +78,7 @@ def _refuse_resonance(system):
 
 
 class Simulation(Section):
-    """Settings of the direct integration of a case: a transient is discarded, and a time window after it is kept."""
+    """Settings of the direct integration of a case, with a transient that is discarded and a window that is kept."""
 
     initial_state: fields.State
     transient_cycles: fields.count("Length of the transient before the window [forcing periods]", 0)

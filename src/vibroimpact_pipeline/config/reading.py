@@ -40,7 +40,7 @@ class _Loader(yaml.SafeLoader):
                 )
             seen.add(key.value)
             if key.tag != MERGE:
-                key.tag = self.DEFAULT_SCALAR_TAG  # with its own tag, the key `no` would become False
+                key.tag = self.DEFAULT_SCALAR_TAG  # otherwise, YAML would convert the key `no` to False
         return super().construct_mapping(node, deep)
 
     def construct_number(self, node):

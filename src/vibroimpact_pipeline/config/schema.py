@@ -26,7 +26,7 @@ def schema(model) -> str:
 
 
 def _plain(node):
-    """Return a copy of a node of a JSON Schema, in which titles and defaults that are null are removed.
+    """Return a copy of a node of a JSON Schema without titles and without defaults of null.
 
     The copy accepts a number that is written as text. In a section with the key `case`, this key may be missing.
     """
