@@ -44,9 +44,9 @@ def _pictures(verdict, reference, build):
 
 
 def difference(old, new) -> bytes:
-    """Return a PNG of the area that two pictures have in common.
+    """Return a PNG that is dark where two pictures differ, and white where they agree.
 
-    The PNG is dark where the pictures differ, and white where they agree.
+    If one picture is larger, the part that extends beyond the other picture is not shown.
     """
     changed = ImageChops.difference(old.convert("RGB"), new.convert("RGB"))
     content = io.BytesIO()

@@ -25,7 +25,7 @@ that their last digits, which depend on the processor, decide which one results.
 
 
 def draw(module: str, tables: dict, figure: str, folder) -> dict[str, Path]:
-    """Draw a figure from its tables; return the path of each kind of file."""
+    """Draw a figure from its tables as PNG, PDF and SVG; return the paths of these files by kind."""
     files = {kind: Path(folder) / f"{figure}.{kind}" for kind in KINDS}
     style.save(style.draw_tables(import_module(module), tables), files)
     return files

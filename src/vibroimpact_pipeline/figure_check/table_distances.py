@@ -55,7 +55,7 @@ def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, d
         - distance: largest distance, in units of the limit.
         - where: text that names the row with the largest distance.
         - reference, new: values of `old` and `new` in this row. If the measure gives one distance for the whole column,
-          they are medians of the column.
+          these values are the medians of the column in `old` and in `new`.
     """
     if list(old) != list(new):
         return [f"columns are {', '.join(new)} instead of {', '.join(old)}"], []
@@ -108,9 +108,10 @@ def _wrong_in_itself(table, columns):
 
 
 def _by_series(table, columns):
-    """Return the rows of each series, by the texts that name the series, in the order of the table.
+    """Return a mapping from the name of each series to its rows, in the order in which the series begin.
 
-    If the table has no text columns, all rows form one series with the key ("",).
+    The name is a tuple of texts from the table. If no text column names series, all rows form one series with the name
+    ("",).
     """
     texts = [name for name in _words(table) if not pd.api.types.is_bool_dtype(table[name])]
     words = [name for name in texts if "compared" not in columns.get(name, {})][:2]
@@ -134,9 +135,9 @@ def _given(values):
 
 
 def _distance(old, new, name, kind, measure):
-    """Return the largest distance of a column by one measure.
+    """Return the largest distance that one measure gives for a column.
 
-    The result is an entry of the list `distances` that `table_differences` returns.
+    The result has the form of an entry of `distances`, the list that `table_differences` returns.
     """
     before, after = (part[name].to_numpy() for part in (old, new))
     with np.errstate(all="ignore"):
@@ -154,7 +155,7 @@ def _distance(old, new, name, kind, measure):
 
 
 def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[str], list[dict]]:
-    """Compare points read from the printed book with the curves in a table.
+    """Compare points that were read from the printed book with the curves in a table.
 
     Return the reasons for failure, and a list that contains only the largest distance. Both lists have the form that
     `table_differences` returns.
