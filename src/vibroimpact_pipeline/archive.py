@@ -23,7 +23,7 @@ WORKFLOW = "Snakefile"
 
 
 def results_behind(targets: list[str]) -> list[Path]:
-    """Return the targets, all results on which they depend, and further results of the same jobs.
+    """Return the targets, all results on which they depend, and all other outputs of the jobs that made these results.
 
     Results of other jobs may be outdated and are excluded.
     """
@@ -45,7 +45,7 @@ def _job(record):
 def differences(one, other, place: str = "") -> Iterator[tuple]:
     """Yield (key path, value in `one`, value in `other`) for each difference between nested mappings.
 
-    If a mapping lacks a key, its value is None.
+    If one mapping lacks a key, the value that is yielded for this mapping is None.
     """
     if isinstance(one, dict) and isinstance(other, dict):
         for name in one | other:
@@ -66,7 +66,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None
         staged = Path(folder, f"vibroimpact-{cited['version']}-{commit[:12]}")
         staged.mkdir()
         with tarfile.open(fileobj=io.BytesIO(output("archive", commit, root=root))) as sources:
-            # Python before 3.11.4 has no data_filter.
+            # The filter rejects unsafe members of the archive. Python before 3.11.4 has no such filter.
             sources.extraction_filter = getattr(tarfile, "data_filter", None)
             sources.extractall(staged)
         for result in results:

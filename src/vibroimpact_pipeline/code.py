@@ -1,7 +1,7 @@
 """Compute the fingerprint of the code of a job: its script, the imported modules, and their data files.
 
-If the fingerprint in `params` changes, Snakemake reruns the job. A change of comments and docstrings of modules changes
-only the fingerprint of the report.
+If the fingerprint in `params` changes, Snakemake reruns the job. Comments and docstrings of modules affect only the
+fingerprint of the report.
 """
 
 import ast
@@ -54,7 +54,7 @@ def fingerprint(*roots: str) -> str:
 
 
 def change_times(*roots: str) -> dict[Path, int]:
-    """Return the time of the last change (ctime) of each file of `code_files` [ns].
+    """Return the time of the last change (ctime) [ns] of each file that `code_files` returns.
 
     If an older version of a file is restored with its modification time (mtime), the ctime still changes.
     """
@@ -82,7 +82,7 @@ def is_source(path: Path) -> bool:
 
 @cache
 def modules() -> dict[str, Path]:
-    """Return the file of each module of this project by the name of the module."""
+    """Return a mapping from the name of each module of this project to the file of the module."""
     files = [path for package in PACKAGES for path in (SOURCES / package).rglob("*.py")]
     names = {path: path.relative_to(SOURCES) for path in files}
     return {
@@ -105,9 +105,9 @@ def module_files(name: str) -> list[Path]:
 
 @cache
 def _parsed(path: Path, time: int) -> tuple[str, set[str]]:
-    """Return the code of a file without comments and docstrings, and the project's modules that it imports.
+    """Return the code of a file without comments and docstrings, and the project's modules that the file imports.
 
-    `time` is the ctime of the file. If it differs from the ctime of an earlier call, the file is parsed again.
+    `time` is the ctime of the file. If the ctime has changed since an earlier call, the file is parsed again.
     """
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".ipynb":

@@ -24,7 +24,7 @@ LOGS = Path("results/logs")
 
 
 class Refused(RuntimeError):
-    """Raised if code or inputs have changed, so that the outputs of the job are not valid."""
+    """Raised if the outputs of a job are not valid because code or inputs have changed."""
 
 
 @contextmanager
@@ -76,9 +76,10 @@ def log_of(job) -> Path:
 
 
 def with_key(error, decided: dict) -> str | None:
-    """Return an error text that begins with a full config key, such as system.kappa, instead of an argument name.
+    """Return the text of an error, with the argument name at its beginning extended to a key such as system.kappa.
 
-    `decided` contains the config entries of the job by key. If no entry contains the argument, the result is None.
+    `decided` is a mapping from config keys to the config entries of the job. If no entry contains the argument, the
+    result is None.
     """
     name, _, _ = str(error).partition(":")
     argument, _, _ = name.partition(".")

@@ -79,7 +79,8 @@ def differences(path, record: dict, config: dict) -> Iterator[str]:
 def _at(config, place):
     """Return the config entry at a key path such as "section.key", or None if the entry is missing.
 
-    For "cases.NAME", return the parameters of System for this case. For "cases", return those of each case by name.
+    For "cases.NAME", return the parameters of System for this case. For "cases", return a mapping from the
+    name of each case to these parameters.
     """
     section, _, name = place.partition(".")
     if place == "cases":

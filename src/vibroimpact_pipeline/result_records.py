@@ -47,7 +47,7 @@ def to_disk(path) -> None:
 
 
 def partial_path(path) -> Path:
-    """Create an empty folder next to `path`; return the path in this folder for a file with the name of `path`."""
+    """Create an empty folder next to `path`; return the path `folder / path.name` in this folder."""
     path = Path(path)
     folder = path.with_name(PARTIAL + path.name)
     shutil.rmtree(folder, ignore_errors=True)
@@ -126,12 +126,12 @@ def checked_digests(paths: Iterable) -> dict[str, str]:
 
 
 def distrust(outputs: Iterable) -> list[str]:
-    """Mark each existing result that does not match its record, or has no record, as incomplete.
+    """Mark each existing result as incomplete if it has no record or does not match its record.
 
     Return the paths of the newly marked results. Snakemake rebuilds a marked result when the result is needed.
     """
-    # Marks are read before records. Since Snakemake removes a mark after the job has written the record, the record of
-    # a result without mark is complete.
+    # Snakemake removes the mark of a result after the job has written the record. Therefore marks are read before
+    # records: if a result has no mark, its record is complete.
     present = [path for path in map(str, outputs) if os.path.exists(path)]
     unmarked = [path for path in present if not _of_snakemake("incomplete", path).exists()]
     found = [path for path in unmarked if not _as_recorded(path)]
@@ -167,7 +167,7 @@ def _as_recorded(path: str) -> bool:
 def _of_snakemake(folder: str, path: str) -> Path:
     """Return the path of Snakemake's own record of a result; `folder` is "metadata" or "incomplete".
 
-    Snakemake has no public function for this path. The function was tested with Snakemake 9.12 and 9.27.
+    Snakemake has no public function that returns this path. `_of_snakemake` was tested with Snakemake 9.12 and 9.27.
     """
     name = base64.urlsafe_b64encode(path.encode()).decode()
     *cut, last = (name[start : start + 254] for start in range(0, len(name), 254))
