@@ -182,9 +182,7 @@ class PhysicalSystem:
             If the two forcing frequencies differ, (10.5), or if System does not accept a parameter.
         """
         if self.omega1 != self.omega2:
-            raise ValueError(
-                f"omega2: {self.omega2} differs from omega1 = {self.omega1}; (10.5) requires equal frequencies"
-            )
+            raise ValueError(f"omega2: {self.omega2} differs from omega1 = {self.omega1}; both must be equal, (10.5)")
         epsilon = self.m / self.M
         force = self.M * self.L * self.omega10**2 * epsilon
         damping = self.M * self.omega10 * epsilon

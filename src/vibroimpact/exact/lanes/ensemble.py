@@ -139,10 +139,7 @@ def finals(system: System, states: ArrayLike, cycles: int) -> np.ndarray:
     outcomes = ensemble(system, states, cycles, settle=cycles)
     failed = np.flatnonzero(outcomes["status"] != FINISHED)
     if len(failed):
-        raise ArithmeticError(
-            f"the run from the initial state with index {failed[0]} failed: "
-            f"{STATUSES[int(outcomes['status'][failed[0]])]}"
-        )
+        raise ArithmeticError(f"run of initial state {failed[0]} failed: {STATUSES[outcomes['status'][failed[0]]]}")
     return outcomes["final"]
 
 
