@@ -48,7 +48,7 @@ def described(details: dict) -> str:
 
 
 def _keys(part) -> set[str]:
-    """Return the keys of a section and of all its subclasses."""
+    """Return the keys of the section class `part` and of all classes that are derived from `part`."""
     return {*part.model_fields}.union(*map(_keys, part.__subclasses__()))
 
 

@@ -60,7 +60,7 @@ for kind in ("int", "float"):
 def read(path) -> dict:
     """Return the entries of a config file.
 
-    The result contains null values; each of them tells `merged` to remove the entry of an earlier source.
+    Null values are kept, because each null tells `merged` to remove the entry of an earlier source.
 
     Raises
     ------

@@ -26,7 +26,7 @@ def schema(model) -> str:
 
 
 def _plain(node):
-    """Return a copy of a node of a JSON Schema without titles and without defaults of null.
+    """Return a copy of a node of a JSON Schema; titles, and defaults with the value null, are left out.
 
     The copy accepts a number that is written as text. In a section with the key `case`, this key may be missing.
     """
