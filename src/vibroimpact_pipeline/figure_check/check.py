@@ -113,8 +113,8 @@ def _add(verdict, file, differences):
 def _other_pictures(verdict, reference, built, old, new) -> list[str]:
     """Return the formats (png, pdf, svg) in which the picture differs from the reference.
 
-    The function also adds reasons for failure to the verdict. One reason is a blank picture. Another reason is a
-    difference from a reference that was drawn with the installed library versions.
+    The function also adds reasons for failure to the verdict. A blank picture is a failure. A difference from the
+    reference is a failure only if the reference was drawn with the installed library versions.
     """
     # If the tables are equal, the picture in the build already shows the reference tables.
     equal = all(name in new and old[name].equals(new[name]) for name in verdict["files"])

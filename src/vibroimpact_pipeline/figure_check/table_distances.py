@@ -29,9 +29,9 @@ MOVED_BY = 1e-3
 def table_differences(old: pd.DataFrame, new: pd.DataFrame, columns: dict[str, dict]) -> tuple[list[str], list[dict]]:
     """Return the reasons why a table fails, and the distance of each column from its reference.
 
-    Rows with the same text in the first two text columns form a series. Each series of `new` is compared, row by row,
-    with the same series of `old`. A text column whose SPEC entry contains `compared` is not used to form series. Text
-    columns without `compared` must be equal in both tables.
+    Text columns whose SPEC entry does not contain `compared` must be equal in both tables. The first two of them name
+    the series: rows with the same text in these two columns form a series. Each series of `new` is compared, row by
+    row, with the same series of `old`.
 
     Parameters
     ----------
@@ -110,8 +110,8 @@ def _wrong_in_itself(table, columns):
 def _by_series(table, columns):
     """Return a mapping from the name of each series to its rows, in the order in which the series begin.
 
-    The name is a tuple of texts from the table. If no text column names series, all rows form one series with the name
-    ("",).
+    The name of a series is a tuple of texts from the table. If no column contains names of series, all rows form one
+    series with the name ("",).
     """
     texts = [name for name in _words(table) if not pd.api.types.is_bool_dtype(table[name])]
     words = [name for name in texts if "compared" not in columns.get(name, {})][:2]
@@ -165,7 +165,7 @@ def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[s
     points
         One row for each point, with some columns of `table` and the column `tolerance`. The rows of `table` with the
         same text cells as the point form the curve of the point. The tolerance is the largest allowed distance between
-        the point and the curve. For this distance, each coordinate is divided by its range in the panel.
+        the point and the curve. Before the distance is computed, each coordinate is divided by its range in the panel.
     table
         Plotted table of the build.
     """
@@ -195,7 +195,10 @@ def printed_distances(points: pd.DataFrame, table: pd.DataFrame) -> tuple[list[s
 
 
 def _nearest(point, curve):
-    """Return the point nearest to `point`, shape (d,), on the polyline through the rows of `curve`, shape (n, d)."""
+    """Return the point on a polyline that is nearest to `point`, as an array of shape (d,).
+
+    The array `point` has shape (d,). The rows of `curve`, an array of shape (n, d), are the corners of the polyline.
+    """
     step = np.diff(curve, axis=0, append=curve[-1:])
     part = ((point - curve) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
     places = curve + np.clip(part, 0.0, 1.0)[:, None] * step
@@ -217,7 +220,7 @@ def _decades(old, new, limit):
 
 
 def _middle(old, new, limit):
-    """Compare numbers by the median, over all rows, of the differences of their decimal logarithms."""
+    """Compare numbers by the difference of their decimal logarithms, and take the median of all rows."""
     return np.abs(np.nanmedian(_shifts(old, new))) / limit
 
 
@@ -232,12 +235,11 @@ def _rows(old, new, limit):
 
 
 def _balance(old, new, limit):
-    """Compare, for each class, how many rows enter the class with how many rows leave the class (sign test).
+    """Compare the number of rows that enter a class with the number of rows that leave this class (sign test).
 
-    For a column of numbers, compare how many numbers increase with how many decrease. Rounding errors change rows in
-    the two directions equally often. The distance is |n_1 - n_2| / sqrt(n_1 + n_2). Here, n_1 and n_2 are the numbers
-    of rows that change in the first and in the second direction. The denominator is the standard deviation of
-    n_1 - n_2.
+    For a column of numbers, compare the number of increases with the number of decreases. Rounding errors cause both
+    changes equally often. Let n_1 and n_2 be the two numbers that are compared. The distance of a class or a column is
+    |n_1 - n_2| / sqrt(n_1 + n_2). For rounding errors, the denominator is the standard deviation of n_1 - n_2.
     """
     far = np.zeros(len(old))
     for label in {*old, *new} if old.dtype == object else [None]:
