@@ -28,9 +28,8 @@ def figure_texts(config: dict) -> dict[str, dict]:
 def words(figure: str, scene: dict, parameters: dict) -> dict:
     """Return the SPEC (description) of a figure, with values in place of placeholders such as {f10_hat}.
 
-    `scene` is the config entry of the figure, and `parameters` are the parameters of its system. The SPEC entry `own`
-    contains other texts of a figure. If a figure of the chapter has other parameters than in the chapter, these texts
-    are used.
+    `scene` is the config entry of the figure, and `parameters` are the parameters of its system. If a figure of the
+    chapter has other parameters than in the chapter, its texts are taken from the entry `own` of its SPEC.
     """
     known = specs()
     spec = spec_of(figure, scene, known)
