@@ -59,7 +59,8 @@ def _point(system, point, orbit) -> dict:
 def map_data(results, config: dict) -> str:
     """Return the data of the regime map on the page Play as JSON.
 
-    If the system of the map differs from that of the first case in more than the forcing amplitudes, the text is empty.
+    If the system of the map differs from that of the first case in more than the forcing amplitudes, return an
+    empty text.
     """
     first, *_ = (case_parameters(config, case) for case in config["cases"])
     swept = case_parameters(config, config["sweeps"]["regime_map"]["case"]) if "regime_map" in config["sweeps"] else {}

@@ -53,7 +53,7 @@ class Pages:
     shown
         For each group of figures, the names of the figures.
     tables
-        Names of the result files, other than files of figures, that readers can download.
+        Names of the result files that readers can download. Files of figures are not included.
     """
 
     def __init__(self, root, results, config: dict, shown: dict, tables=()):

@@ -65,9 +65,9 @@ class Results:
         return [claim for claim in self.claims() if named.search(claim["place"])]
 
     def most_accurate(self) -> pd.DataFrame:
-        """Return, for each problem and method, the finished run with the smallest error.
+        """Return the finished run with the smallest error for each problem and method.
 
-        The column `ratio` contains the run time, divided by the run time of the event-driven engine for this problem.
+        The column `ratio` contains the run time divided by the run time of the event-driven engine for this problem.
         """
         table = self.table("accuracy/work_precision.csv")
         whole = table[(table["outcome"] == "finished") & table["error_state"].notna()]
