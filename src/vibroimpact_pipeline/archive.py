@@ -23,9 +23,10 @@ WORKFLOW = "Snakefile"
 
 
 def results_behind(targets: list[str]) -> list[Path]:
-    """Return the targets, all results on which they depend, and all other outputs of the jobs that made these results.
+    """Return the targets and all results on which they depend.
 
-    Results of other jobs may be outdated and are excluded.
+    The list also contains all other outputs of the jobs that made these results. Results of other jobs may be outdated
+    and are excluded.
     """
     known = {path: record for path, record in records().items() if Path(path).is_file()}
     behind, pending = set(), list(targets)
@@ -81,7 +82,7 @@ def write(root: Path, results: list[Path], titles: dict[str, str], path) -> None
 
 
 def crate(folder: Path, cited: dict, commit: str, date: str, titles: dict[str, str]) -> ROCrate:
-    """Return the RO-Crate of a folder, which describes the folder and each file."""
+    """Return an RO-Crate, an object that describes a folder and each file in it."""
     described = ROCrate()
     written_in = {"lang": "snakemake", "lang_version": version("snakemake")}
     workflow = described.add_workflow(None, WORKFLOW, main=True, **written_in, properties={"name": "The pipeline"})

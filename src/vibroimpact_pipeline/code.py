@@ -1,7 +1,7 @@
 """Compute the fingerprint of the code of a job: its script, the imported modules, and their data files.
 
-If the fingerprint in `params` changes, Snakemake reruns the job. Comments and docstrings of modules affect only the
-fingerprint of the report.
+The `params` of a rule contain the fingerprint. If the fingerprint changes, Snakemake reruns the job. If only comments
+and docstrings of modules change, Snakemake reruns only the report.
 """
 
 import ast
@@ -22,8 +22,9 @@ DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
 def code_files(*roots: str) -> list[Path]:
     """Return the sorted list of the files on which a job depends.
 
-    Each root is the name of a module, or the path of a file or folder in the checkout. The list includes all modules
-    that these files import, and all data files in the folders of the modules.
+    Each root is the name of a module, or the path of a file or folder in the checkout. The list contains the files of
+    the roots and all modules of this project that these files import, directly or through other modules. The list also
+    contains all data files in the folders of the modules.
     """
     found, pending = set(), [path for root in roots for path in _paths(root)]
     while pending:
@@ -40,8 +41,8 @@ def code_files(*roots: str) -> list[Path]:
 def fingerprint(*roots: str) -> str:
     """Return the fingerprint of the files that `code_files` returns.
 
-    Comments and docstrings of a Python file have no effect on the fingerprint. If a root is a folder, the fingerprint
-    depends on the full text of each file in this folder.
+    Comments and docstrings of a Python file have no effect on the fingerprint. There is one exception: if a root is a
+    folder, the fingerprint depends on the full text of each file in this folder.
     """
     digest, listed = hashlib.sha256(), {path for root in roots if (ROOT / root).is_dir() for path in _paths(root)}
     for path in code_files(*roots):

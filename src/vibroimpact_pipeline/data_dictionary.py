@@ -30,13 +30,13 @@ class File:
     about
         Content of the files.
     columns
-        Meaning, unit and, optionally, allowed values of each column by name.
+        Description of each column by name: its meaning and unit, and sometimes the allowed values.
     specific
         Names of the columns whose meaning or values apply only to these files.
     keys
         Meaning of each key of a JSON file by key path. In a key path, * stands for every entry.
     on_demand
-        Commands that make files, by the path of the file. The default build does not make these files.
+        For files that the default build does not make: the commands that make the files, by path.
     """
 
     paths: list[str]

@@ -70,13 +70,16 @@ def running(job) -> Iterator[SimpleNamespace]:
 
 
 def log_of(job) -> Path:
-    """Return the path of the log of a job: results/logs/RULE.log or, with a wildcard, results/logs/RULE/CASE.log."""
+    """Return the path of the log of a job, such as results/logs/RULE.log, where RULE is the name of the rule.
+
+    If the rule has wildcards, each value adds a part to the path, as in results/logs/RULE/CASE.log.
+    """
     folder = LOGS.joinpath(job.rule, *job.wildcards)
     return folder.with_name(f"{folder.name}.log")
 
 
 def with_key(error, decided: dict) -> str | None:
-    """Return the text of an error, with the argument name at its beginning extended to a key such as system.kappa.
+    """Return the text of an error; extend the argument name at its beginning to a config key such as system.kappa.
 
     `decided` is a mapping from config keys to the config entries of the job. If no entry contains the argument, the
     result is None.

@@ -47,7 +47,7 @@ def to_disk(path) -> None:
 
 
 def partial_path(path) -> Path:
-    """Create an empty folder next to `path`; return the path `folder / path.name` in this folder."""
+    """Create an empty folder next to `path`; return the path in this folder that has the same name as `path`."""
     path = Path(path)
     folder = path.with_name(PARTIAL + path.name)
     shutil.rmtree(folder, ignore_errors=True)
@@ -150,7 +150,8 @@ def _mark(path: str) -> None:
 def _as_recorded(path: str) -> bool:
     """Return True if a result matches its record.
 
-    If the size and the order of the modification times are as expected, the content of the result is not read.
+    The content of the result is not read if its size is as recorded and three modification times ascend. These are the
+    times of the record, of the result, and of Snakemake's own record.
     """
     try:
         # After a build, these times ascend: the job writes the record, then Snakemake touches the result, and then

@@ -3,7 +3,7 @@
 A SPEC is a dictionary literal with these entries:
 
 - title, caption, alt, equations: texts of the figure.
-- own: texts for further figures, which users define in the config. The code of this figure draws them.
+- own: texts for further figures that users define in the config and that the code of this figure draws.
 - method: how the figure is computed.
 - notebook: name of the notebook that explains the figure.
 - sweeps: for each sweep that the figure draws, the axes and observations that the figure needs.
@@ -33,7 +33,7 @@ PACKAGES = "vibroimpact.figures", "vibroimpact.studies.figures"
 def specs() -> dict[str, dict]:
     """Return the SPEC (description) of every figure by name.
 
-    The key "csv" in `tables` stands for the plotted table.
+    In the entry `tables` of a SPEC, the key "csv" stands for the plotted table.
     """
     found = {}
     for path in sorted(path for package in PACKAGES for path in (SOURCES / package.replace(".", "/")).glob("*.py")):
