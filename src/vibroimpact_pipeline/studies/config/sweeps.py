@@ -60,7 +60,7 @@ class Axis(Section):
         return len(self.listed or self.tuples or ()) or self.cells or self.values
 
     def ends(self) -> list[dict[str, float]]:
-        """Return the parameters at both ends of the axis. If the axis has `tuples`, return all of them."""
+        """Return the parameters at both ends of the axis. If the axis has `tuples`, return those of every tuple."""
         values = self.tuples or [[end] * len(self.along) for end in self.range or (min(self.listed), max(self.listed))]
         return [dict(zip(self.along, at, strict=True)) for at in values]
 
