@@ -17,12 +17,12 @@ def methods_table(work_precision: pd.DataFrame, stress_tests: pd.DataFrame) -> p
     """Return one row per method: cost relative to the first method, and results of the stress tests.
 
     The arguments are rows of `work_precision.measure` and of `stress_tests.judge`. A method solves a problem if it has
-    a run with an error of at most 1e-6 and no missed or spurious impacts. The
-    cost of a solved problem is the shortest time of such a run.
+    a run with an error of at most 1e-6 and no missed or spurious impacts. The cost of a solved problem is the shortest
+    time of such a run. The first method is the method in the first row of `work_precision`.
 
     - problems: number of solved problems;
-    - times: largest ratio, over all problems, of the cost to the cost of the first method; blank if the method or the
-      first method fails to solve a problem;
+    - times: cost divided by the cost of the first method, for the problem with the largest quotient; blank if the
+      method or the first method fails to solve a problem;
     - right: number of stress tests with a right result;
     - wrong: number of stress tests with a wrong result but no reported error or doubt;
     - stopped: number of stress tests that end with an error or do not finish;

@@ -19,7 +19,7 @@ class Errors(NamedTuple):
     - error_state: largest error of a coordinate of the final state.
     - error_time: largest error of the time tau of an impact that both runs have.
     - missed: number of impacts that only the reference run has.
-    - spurious: number of impacts that only the other run has.
+    - spurious: number of impacts that the reference run does not have.
 
     If the run has no final state, error_state and error_time are inf.
     """

@@ -17,7 +17,8 @@ def grazing_start(system, boxes, ball_velocity, guess, clearance) -> tuple[float
     """Return an initial state, shape (8,), from which ball 1 barely misses or barely hits the wall +1.
 
     W_1 = X_1 - Y_1 has a maximum when X_1' equals the ball velocity. The time of the maximum does not depend on the
-    initial Y_1. Rounding the state changes the clearance by up to 1e-16.
+    initial Y_1. This time is therefore computed first. Then Y_1 is chosen such that the maximum has the required value.
+    Rounding the initial state to floats changes the clearance by up to 1e-16.
 
     boxes: initial X_1, X_2, X_1', X_2' as decimal strings. guess: time tau near the maximum of W_1.
     clearance: 1 - (maximum of W_1 in a motion without impacts). If `clearance` is negative, ball 1 hits the wall.

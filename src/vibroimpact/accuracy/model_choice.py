@@ -100,7 +100,10 @@ def motion(system, points: pd.DataFrame, label: str, model: str) -> Motion:
 
 
 def _exact(system, point, root) -> Motion:
-    """Return the motion of an exact symmetric orbit; `root` (4,) contains its impact times and amplitudes C."""
+    """Return the motion of an exact symmetric orbit.
+
+    root: two impact times and two amplitudes C of the orbit, shape (4,).
+    """
     impacts, C = np.where(np.isfinite(point.C), root.reshape(2, 2), np.nan)
     return _motion(system, point, C, impacts, lambda tau: _exact_U(system, root, tau))
 
@@ -141,5 +144,8 @@ def _exact_U(system, root, tau):
 
 
 def _sawtooth(system, C, impacts, tau):
-    """Return the saw-tooth Z = W - U at times tau (n,), shape (n, 2). In an inactive module, Z is 0."""
+    """Return the saw-tooth Z = W - U of both modules, shape (n, 2). In an inactive module, Z is 0.
+
+    tau: times, shape (n,).
+    """
     return np.nan_to_num(sawtooth(system.Omega * (tau[:, None] - impacts), C, 0.0))

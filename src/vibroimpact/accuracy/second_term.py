@@ -20,7 +20,9 @@ class NoOrbit(ValueError):
 
 
 def first_order(system, point) -> np.ndarray:
-    """Return the second terms of (10.7), divided by epsilon, for C (row 0) and the impact phases [rad] (row 1).
+    """Return the second terms of (10.7) divided by epsilon, shape (2, 2): one column per module.
+
+    Row 0 contains the terms for the amplitudes C. Row 1 contains the terms for the impact phases [rad].
 
     Raises
     ------
@@ -61,7 +63,9 @@ def near(system, point, epsilon: float) -> tuple[System, np.ndarray]:
 
 
 def offsets(system, point, roots) -> np.ndarray:
-    """Return the differences between orbits and a fixed point: in C (row 0) and in the impact phases [rad] (row 1).
+    """Return the differences between orbits and a fixed point, shape (..., 2, 2): one column per module.
+
+    Row 0 contains the differences in C. Row 1 contains the differences in the impact phases [rad].
 
     roots: orbits, shape (..., 4); an orbit is given by two impact times and two amplitudes C.
     """

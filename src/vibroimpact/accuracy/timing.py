@@ -1,4 +1,7 @@
-"""Measure the run time of functions by the fastest of several calls, which other work disturbs least."""
+"""Measure the run time of a function as the shortest time of several calls.
+
+Other work on the machine disturbs the shortest call least.
+"""
 
 import platform
 import time

@@ -117,9 +117,9 @@ class Flow:
         return Fraction(REACH) / self.norm
 
     def size(self, vector) -> arb:
-        """Return an upper bound of the weighted norm of [X1, X2, X1', X2', sin, cos].
+        """Return an upper bound of the weighted norm of `vector`, which is [X1, X2, X1', X2', sin, cos].
 
-        The bound times `norm` is a bound of |X1''| and |X2''|.
+        The bound times the attribute `norm` is a bound of |X1''| and |X2''|.
         """
         largest = arb(0)
         for weight, entry in zip(self._weights, vector, strict=True):

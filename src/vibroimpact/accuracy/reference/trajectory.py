@@ -20,9 +20,8 @@ SEARCH_BITS = 96  # binary digits of precision that suffice to find most events
 class _Ball:
     """Motion of one ball relative to its box: gap W, its rate W', and the wall that the ball touches, or 0.
 
-    order: number of leading Taylor coefficients that are 0. For a stuck ball, these are coefficients of the contact
-    force. For a ball that leaves its wall, these are coefficients of the distance 1 - wall * W. If the contact
-    force stays 0, the order is None.
+    order: number of leading Taylor coefficients that are 0 in the contact force (stuck ball) or in the distance
+    1 - wall * W (ball that leaves its wall). If the contact force stays 0, the order is None.
     """
 
     gap: arb
@@ -34,7 +33,10 @@ class _Ball:
 
 @dataclass(frozen=True)
 class _Candidate:
-    """Event that may end the flight: at the time `root`, the distance to a wall or a contact force first becomes 0."""
+    """Event that may end the flight: an impact or a release.
+
+    root: time of the event. The distance to the wall (at an impact) or the contact force (at a release) is then 0.
+    """
 
     module: int
     wall: int
