@@ -29,7 +29,7 @@ def beforehand() -> None:
 
 
 def simulations() -> None:
-    """Compile `simulate`, `growth`, and the certificate, Jacobian, energy and errors of a Run."""
+    """Compile the code of `simulate`, of `growth`, and of `certificate`, `jacobian`, `energy` and `errors` of a Run."""
     import numpy as np
 
     from vibroimpact.exact.engine.simulation import simulate

@@ -83,9 +83,11 @@ def errors_of(flow, flights, events, limit):
 
 @compiled
 def errors_at(flow, flights, events, times, limit):
-    """Return the estimated errors (n,) of the states at ascending times since the start of a run.
+    """Return the estimated errors of the states at the times `times` of a run, shape (n,).
 
-    The errors include the effect of rounding these times. Errors above `limit` are replaced by inf.
+    The errors include the effect of rounding `times`. Errors above `limit` are replaced by inf.
+
+    times: ascending times since the start of the run, shape (n,).
     """
     q = flow.coefficients
     estimates, largest, start, k = np.full(len(times), math.inf), limit / UNIT, 0.0, 0
@@ -165,7 +167,7 @@ def _pass_event(q, flights, events, n, errors, matrix, product):
 
 @inlined
 def _end(q, flight, elapsed, errors, rate):
-    """Add the effects of rounding the time and the state at the end of a run or at a sample.
+    """Add the rounding errors of time and state to `errors`, at the end of a run or at a sample.
 
     elapsed: time of a sample since the start of the run; the rounding error of the sample time grows with this time. At
     the end of a run, `elapsed` is 0.
@@ -180,7 +182,10 @@ def _end(q, flight, elapsed, errors, rate):
 
 @inlined
 def _propagate(matrix, errors, product):
-    """Replace C = `independent` by M C M^T, and S = `repeated` by M S, for a matrix M."""
+    """Propagate errors by the linear map M = `matrix`.
+
+    Replace C = `errors.independent` by M C M^T, and S = `errors.repeated` by M S.
+    """
     covariance, sums = errors.independent, errors.repeated
     _multiply(matrix, covariance, product)
     for i in range(8):
@@ -195,7 +200,10 @@ def _propagate(matrix, errors, product):
 
 @inlined
 def _multiply(a, b, product):
-    """Write the product of the sparse matrix `a` (8, 8) and the matrix `b` (8, m) to `product`."""
+    """Write the matrix product of `a` and `b` to `product`.
+
+    a: sparse matrix, shape (8, 8). b: matrix, shape (8, m).
+    """
     columns = b.shape[1]
     for i in range(8):
         for j in range(columns):
@@ -233,12 +241,13 @@ def _add_table(q, state, sums):
 
 @inlined
 def _add_rounding(q, errors, flight, state, met):
-    """Add the rounding error of a state (8,), [boxes, balls], at the end of a flight.
+    """Add the rounding errors of `state` to `errors`.
 
     A state is computed as a sum of contributions. The rounding error of a contribution remains even if contributions
     cancel. The force contributes F / Omega^2 to a position, and F / Omega to a velocity. A stiff spring also
     contributes to a velocity. The velocity of a free ball is computed and rounded only at an impact.
 
+    state: [X1, X2, X1', X2', Y1, Y2, Y1', Y2'] at the start or end of the flight, shape (8,).
     met: for each ball, True if the ball is at a wall.
     """
     covariance, began = errors.independent, flight[BEFORE:]

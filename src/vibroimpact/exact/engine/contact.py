@@ -177,9 +177,9 @@ def _contact_push(q, jets, boxes, i, wall, sticking):
     The number has the sign of the contact force. If the contact force is zero within rounding, the number has the sign
     of the first nonzero derivative of the force.
 
-    There is one exception. The force on a sticking ball may be negative but increase at the rate `change` > 0. If the
-    ball were released, it would rise to the height 2 |force|^3 / (3 change^2). If this height is below rounding, the
-    function returns `change`, so that the ball stays stuck.
+    There is one exception. The force on a sticking ball may be negative but increase at a rate r > 0. If the ball were
+    released, it would rise to the height 2 |force|^3 / (3 r^2). If this height is below rounding, the function returns
+    the number r. Since r is positive, the ball stays stuck.
     """
     p = jets[0] if i == 0 else jets[1]
     tiny = acceleration_rounding(q, boxes, i)
@@ -330,7 +330,8 @@ def _stick_or_release(q, motion, i, pulled, elapsed, log):
 def _complete_both(flow, motion, chatters, elapsed, log):
     """Return the motion after completing the chatters that end soon.
 
-    To complete a chatter, a stick replaces its remaining impacts. The sticks are recorded in order of time.
+    A chatter is completed by replacing its remaining impacts by a stick. The sticks are recorded in order of time.
+
     chatters: for each ball, True if its chatter would end soon (see `_apply_impact`).
     """
     boxes, balls = motion.boxes, motion.balls

@@ -109,7 +109,10 @@ def _first_event(q, motion, jets, bound, horizon, short):
 def _bounds(t, width, short):
     """Return the uncertainty of the event time t, and the time up to which no event happens.
 
-    t, width: from `module_time`.
+    If `width` is inf, no event happens before t. If |t| <= `short`, the time t is exact. In both cases, the returned
+    uncertainty is 0.
+
+    t, width: time and width that `module_time` returns.
     """
     w = 0.0 if width == math.inf or abs(t) <= short else width
     return w, t - w

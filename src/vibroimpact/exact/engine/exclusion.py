@@ -189,7 +189,7 @@ def remainder(q, mode, jets, growth):
 
 @inlined
 def own_remainder(q, mode, jets, both, i, force, horizon):
-    """Return a bound like that of `remainder`, for box i alone.
+    """Return a bound on |X_i^(7)| / 7! for box i alone; `remainder` bounds both boxes together.
 
     The energy of a box grows by the work of the force on the box and of the coupling. With weak coupling, the bound
     therefore hardly depends on the other box.
@@ -266,8 +266,8 @@ def _time_from_zero(c, bound, margin, horizon, rises):
     """Return a time up to which a constraint that is initially zero within rounding is certainly satisfied.
 
     If the constraint rises, its polynomial is divided by t, which removes the initial zero. If the constraint does not
-    rise, it is only proved to stay above -margin. The same holds if the remainder bound reduces the proved time to less
-    than half.
+    rise, the function only proves that the constraint stays above -margin. The function also does so if the remainder
+    bound reduces the proved time to less than half.
     """
     time = 0.0
     if rises:

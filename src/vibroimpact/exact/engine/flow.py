@@ -70,7 +70,8 @@ class Coefficients(NamedTuple):
 class Flow(NamedTuple):
     """Coefficients and flow tables of one system.
 
-    series, rotations: tables from `flow_tables.tables`, shapes (4, n, 6, 16) and (n, 2), for n times.
+    series: Taylor coefficients of both boxes at n times, shape (4, n, 6, 16); see `flow_tables.tables`.
+    rotations: cosine and sine of the change of the forcing phase at n times, shape (n, 2).
     spacing: time step of the tables.
     density: 1 / spacing.
     longest: last time of the tables.
@@ -382,7 +383,7 @@ def _series(c, z):
 
 @inlined
 def advance_phase(phase, tail, omega, t):
-    """Return (phase, tail), the forcing phase and its rounding remainder, a time t later.
+    """Return the forcing phase and its rounding remainder after a time t, as (phase, tail).
 
     The phase is not reduced modulo 2 pi. The tail collects the rounding errors of the product omega t and of the sum.
     """
