@@ -16,9 +16,10 @@ from vibroimpact.system import System
 
 
 def arguments(params, inputs) -> dict:
-    """Return the arguments of `compute`: settings, tables and, if the figure needs any, systems.
+    """Return the arguments of `compute`: settings, tables and systems.
 
     The argument `system` is the system of one case. The argument `systems` contains the system of each case by name.
+    Each of these two arguments is left out if the figure does not need it.
     """
     given = dict(params.settings)
     if params.get("system"):

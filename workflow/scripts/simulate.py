@@ -17,8 +17,8 @@ from vibroimpact.system.state import KINDS, NAMES
 def summarise(simulated: Window, settings: dict) -> dict:
     """Return a summary of the window after the transient.
 
-    The summary contains the time span of the window, the numbers of events and the final state. For each n from 1 to at
-    most 4, it also contains the largest change of a coordinate over n cycles.
+    The summary contains the time span of the window, the numbers of events and the final state. It also contains the
+    largest change of a coordinate over 1, 2, 3 and 4 cycles. Numbers of cycles that exceed the window are left out.
     """
     events, states = simulated.events, simulated.samples[list(NAMES)].to_numpy()
     counts = {
