@@ -22,9 +22,11 @@ def exact_rates(parameters):
     """Return (rate matrices, velocity changes, fastest rates) of n systems.
 
     parameters: shape (n, 10), in the order of `flow.PARAMETERS`.
-    rate matrices: floats and their rounding remainders, for each contact state, shape (n, 2, 4, 6, 6).
+    rate matrices: shape (n, 2, 4, 6, 6). The second axis is the float and its rounding remainder. The third axis is the
+    contact state.
     velocity changes: the factor (1 + kappa) / (1 + epsilon) of an impact and its rounding remainder, shape (n, 2).
-    fastest rates: fastest rate due to stiffness and fastest rate due to damping, shape (n, 2).
+    fastest rates: largest natural frequency of the undamped boxes and largest eigenvalue of their damping matrix, shape
+    (n, 2).
 
     If both boxes move equally, the forces of a stiff coupling must cancel exactly. Without the rounding remainders, the
     forces would not cancel and the lower natural frequency would shift.
@@ -78,10 +80,11 @@ def _ratio(high, low, other, other_low):
 
 
 def tables(rates, spacing, count):
-    """Return (series, rotations): flow tables for k rate matrices A at the times j h, j < count.
+    """Return (series, rotations): flow tables for k rate matrices at the times 0, h, 2 h, ..., with h = `spacing`.
 
-    rates: the matrices A and their rounding remainders, shape (2, k, 6, 6).
-    spacing: the time step h, a power of two. count: number of times, at least 2.
+    rates: the rate matrices and their rounding remainders, shape (2, k, 6, 6).
+    spacing: the time step, a power of two.
+    count: number of times, at least 2.
     series: Taylor coefficients of both boxes for each initial unit vector z, shape (k, count, 6, 16). The coefficient
     of order m is at index m for X_1 and at index 8 + m for X_2.
     rotations: cosine and sine of the change of the forcing phase, shape (count, 2).

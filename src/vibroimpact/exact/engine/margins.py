@@ -184,16 +184,14 @@ def _note(flow, motion, i, times, rates, least_of):
 
 @compiled
 def margins_of(q, flights, turns, events, start_phase, duration):
-    """Return the margins of the flights, and the depths and doubts of the events.
+    """Return (margins, depths, doubts) of the m + 1 flights and m events of a run.
 
-    The margins at the start and at the end of each flight have shape (m + 1, 2). A margin is the smallest error of the
-    state that would change the event sequence.
-
-    The depths have shape (m,). Without an impact, the ball would move beyond the wall by the depth u^2 / (2 b), with
-    the relative speed u and the deceleration b. If there is no deceleration, or if the event is not an impact, the
-    depth is inf.
-
-    The doubts have shape (m,). If rounding decides whether the ball hits the wall, the doubt is 1, otherwise 0.
+    margins: smallest errors of the state that would change the event sequence, shape (m + 1, 2). Column 0 is for
+    the start and column 1 for the end of each flight.
+    depths: distances by which a ball would move beyond the wall if there were no wall, shape (m,). A depth is
+    u^2 / (2 b), with the relative speed u and the deceleration b. If there is no deceleration, or if the event is not
+    an impact, the depth is inf.
+    doubts: 1 if rounding decides whether the ball hits the wall, otherwise 0, shape (m,).
     """
     margins = np.full((len(flights), 2), math.inf)
     depths, doubts = np.full(len(events), math.inf), np.zeros(len(events))
@@ -234,8 +232,10 @@ def _lower(margins, margin):
 def _of_event(q, walls, boxes, balls, events, n, force, left):
     """Return the smallest error of the state that would delay event n until the end of the run.
 
-    left: time from event n to the end of the run. For a release, the result is smaller if a smaller error would
-    prevent the release. For a stick event that does not complete a chatter, the result is inf.
+    If event n is a release, an error that would prevent the release also counts. If event n is a stick event that does
+    not complete a chatter, the result is inf.
+
+    left: time from event n to the end of the run.
     """
     i, wall, kind = int(events[n, 1]) - 1, events[n, 2], events[n, 3]
     if kind == IMPACT:  # distance of the ball beyond the wall at the end of the run if this impact did not happen

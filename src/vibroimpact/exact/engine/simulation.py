@@ -158,7 +158,7 @@ class Run(Representation):
 
     @cached_property
     def rows(self) -> np.ndarray:
-        """Rows of the events, defined in `vibroimpact.exact.engine.contact`, as one array of shape (n, ROW)."""
+        """Rows of the events as one array, shape (n, ROW); `vibroimpact.exact.engine.contact` defines a row."""
         rows = self.pieces[0] if len(self.pieces) == 1 else np.concatenate(self.pieces)
         self.pieces[:] = [rows]
         rows.flags.writeable = False
@@ -262,9 +262,9 @@ class Run(Representation):
         return frames.plot(self.system, self.tau0 + since, self._sampled(since))
 
     def _sampled(self, since):
-        """Return the states at the times `since` after the start of the run, shape (n, 8).
+        """Return the states of the run at given times, shape (n, 8).
 
-        Times since the start keep their digits even if tau0 is large.
+        since: times since the start of the run, shape (n,). Their precision does not depend on tau0.
         """
         start = self.start.copy()  # a read-only array would trigger another compilation
         return _run(self.system, start, self.cycles, self.begin, since, clock=0.0).samples
@@ -396,7 +396,9 @@ def simulate_many(
 def _run(system, state, cycles, begin, times, clock):
     """Return a run, given checked arguments, or raise ArithmeticError if the run fails.
 
-    begin: exact start time. times: sample times. clock: start time on the time scale of the sample times.
+    begin: exact start time.
+    times: sample times.
+    clock: tau0 if `times` are values of tau, or 0 if `times` are counted from the start of the run.
     """
     status, run = attempt(system, state, cycles, begin, times, clock)
     if status != event_loop.FINISHED:
@@ -408,7 +410,7 @@ def _run(system, state, cycles, begin, times, clock):
 
 
 def attempt(system, state, cycles, begin, times, clock):
-    """Return (status, run) from the arguments of `_run`.
+    """Simulate with the arguments of `_run`, and return (status, run).
 
     If the simulation fails, the run ends at the failure, and `status` is a key of `event_loop.FAILURES`.
     """

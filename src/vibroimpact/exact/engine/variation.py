@@ -312,10 +312,10 @@ def _stick_matrix(q, i, wall, inward, push, other_stuck, matrix):
     push: acceleration a of the box towards the ball if the event completes a chatter, otherwise 0.
     other_stuck: True if the other ball sticks.
 
-    Box and ball keep their momentum and centre of mass. During a chatter, springs and dampers act on the box, which is
-    not at the centre of mass. The matrix includes this effect to first order. The effect depends on two time integrals
-    over the chatter. The integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)). The integral of the rate of the gap is
-    minus the initial gap.
+    Box and ball keep their common momentum and centre of mass. During a chatter, however, the box is not at the centre
+    of mass. This changes the forces of springs and dampers. The matrix includes the change to first order. The
+    change depends on two time integrals over the chatter. The integral of the gap is 2 u^3 / (3 a^2 (1 - kappa^3)). The
+    integral of the rate of the gap is minus the initial gap.
     """
     e = q.epsilon
     share = e / (1.0 + e)
@@ -410,9 +410,11 @@ def _propagate_by_cycles(flow, flights, events, period, frame, places, factors, 
 
 @compiled
 def _orthonormalize(a, places, sizes):
-    """Replace the rows `places` of the array `a`, shape (m, k), by the factor Q of their QR decomposition.
+    """Orthonormalize the k columns of the array `a` in place by a QR decomposition.
 
-    Write the absolute diagonal of the factor R to `sizes`, shape (k,).
+    a: array of shape (m, k).
+    places: indices of the rows of `a` that are not 0. The factor Q replaces these rows.
+    sizes: array of shape (k,). The absolute values of the diagonal of the factor R are written to it.
     """
     q, r = np.linalg.qr(a[places])  # all other rows are 0; QR would fill them with rounding errors
     for row in range(len(places)):

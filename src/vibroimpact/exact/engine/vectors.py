@@ -166,7 +166,7 @@ if config.DISABLE_JIT:
 
 @intrinsic
 def where(_, mask, a, b):
-    """Return a vector of eight floats, with the entries of a where the mask is true and the entries of b elsewhere."""
+    """Return a vector of eight floats: each entry is from `a` if the mask is true there, otherwise from `b`."""
 
     def generate(context, builder, signed, args):
         _, one, other = signed.args
@@ -231,7 +231,7 @@ def replace_rows(_, array, k, mask, values):
 
 
 def _pointer(context, builder, signed, args, later=0):
-    """Return a pointer to row k + later of an array; `args` begins with the array and k."""
+    """Return a pointer to the row with index k + `later` of an array; `args` begins with the array and k."""
     array = context.make_array(signed.args[0])(context, builder, args[0])
     row, zero = builder.add(args[1], context.get_constant(types.intp, later)), context.get_constant(types.intp, 0)
     pointer = cgutils.get_item_pointer(context, builder, signed.args[0], array, [row, zero])
