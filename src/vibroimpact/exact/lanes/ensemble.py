@@ -168,8 +168,11 @@ def _combined(systems, states):
 def _run(known, begins, numbers, starts, stages, outcomes, places):
     """Simulate the runs whose indices are in `places`, and write their results to `outcomes`.
 
-    known, begins: systems, and the initial time for each system. numbers: system index of each run. starts: initial
-    state of each run. stages: numbers of cycles as in `loop.Piece`.
+    known: distinct systems.
+    begins: initial time of the runs of each system.
+    numbers: index of the system of each run.
+    starts: initial state of each run.
+    stages: numbers of cycles as in `loop.Piece`.
     """
     (settle, cycles, length), first, starts = stages, numbers[places[0]], np.ascontiguousarray(starts[places])
     owners, energy, shape = numbers[places] - first, "energy" in outcomes.dtype.names, (len(places), outcomes.shape[1])
@@ -209,8 +212,8 @@ def _run(known, begins, numbers, starts, stages, outcomes, places):
 def _single_run(system, state, begin, stages, final, statistics):
     """Compute a run by the event loop instead of in a lane; return its status.
 
-    The state at the end of each of the k windows is written to `final`, shape (k, 8). The statistics of each window are
-    written to `statistics`, shape (k, STATISTICS).
+    final: array for the states at the ends of the k observation windows, shape (k, 8).
+    statistics: array for the statistics of each window, shape (k, STATISTICS).
     """
     (settle, cycles, length), squares = stages, energy_balance.squares_of(system)
     stops = [0] * (settle > 0 or not cycles) + [*range(settle, cycles + 1, max(length, 1))]

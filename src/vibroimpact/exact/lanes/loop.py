@@ -111,8 +111,8 @@ def memory() -> Memory:
 def run_lanes(piece, memory):
     """Simulate the runs of a piece of work in vector lanes; return True when all runs have ended.
 
-    If the function returns False, it has paused so that the caller can handle an interrupt. Then call it again. A run
-    is skipped if its status before the first call is not FINISHED.
+    If the function returns False, it has paused so that the caller can handle an interrupt. Then call it again. Before
+    the first call, set the status to FINISHED for each run to be simulated. Runs with another status are skipped.
     """
     m, done = memory, 0
     while True:

@@ -57,8 +57,11 @@ def accumulate_run(flow, squares, start, events, final, end, statistics):
 def accumulate_statistics(flow, squares, departure, events, count, arrival, statistics):
     """Add the statistics of a part of a run to `statistics`, shape (STATISTICS,).
 
-    The contributions of `open_or_close` are not included. departure: state at the start of the part. count: number of
-    events in the part. arrival: state of the boxes, time and forcing phase at the end of the part.
+    The contributions of `open_or_close` are not included.
+
+    departure: `Departure` at the start of the part.
+    count: number of events in the part.
+    arrival: state of the boxes, time and forcing phase at the end of the part.
     """
     leaving, (final, time, phase) = departure, arrival
     early, last = (math.sin(leaving.phase), math.cos(leaving.phase)), (math.sin(phase), math.cos(phase))
@@ -133,7 +136,9 @@ def _before(q, boxes, event):
 
 @inlined_source
 def _add_flight(flow, squares, motion, end, length, statistics):
-    """Add the statistics of a flight of duration `length`, without the differences of potentials.
+    """Add the statistics of a flight of duration `length`.
+
+    The differences of potentials are not included: `open_or_close` and `_add_potential_drops` add them.
 
     motion: state at the start of the flight. end: state of the boxes at the end of the flight.
     """
@@ -176,10 +181,10 @@ def _add_piece(p, low, high, i, wall, statistics):
 
 @inlined
 def observe(runs, c, work, integrals, flight, hits, early, arrival):
-    """Add the statistics of each flight that ends in this pass, and of the impact at its end, to `runs`.
+    """Update the statistics in `runs` for each flight that ends in this pass and for the impact at its end.
 
-    flight: mask of the lanes in which a flight ends, duration of the last step of the flight, duration of the whole
-    flight, and five times the error bound of Hermite's polynomial.
+    flight: tuple of four entries: mask of the lanes in which a flight ends, duration of the last step of the flight,
+    duration of the whole flight, and five times the error bound of Hermite's polynomial.
     hits: for each module, mask of the lanes in which the flight ends with an impact in this module.
     early: state of the boxes, and sine and cosine of the forcing phase, at the start of the last step.
     arrival: numbers at the end of the flight: box positions, box velocities before and after the impact, ball
@@ -217,8 +222,12 @@ def _add(runs, mask, place, value):
 def may_turn_beyond(record, x, v, later, v_later, third):
     """Return True in lanes where a box reverses its motion and a middle Bernstein coefficient exceeds `record`.
 
-    record: largest displacement so far, minus an error margin. x, v, later, v_later: position and velocity of the box
-    before and after a step. third: a third of the duration of the step.
+    The coefficients are those of the displacement of the box in a step. Their magnitudes are compared with `record`.
+
+    record: largest displacement so far, minus an error margin.
+    x, v: position and velocity of the box before the step.
+    later, v_later: position and velocity of the box after the step.
+    third: a third of the duration of the step.
     """
     return (v * v_later < 0.0) & (most(abs(fused(third, v, x)), abs(fused(-third, v_later, later))) > record)
 
@@ -227,9 +236,10 @@ def may_turn_beyond(record, x, v, later, v_later, third):
 def keep_turns(runs, c, work, turns, wrong, early, late, step):
     """Store the turns (turning points of a box) at which the displacement may be the largest so far.
 
-    turns: for each box, mask of the lanes with such a turn. early, late: state of the boxes, and sine and cosine of the
-    forcing phase, before and after the step. wrong: five times the error bound of Hermite's polynomial. step: duration
-    of the step.
+    turns: for each box, mask of the lanes in which the box has such a turn in this step.
+    wrong: five times the error bound of Hermite's polynomial.
+    early, late: state of the boxes, and sine and cosine of the forcing phase, before and after the step.
+    step: duration of the step.
     """
     wrong = 0.2 * wrong
     for i in range(2):

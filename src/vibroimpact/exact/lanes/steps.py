@@ -355,9 +355,9 @@ def _change(c, k, x1, x2, v1, v2, s, cosine):
 
 @inlined
 def _rough_change(c, k, x1, x2, v1, v2, s, cosine, low=0.0):
-    """Return entry k < 4 of (exp(A h) - I) z as in `_change`.
+    """Return entry k < 4 of (exp(A h) - I) z, where z = [X1, X2, X1', X2', sin, cos].
 
-    low: contribution of the rounding remainders of exp(A h) - I to this entry.
+    low: contribution of the rounding remainders of exp(A h) - I to this entry. If it is 0, the result is less exact.
     """
     boxes = _of_boxes(c, 6 * k, x1, x2, v1, v2)
     return boxes + fused(load(c, 6 * k + 5), cosine, fused(load(c, 6 * k + 4), s, low))
