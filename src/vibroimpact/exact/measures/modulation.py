@@ -109,9 +109,9 @@ def measures(system, state, cycles: int) -> dict[tuple[str, int], float]:
 
 
 def mean_and_error(values) -> tuple[float, float, int]:
-    """Return the mean, the standard error of the mean and the number of the finite values.
+    """Return (mean, standard error of the mean, number of values), computed from the finite values only.
 
-    If there are no finite values, the mean is nan. If there are fewer than two, the error is nan.
+    If there are no finite values, the mean is nan. If there are fewer than two finite values, the error is nan.
     """
     values = np.asarray(values, dtype=float)
     values = values[np.isfinite(values)]

@@ -31,8 +31,8 @@ class SlowVariables:
     C : ndarray
         Saw-tooth amplitude, computed from the mean positions of the ball at its two walls, shape (2,).
     impact_phases : ndarray
-        Mean phases of impacts as fractions of the forcing period, in [0, 1). The shape (2, 2) stands for module and
-        wall (+1, -1).
+        Mean phases of impacts as fractions of the forcing period, in [0, 1), shape (2, 2). The indices are
+        [module, wall +1 / wall -1].
     """
 
     B: np.ndarray
