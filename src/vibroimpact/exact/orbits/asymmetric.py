@@ -87,8 +87,8 @@ class AsymmetricConditions:
         """Return the coefficients of I_1 and I_2 in the six equations, and the responses of the boxes to the impacts.
 
         The coefficients have shape (n, 6, 2). The responses are two arrays of shape (n, 4, 4): velocities and
-        accelerations. Entry [:, m, k] belongs to the box of impact m just before this impact. The entry is the response
-        to impact k, repeated in every period, if I_i = 1 in the module i of impact k.
+        accelerations. Entry [:, m, k] is the response to impact k, which is repeated in every period with I_i = 1. It
+        is the response of the box in the module of impact m, just before impact m.
         """
         system = self.system
         x, v, a = (system.epsilon * _KICKS * r for r in self._response.between(times, _BOXES))

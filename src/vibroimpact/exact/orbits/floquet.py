@@ -91,8 +91,8 @@ class Passage(NamedTuple):
 def impact_sequence(times: np.ndarray, period: float):
     """Return the times, modules and walls of the impacts of one period, each of shape (n,), in order of time.
 
-    times: impact times in [0, T) with the indices [module, wall +1 / wall -1], shape (2, 2). The times of a module
-    without impacts are NaN.
+    times: impact times in [0, T) with T = `period`, shape (2, 2). The indices are [module, wall +1 / wall -1]. The
+    times of a module without impacts are NaN.
     """
     # An impact at 0 is moved to T, since the state at tau = 0 is the state after this impact.
     within = np.where(times == 0, period, times).ravel()

@@ -36,7 +36,7 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
 
 
 def follow(equations: Callable, x: np.ndarray, values: Iterable[float], near: float) -> Iterator[tuple]:
-    """Yield pairs of a value of a parameter and the root of equations(value), shape (d,).
+    """Yield (value, root) for each parameter value in `values`; `root` is a root of equations(value), shape (d,).
 
     Newton's method starts at the previous root. At the first value of the parameter, it starts at `x`. The iteration
     ends if equations(value) raises ValueError, if the method finds no root, or if a component of the root differs by

@@ -367,10 +367,10 @@ def _state(system, times, changes, speeds, sign):
 
 
 def extremes(system, passage: Passage, balls: float = 1.0) -> np.ndarray:
-    """Return the largest |X_i - c Y_i| of each module at the extrema of X_i - c Y_i inside free flights, shape (2,).
+    """Return the largest |X_i - `balls` Y_i| of each module at extrema inside free flights, shape (2,).
 
-    The factor c is `balls`. With c = 1, the result is the largest |W_i|. With c = 0, it is the largest |X_i|. If there
-    are no extrema, the result is 0.
+    Only the extrema of X_i - `balls` Y_i are considered. If `balls` is 1, the result is the largest |W_i|. If `balls`
+    is 0, it is the largest |X_i|. If there are no extrema, the result is 0.
     """
     states, begins, durations = passage.flights()
     fastest = max(system.Omega, math.sqrt(np.linalg.norm(stiffness_matrix(system), 2)))

@@ -187,10 +187,12 @@ def _roots_of_condition(system, conditions):
 
 
 def _condition(conditions, delta, force):
-    """Return N_c^2 + N_s^2 - D^2 at each delta; this number is zero if c^2 + s^2 = 1.
+    """Return N_c^2 + N_s^2 - D^2 for each value in `delta`, shape (pieces, n).
 
-    By Cramer's rule, c = N_c / D and s = N_s / D are the cosine and sine of Omega tau_1.
-    delta: n values in each interval of delta, shape (pieces, n).
+    By Cramer's rule, N_c / D and N_s / D are the values of cos(Omega tau_1) and sin(Omega tau_1) that solve the linear
+    system. If their squares add up to 1, the result is zero.
+
+    delta: values of tau_2 - tau_1, one row of n values for each interval, shape (pieces, n).
     force: index of the pair of forces for each row of `delta`, shape (pieces, 1).
     """
     matrices, constant = conditions.linear_system(delta, force)
@@ -207,11 +209,13 @@ def _condition(conditions, delta, force):
 
 
 def _line_starts(matrices, constant):
-    """Return three first values (C_1, C_2, c, s) of Newton's method for each linear system, shape (n, 3, 4).
+    """Return three first values of Newton's method for each of n linear systems, shape (n, 3, 4).
 
-    One of the three is the solution of the system. The two others are points of a line. If the matrix is singular, as
-    for identical modules in phase, each point of this line solves the system. If a division by zero occurs, some of the
-    numbers are not finite.
+    A first value is (C_1, C_2, c, s), with c = cos(Omega tau_1) and s = sin(Omega tau_1). The first of the three is the
+    solution of the system. The two others are points of a line. If the matrix is singular, as for identical modules in
+    phase, each point of this line solves the system. If a division by zero occurs, some of the numbers are not finite.
+
+    matrices, constant: result of `SymmetricConditions.linear_system`.
     """
     u, values, v = np.linalg.svd(matrices)
     parts = constant @ u

@@ -28,7 +28,7 @@ class SteadyBoxes:
     sign: as in `ImpulseResponse`.
     start: state just after each impulse of a train, without forcing, shape (4, 2). Column j is for a train on box j.
     amplitude: complex amplitude of the motion under the forcing alone, shape (4, 1). This motion is
-    Im(amplitude exp(i omega tau)).
+    Im(amplitude exp(i Omega tau)).
     """
 
     def __init__(self, system, sign: int):
