@@ -1,7 +1,7 @@
 """Find periodic motions of any period and any sequence of events, by Newton's method on the stroboscopic map.
 
-The map takes the state at a time tau to the state `periods` forcing periods later. It is discontinuous if an event
-happens exactly at tau. Therefore tau is chosen in the middle of the longest interval without events.
+The map assigns to the state at a time tau the state after a given number of forcing periods. The map is discontinuous
+if an event happens exactly at tau. Therefore tau is chosen in the middle of the longest interval without events.
 """
 
 from dataclasses import dataclass
@@ -91,7 +91,7 @@ class PeriodicOrbit(Representation):
     def impacts(self) -> np.ndarray:
         """Number of impacts per period of the motion, shape (2, 2), with the indices [module, wall +1 / wall -1].
 
-        In a chatter (impacts at one wall in ever shorter flights), only the simulated impacts are counted.
+        In a chatter (impacts at one wall in ever shorter flights), only the first impacts are simulated and counted.
         """
         events = self._impacts
         return np.array([[np.sum((events["module"] == i) & (events["wall"] == w)) for w in (1, -1)] for i in (1, 2)])
@@ -104,7 +104,7 @@ class PeriodicOrbit(Representation):
 
     @property
     def residual(self) -> float:
-        """Largest difference between the states before and after one period."""
+        """Largest change of a component of the state over one period of the motion."""
         return _gap(self.run)
 
     @cached_property
@@ -173,10 +173,10 @@ def periodic_orbit(system: System, state: ArrayLike, periods: int = 1) -> Period
 
 
 def refined(system, state, periods) -> PeriodicOrbit:
-    """Return the motion near `state` that repeats after `periods` forcing periods or after a divisor of `periods`.
+    """Return the motion near `state` that repeats after `periods` forcing periods.
 
-    state: state at tau = 0, shape (8,). Raise ValueError if Newton's method does not converge. Raise ArithmeticError if
-    a run cannot be finished.
+    The motion may also repeat after fewer forcing periods. state: state at tau = 0, shape (8,). Raise ValueError if
+    Newton's method does not converge. Raise ArithmeticError if a run cannot be finished.
     """
     run = given = simulate(system, inactive_at_rest(system, state), periods)
     edges = np.array([run.tau0, *run.events["tau"], float(run.end)])
@@ -205,10 +205,10 @@ def refined(system, state, periods) -> PeriodicOrbit:
 
 
 def _determined(run):
-    """Return a mask of the coordinates that periodicity determines, shape (8,).
+    """Return a mask, shape (8,), that is True for the coordinates that periodicity determines.
 
-    These are the coordinates of the active modules except the coordinates of neutral balls. A neutral ball hits no wall
-    or has an immense mass. Periodicity does not determine its position.
+    The mask is False for inactive modules and for neutral balls. A ball is neutral if it hits no wall or has an immense
+    mass. Periodicity does not determine the position of a neutral ball.
     """
     changes = np.abs(run.jacobian - np.eye(8))
     turned = changes[[5, 7]].max(axis=1) > _NEUTRAL * max(1.0, changes.max())
@@ -232,7 +232,7 @@ def _nearer(run, step):
 
 
 def _with_free_balls_at_rest(system, x, periods, begin):
-    """Return the run from state `x`, in which neutral balls (see `_determined`) start with velocity 0.
+    """Return the run from the state `x`, but with velocity 0 of all neutral balls (see `_determined`) at its start.
 
     With another velocity, a neutral ball would drift.
     """
