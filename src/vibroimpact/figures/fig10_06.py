@@ -190,9 +190,10 @@ def singular_points_outside(table: pd.DataFrame, panel: str) -> str:
 
 
 def draw_plane(axes, table: pd.DataFrame, panel: str) -> dict:
-    """Draw the plane (C_i, B_i) of one panel, and return the names of its points with their lines.
+    """Draw the plane (C_i, B_i) of one panel, and return the names of the points.
 
-    The result has the form of the argument `panels` of `name_curves`.
+    The result is a dict for the argument `panels` of `name_curves`. The keys are axes, and the values are lists of
+    pairs. A pair contains the name of a point, and a list with the Line2D object of this point.
     """
     module = panel[-1]
     end = select(table, panel, "SIM stable")["C"].iloc[-1]

@@ -100,9 +100,10 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def draw_response(axes, table: pd.DataFrame, module: int) -> dict:
-    """Draw the coordinates and walls of one module against tau, and return the names of the curves with their lines.
+    """Draw the coordinates and walls of one module against tau, and return the names of the curves.
 
-    The result has the form of the argument `panels` of `name_curves`.
+    The result is the dict {axes: pairs} for the argument `panels` of `name_curves`. A pair contains the name of a
+    curve, and a list with the Line2D object of this curve.
     """
     lines = {name: select(table, f"module {module}", f"{name}_{module}") for name in COORDINATES}
     time_plot(axes, [(line["tau"], line["value"], COORDINATES[name]) for name, line in lines.items()])

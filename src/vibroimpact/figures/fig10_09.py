@@ -1,4 +1,4 @@
-"""Figure 10.9: fixed points and singular points for unequal forces, drawn as figure 10.6."""
+"""Figure 10.9: fixed points and singular points for unequal forces, in the form of figure 10.6."""
 
 import pandas as pd
 from matplotlib.figure import Figure

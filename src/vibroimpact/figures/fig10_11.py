@@ -1,4 +1,4 @@
-"""Figure 10.11: the strongly modulated response, drawn as figure 10.8."""
+"""Figure 10.11: the strongly modulated response, in the form of figure 10.8."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -46,9 +46,9 @@ SPEC = {
 
 
 def compute(system, samples: pd.DataFrame, events: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """Return two tables: the motion as in figure 10.8, and statistics of the amplitudes of both boxes.
+    """Return two tables: the motion of module 2, and statistics of the amplitudes of both boxes.
 
-    The keys of the tables are "csv" and "statistics".
+    The keys of the tables are "csv" and "statistics". The table "csv" has the columns of figure 10.8.
     """
     return {"csv": simulated.compute(system, samples, events), "statistics": simulated.statistics(system, samples)}
 

@@ -113,7 +113,10 @@ def _motions(module, system, settings, models, seconds):
 
 
 def _simulations(module, system, settings, models, seconds):
-    """Return one tuple per model of a simulated motion: model, name of the reference, error [percent], run time [s]."""
+    """Return one tuple per model: model, name of the reference, error [percent], run time [s].
+
+    The function is for figures that show a simulated motion.
+    """
     whole = window(system, settings | {"model": "float64"})
     # The compared runs start after the transient, since the transient takes a minute in arbitrary precision.
     part = settings | {"initial_state": whole.samples[list(NAMES)].iloc[0].tolist(), "transient_cycles": 0}
@@ -138,9 +141,9 @@ def _simulations(module, system, settings, models, seconds):
 def largest_error(table, reference) -> float:
     """Return the largest difference between two tables of a figure [percent].
 
-    The points P_i or the curves are compared; curves are compared at the times that are in both tables. A difference in
-    a column is divided by the range of the column in the same panel of `reference`. The result is inf if a table is
-    None, or if the tables contain different points P_i.
+    The compared quantities are the points P_i and the curves. Curves are compared at the times that are in both tables.
+    A difference in a column is divided by the range of this column in `reference`. Each panel has its own range. The
+    result is inf if a table is None, or if the tables contain different points P_i.
     """
     if table is None or reference is None:
         return np.inf
@@ -156,7 +159,7 @@ def largest_error(table, reference) -> float:
 
 
 def _plotted(table, column):
-    """Return the values of one column that `largest_error` compares, as a pandas Series.
+    """Return one column of a table as a pandas Series, with only the rows that `largest_error` compares.
 
     The index is (panel, series) for the points P_i, and (panel, series, tau) for curves.
     """

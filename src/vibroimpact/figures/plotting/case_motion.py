@@ -61,10 +61,9 @@ def exact(displacements, per_cycle: int, impacts: pd.DataFrame, period: float) -
 
 
 def flights(impacts: pd.DataFrame, period: float) -> list[tuple[int, float, float]]:
-    """Return the mean flight times of each ball that leaves both walls.
+    """Return one tuple per ball: module, mean duration of flights from wall +1, mean duration of flights from wall -1.
 
-    A tuple contains the module, the mean duration of flights from wall +1, and that of flights from wall -1. Durations
-    are in forcing periods.
+    Durations are in forcing periods. A ball without flights from both walls has no tuple.
     """
     found = []
     for module, mine in impacts.groupby("module"):

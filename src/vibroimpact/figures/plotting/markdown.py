@@ -24,7 +24,7 @@ def plain(text) -> str:
 
 
 def code(text) -> str:
-    """Return a text, which may contain any number of backticks, as inline code."""
+    """Return a text as inline code; the text may contain any number of backticks."""
     text = one_line(text)
     fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
     return f"{fence} {text} {fence}" if "`" in text else f"{fence}{text}{fence}"
@@ -37,7 +37,7 @@ WORDS = {"None": "–", "nan": "–", "inf": "∞", "True": "yes", "False": "no"
 def digits(value, number: int = 3) -> str:
     """Return a value as text; numbers have `number` significant digits.
 
-    Numbers are written with a power of ten if their modulus is at least 1e6, or below 1e-4 and not 0. The texts in
+    Numbers other than 0 are written with a power of ten if their modulus is at least 1e6 or below 1e-4. The texts in
     WORDS replace None, NaN, infinity, True and False.
     """
     try:

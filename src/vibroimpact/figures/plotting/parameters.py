@@ -12,8 +12,8 @@ OF_ALL = ("figure", "alt", "case", "inputs")
 def refuse_unknown(shell, known) -> None:
     """Raise ValueError if a parameter cell of a notebook assigns an unknown name.
 
-    shell: running IPython shell. known: names of the parameters of this notebook, without the names in OF_ALL, which
-    all notebooks have.
+    shell: running IPython shell. known: names of the parameters of this notebook. The parameters in OF_ALL are also
+    allowed; all notebooks have them.
     """
     cells = shell.user_ns["In"]
     last = max(number for number, source in enumerate(cells) if source.startswith(FIRST))

@@ -129,14 +129,15 @@ def write_and_draw(figure, computed, outputs: dict) -> None:
 
 
 def shown(figure, inputs: dict, *args, **settings) -> tuple:
-    """Return the tables of a figure as `figure.compute` returns them, and the PNG of the figure.
+    """Return the tables of a figure as `figure.compute` returns them, and the PNG of the figure as a path or as bytes.
 
     figure: Python module of the figure.
-    inputs: path of each table, with the name of the table as its key, and path of the PNG, with the key "png".
+    inputs: paths of files. The path of a table has the name of the table as its key. The path of the PNG has the key
+    "png".
     args, settings: arguments of `figure.compute`.
 
-    The tables are read from their paths, and the path of the PNG is returned. If `inputs` is empty, the figure is
-    computed and drawn, and the bytes of the PNG are returned.
+    If `inputs` contains paths, the tables are read from their files, and the PNG is returned as its path. If `inputs`
+    is empty, the figure is computed and drawn, and the PNG is returned as bytes.
     """
     if not inputs:
         computed = figure.compute(*args, **settings)
