@@ -10,11 +10,10 @@ oscillator with the damping ratio zeta = D / sqrt(2 (n + 1) K mu). A contact las
 Therefore the restitution coefficient is exp(-pi zeta / sqrt(1 - zeta^2)) at every speed (Antypov and Elliott 2011, for
 n = 3/2).
 
-If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. A contact begins at p = 0 with speed V and
-ends at p = 0 with speed -kappa V. So the right-hand side integrates to zero. The left-hand side then gives
-(1 + kappa) d = log((1 + d) / (1 - kappa d)), where d = D V / K and V is the speed at the beginning of the contact. This
-equation determines d from kappa alone. So D must be proportional to 1 / V. Therefore D is set anew at each impact (as
-by Lankarani and Nikravesh, 1990).
+If m = n (Hunt and Crossley 1975), V dV / (1 + D V / K) = -K p^n dp / mu. A contact begins at p = 0 with a speed
+V = V_0, and ends at p = 0 with V = -kappa V_0. So the right-hand side integrates to zero. The left-hand side then gives
+(1 + kappa) d = log((1 + d) / (1 - kappa d)), where d = D V_0 / K. This equation determines d from kappa alone. So D
+must be proportional to 1 / V_0. Therefore D is set anew at each impact (as by Lankarani and Nikravesh, 1990).
 """
 
 import math
@@ -84,7 +83,10 @@ def damping_ratio(kappa: float) -> float:
 
 
 def hunt_crossley_number(kappa: float) -> float:
-    """Return d = D V / K, the solution in (0, 1 / kappa) of (1 + kappa) d = log((1 + d) / (1 - kappa d))."""
+    """Return the solution d in (0, 1 / kappa) of (1 + kappa) d = log((1 + d) / (1 - kappa d)).
+
+    In a contact that begins with the speed V_0, d = D V_0 / K.
+    """
     if 1.0 - kappa < NEARLY_ELASTIC:
         return 1.5 * (1.0 - kappa)
 

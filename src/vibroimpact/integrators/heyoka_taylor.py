@@ -1,10 +1,10 @@
 """Integrate with heyoka's adaptive Taylor method; callbacks of wall events apply the impact law.
 
 Sine and cosine of the forcing phase are two further states. Therefore the Taylor recursion contains no transcendental
-functions. No faster use of heyoka was found.
+functions. This is the fastest use of heyoka that was found.
 
-After an event, heyoka does not detect the same event again until a short time, the cooldown, has passed. An impact at
-the end of a very short flight could be missed. Therefore a ball sticks if its rebound is slower than
+After an event, heyoka ignores the same event for a short time. This time is called the cooldown. An impact at the end
+of a very short flight could therefore be missed. To avoid this, a ball sticks if its rebound is slower than
 max(sqrt(tolerance), SLOWEST) and its box presses it against the wall.
 """
 

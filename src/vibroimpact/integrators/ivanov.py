@@ -137,8 +137,8 @@ def _impact(tau, i, box, direction, speed, k):
 def _march_across_jumps(q, k, z, tau0, h, count):
     """Take `count` steps of length h without locating the jumps.
 
-    Return the last coordinates, the cells of the balls, the impacts, the number of steps, and NaN. The NaN means that
-    no endless chatter was detected, as in `_march_to_jumps`. This function cannot detect an endless chatter.
+    Return the last coordinates, the cells of the balls, the impacts, the number of steps, and NaN. The NaN stands in
+    place of the time of an endless chatter (see `_march_to_jumps`), which this function cannot detect.
     """
     rows = [(0.0, 0.0, 0.0, 0.0) for _ in range(0)]
     before, boxes, signs = np.zeros(2, np.int64), np.zeros(2, np.int64), np.ones(2)
@@ -189,9 +189,10 @@ def _march_to_jumps(q, k, z, tau0, h, count):
 
 @disk_cached()
 def _first_jump(tau, z, part, h, q, k, boxes, signs):
-    """Locate the first jump of the right-hand side within the fraction `part` of a step of length h.
+    """Locate the first jump of the right-hand side in a step of length `part` times h.
 
-    Return the fraction of the step that ends just after the jump, and the coordinates at its end.
+    Shorten the step so that it ends just after the jump. Return its length divided by h, and the coordinates at its
+    end.
     """
     least, ahead = 0.0, _step(tau, z, part * h, q, k, boxes, signs, False)
     for _ in range(HALVINGS):

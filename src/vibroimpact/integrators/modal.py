@@ -53,8 +53,9 @@ class Modal(Method):
 def modes(system) -> tuple[tuple[np.ndarray, ...], float]:
     """Return tables of the modes in the four contact states, and the largest condition number of the eigenvectors.
 
-    A contact state says which balls stick; it is the first axis of each table. Axes of length 2 hold real and imaginary
-    parts. A conjugate pair of eigenvalues gives one mode, whose shape is twice one eigenvector. The tables are:
+    A contact state says which balls stick. The first axis of each table is the contact state. Axes of length 2 hold
+    real and imaginary parts. A conjugate pair of eigenvalues gives one mode, whose shape is twice one eigenvector. The
+    tables are:
 
     - the number of modes, shape (4,); the last mode is the forced response,
     - the rates (eigenvalues) of the modes, shape (4, 2, 5),
@@ -131,7 +132,7 @@ def _state(s, walls, count, shape, amplitudes, t, there):
 
 @inlined()
 def _guess(before, there, i, low, high):
-    """Return an estimate of the time between `low` and `high` at which ball i reaches a wall.
+    """Return an estimate of the time at which ball i reaches a wall; the time is between `low` and `high`.
 
     W is approximated by the cubic polynomial that has the values and slopes of W at the times `low` and `high`.
     """
@@ -179,8 +180,9 @@ def _march(q, tables, s, tau, end, step, limit):
 def _fly(q, flight, tau, length, stride, most, memory):
     """Sample a flight until an event occurs, until the time `length` has passed, or until `most` samples are taken.
 
-    Return the module of the event (-1 without an event), the time since the start of the flight, and the number of
-    samples. Write the state at this time to memory[2].
+    Return the module of the event (-1 without an event), the time of the event, and the number of samples. The time is
+    counted from the start of the flight. Write the state at this time to memory[2]. Without an event, the time and the
+    state are those of the last sample.
     """
     (s, walls, count, shape, rates, amplitudes), (step, ahead), (modes, states, reached) = flight, stride, memory
     (now, trial, turns), (before, there, event) = modes, states
@@ -213,9 +215,9 @@ def _fly(q, flight, tau, length, stride, most, memory):
 
 @inlined()
 def _event(q, flight, tau, i, times, states, memory, event):
-    """Return the time between two samples at which the function `guard` of module i falls through zero.
+    """Return the time at which the function `guard` of module i falls through zero.
 
-    `event` receives the state at this time.
+    The time is between the two samples at `times`. `event` receives the state at this time.
     """
     (s, walls, count, shape, rates, amplitudes), (turns, trial) = flight, memory
     (low, high), (before, there) = times, states

@@ -36,7 +36,7 @@ _STAGES = np.array(RK45.A), np.array(RK45.B), np.array(RK45.C), np.array(RK45.E)
 class Penalty(Method):
     """Integration with compliant walls; the setting is the duration of a contact [forcing periods].
 
-    The duration is that of an undamped contact at speed 1.
+    A contact has this duration if it is undamped and begins with the speed 1.
     """
 
     family, knob, order = "compliant contact", "contact duration", 1
@@ -67,7 +67,7 @@ class Penalty(Method):
 class PowerLaw(Penalty):
     """Integration with a spring force K W^(2n - 1) instead of walls; the setting is n.
 
-    A ball with relative speed 1 at W = 0 reverses its relative motion at W = 1.
+    K is chosen so that a ball with relative speed 1 at W = 0 reverses its relative motion at W = 1.
     """
 
     knob = "exponent"
@@ -88,8 +88,9 @@ def law_numbers(law: Law, stiffness: float, damping: float, contact: float) -> n
     """Return [n, m, K, D, power, start, contact] of a contact law K p^n + D p^m p', shape (7,).
 
     n, m: exponents of the depth p in the spring force and in the damping force.
-    K, D: coefficients of the spring force and, for a contact at speed V = 1, of the damping force.
-    power: exponent in the damping coefficient D V**-power of a contact at another speed V.
+    K: coefficient of the spring force.
+    D: coefficient of the damping force in a contact that begins with the speed 1.
+    power: exponent of the speed V at the beginning of a contact. The damping coefficient of the contact is D V**-power.
     start: value of |W| at which the depth p is 0.
     contact: value of |W| at which a contact begins.
     """

@@ -53,7 +53,7 @@ def _step(tau, s, q, walls, h, slopes, there):
 
 @inlined()
 def _event(tau, s, q, walls, i, high, slopes, event):
-    """Return the step length, at most `high`, at which the function `guard` of module i falls to zero.
+    """Return the step length at which the function `guard` of module i falls to zero; it is at most `high`.
 
     `event` receives the state after this step.
     """
