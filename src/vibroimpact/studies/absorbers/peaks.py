@@ -29,7 +29,7 @@ class CycleMaxima:
     Each of m systems runs from each of n initial states.
 
     largest: larger of max |X_1| and max |X_2| in each observed cycle, shape (m, n, cycles); nan for unfinished runs.
-    rms: largest root mean square of a box displacement over the observed cycles, among all boxes and finished runs.
+    rms: largest of the root mean squares of X_1 and X_2, each over the observed cycles of one finished run.
     unfinished: number of unfinished runs.
     """
 

@@ -132,8 +132,8 @@ def _levels(logarithms, system, frequencies, scale):
 
     logarithms: logarithms of `Tuning.frequency` and `Tuning.damping`, shape (4,).
 
-    An amplitude below 1e-12 times the largest amplitude is replaced by this bound. Otherwise the logarithm would be
-    infinite for a box at rest.
+    Each amplitude is raised to at least 1e-12 times the largest amplitude. Otherwise the logarithm would be infinite
+    for a box at rest.
     """
     amplitudes = tuned(system, _tuning(logarithms), scale).amplitudes(frequencies)
     return np.log(np.maximum(amplitudes, 1e-12 * amplitudes.max())).ravel()
