@@ -12,7 +12,9 @@ from vibroimpact.system.chapter import CASES, PARAMETERS
 class Simulation:
     """Simulation of a case after the transient.
 
-    samples: table with one row per sample time. events: table with one row per event. summary: settings and results.
+    samples: table with one row per sample time.
+    events: table with one row per event.
+    summary: settings and results of the simulation, by name.
     """
 
     samples: pd.DataFrame
@@ -47,7 +49,7 @@ class Evidence:
 
     @property
     def system(self) -> System:
-        """System of the case "equal"; checks take from it the parameters that all cases of the chapter share."""
+        """System of the case "equal"; its parameters except the forces are the same in all cases of the chapter."""
         return self.systems["equal"]
 
     def points(self, case: str) -> pd.DataFrame:
@@ -67,5 +69,8 @@ class Evidence:
         return self.modulation.query("case == @case and start == @start and quantity == @quantity")
 
     def shares(self, case: str) -> pd.Series:
-        """Return, for each regime, the share of the evenly spread initial states whose motion ends in this regime."""
+        """Return a series with the share of the initial states that lead to each regime, indexed by regime.
+
+        Only the evenly spread initial states of the case are counted.
+        """
         return self.measured(case, "spread", "share of starts").set_index("regime")["mean"]

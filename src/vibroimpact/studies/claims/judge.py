@@ -1,14 +1,14 @@
 """Judge each claim of the chapter by a computed check; no verdict is written by hand.
 
-docs/studies/claims.yaml lists the claims. Each claim has the keys
+docs/studies/claims.yaml lists the claims. Each claim has these keys:
 
 - id: name of the claim,
-- place: equation, figure or passage of the chapter with the claim,
+- place: equation, figure or passage of the chapter that contains the claim,
 - statement: text of the claim,
 - check: name of a function in one of the `MODULES`,
-- refuted_by: a result that would refute the claim,
+- refuted_by: a result that would refute the claim.
 
-and may have the keys
+A claim may also have these keys:
 
 - arguments: arguments of the check,
 - central: true for an important claim,

@@ -94,11 +94,11 @@ def printed_condition(evidence):
 
 
 def _limits_of_the_captions(evidence):
-    """Return both ends of the open interval of limits that could replace (10.26) and agree with all CAPTIONS.
+    """Return both ends of an open interval; it contains the lower limits of C that agree with all CAPTIONS.
 
-    By such a limit, a fixed point is stable if both C_1 and C_2 exceed the limit. A limit agrees with the captions if
-    the same fixed points are stable by the limit and by the captions. The interval ends at the fold of the manifold or
-    below it, since a part of the left arm must be stable.
+    Each of these limits could replace (10.26). By a limit, a fixed point is stable if both C_1 and C_2 exceed the
+    limit. A limit agrees with the captions if the same fixed points are stable by the limit and by the captions. The
+    interval ends at the fold of the manifold or below it, since a part of the left arm must be stable.
 
     If the labels of fixed points were exchanged, the interval would stay the same or become empty. The reason is that
     by every limit, the stable fixed points are those with the largest min(C_1, C_2).

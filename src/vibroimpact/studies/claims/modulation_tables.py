@@ -1,4 +1,4 @@
-"""Tabulate, for the motions in each regime, Lyapunov spectra and measures of the modulation with uncertainties."""
+"""Tabulate Lyapunov spectra and measures of the modulation, with uncertainties, for the motions in each regime."""
 
 import numpy as np
 import pandas as pd
@@ -39,7 +39,7 @@ def modulation_tables(
         `cycles`.
 
     The tables are "measures", "windows" and "spectra". The table "windows" describes strongly modulated motions from
-    spread initial states. Module 0 stands for both modules.
+    spread initial states. In the column "module", the number 0 stands for both modules.
 
     The uncertainty of a share of initial states is its binomial standard error. All other uncertainties are standard
     errors of the mean over the runs. For a single run, only the Lyapunov exponent has an uncertainty. This uncertainty

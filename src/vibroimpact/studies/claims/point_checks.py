@@ -137,14 +137,15 @@ def _followed(evidence, before, after, C):
 
 
 def singular_and_bifurcating(evidence, case, f20_range):
-    """Check whether fixed points bifurcate where a fixed point P_i coincides with a singular point S_i.
+    """Check whether fixed points bifurcate where a fixed point coincides with a singular point.
 
-    The force at which P_i and S_i coincide is compared with the force at which two fixed points merge.
+    At a singular point, the determinant of (10.24) is 0. The force f20_hat at which both points coincide is compared
+    with the force at which two fixed points merge.
     """
     system = evidence.systems[case]
 
     def on_branch(f20):
-        """Return the determinant of (10.24) at the fixed point with the second largest C_2."""
+        """Return the determinant of (10.24) for the force f20, at the fixed point with the second largest C_2."""
         there = system.with_(f20_hat=f20)
         return determinant(there, sorted(fixed_points(there), key=lambda point: point.C[1])[-2].C)
 
@@ -196,9 +197,10 @@ def places_of_singular_points(evidence, case, label):
 
 
 def _other_determinant(system, C):
-    """Return the determinant for the second way of eliminating the phases, (|K|^4 - |a_1 a_2|^2) |z_1 z_2|^2.
+    """Return the determinant that results from the second way of eliminating the phases.
 
-    The symbols are those of docs/derivation.md, section 8. The factor |z_1 z_2|^2 keeps the determinant finite.
+    It is (|K|^4 - |a_1 a_2|^2) |z_1 z_2|^2, in the symbols of docs/derivation.md, section 8. The factor
+    |z_1 z_2|^2 keeps the determinant finite.
     """
     balance = Balance.of(system)
     z, q = balance.at(C)
