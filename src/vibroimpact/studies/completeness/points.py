@@ -14,7 +14,10 @@ Interval boxes that are undecided at the smallest width are reported.
 
 The functions of a chart are computed in interval arithmetic and expanded to second order about the centre of an
 interval box. The bound on the remainder holds in the enlarged interval box. Where the interval of Delta excludes 0, the
-phases are unique. An inactive module i (uncoupled and without force) has the condition x_i = 0 instead, and q_i = 1.
+phases are unique.
+
+A module is inactive if it is uncoupled and has no force. For an inactive module i, the condition x_i = 0 replaces the
+condition |Delta|^2 - |beta_i m_i|^2 = 0. The function q_i, on which Delta and m_1, m_2 depend, is then set to 1.
 """
 
 import functools
@@ -124,7 +127,10 @@ def _matched(boxes, points):
 
 
 def _in_amplitudes(pair, box) -> Box:
-    """Return the intervals of C_i for the intervals `box` of x_i: x_i is C_i on the chart SMALL, 1 / C_i on LARGE."""
+    """Return the intervals of C_i that correspond to the intervals `box` of x_i.
+
+    On the chart SMALL, x_i is C_i. On the chart LARGE, x_i is 1 / C_i.
+    """
     ends = []
     for name, (low, high) in zip(pair, box, strict=True):
         if name == LARGE:
@@ -156,7 +162,7 @@ def _all_zeros(system, pairs):
 
 
 def _active(system, both) -> tuple:
-    """Return the entries of the active modules; `both` has one entry per module."""
+    """Return the entries of `both` that belong to active modules; `both` has one entry per module."""
     return tuple(both[module - 1] for module in system.modules)
 
 
@@ -189,10 +195,12 @@ def _subdivide(conditions):
 
 
 def _narrowed(conditions, x, y, half):
-    """Return the centre and half-width of a small interval box about the only zero in a wide interval box, or None.
+    """Return (centre x, centre y, half-width) of a small interval box about the only zero in a wide interval box.
 
-    x, y, half: centre and half-width of the wide interval box. None means that the wide interval box cannot be
-    narrowed, or that the phases at the zero are not unique.
+    x, y, half: centre and half-width of the wide interval box.
+
+    If the wide interval box cannot be narrowed, return None. If the phases at the zero are not proved unique, return
+    None too.
     """
     while half > _ISOLATED_WIDTH:
         _, (x, y, half) = conditions.count(x, y, half)
@@ -269,8 +277,9 @@ class _Conditions:
     def _expanded(self, module, at, half):
         """Return z, q = e z + n, beta^2 and |m|^2 as polynomials in t = (x - at) / half.
 
-        m is the numerator of the other module, a function of z and q. The highest coefficients of z, q, beta and m
-        include the remainder for |t| <= _REACH.
+        z, q and beta belong to `module`. m belongs to the other module and is a function of z and q.
+
+        The highest coefficients of z, q, beta and m include the remainder for |t| <= _REACH.
         """
         exact, wide = (_functions(self.names[module], arb(at, radius), self.kappa) for radius in (0, _REACH * half))
         powers = [arb(half) ** k for k in range(_ORDERS)]
