@@ -150,7 +150,12 @@ def compute(system, response, clearance, design, band: dict, seed: int, cycles: 
 
 
 def _peaks(system, table):
-    """Return the table with the new columns clearance (1 / f), kappa and ratio (peak / f); f is epsilon f10_hat."""
+    """Return the table of a sweep with three more columns, where f is epsilon f10_hat.
+
+    clearance: 1 / f.
+    kappa: restitution coefficient.
+    ratio: peak / f.
+    """
     force, kappa = system.epsilon * table["f10_hat"], table.get("kappa", system.kappa)
     return table.assign(clearance=1 / force, kappa=kappa, ratio=table["peak"] / force)
 

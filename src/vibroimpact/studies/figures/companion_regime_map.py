@@ -173,7 +173,8 @@ def _pieces(corners, crossing):
     If the border crosses two sides of the square, one piece joins both crossings. If it crosses four sides, a piece
     leads from each crossing to the mean of the crossings.
 
-    corners: list from `_squares`. crossing: function that returns the crossing between two corners.
+    corners: list from `_squares`.
+    crossing: function of two corners that returns the point at which the border crosses the side between them.
     """
     sides = [sorted(pair) for pair in zip(corners, corners[1:] + corners[:1], strict=True) if pair[0][1] != pair[1][1]]
     ends = [crossing(first, second) for first, second in sides]

@@ -52,8 +52,8 @@ def compute(table: pd.DataFrame, axes: list[dict]) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        The columns are panel, series, the first parameter of each axis, value, along and scale. The columns along and
-        scale contain the settings of all axes, separated by "; ".
+        The columns are "panel", "series", one column for the first parameter of each axis, "value", "along" and
+        "scale". The columns "along" and "scale" contain the settings of all axes, separated by "; ".
     """
     moved = [axis["along"][0] for axis in axes]
     curves = [
