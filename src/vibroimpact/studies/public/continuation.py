@@ -59,9 +59,9 @@ def branches(
         A branch has .family, .nodes (in order), .special (nodes that are special points) and .closed (True if the last
         node is also the first). The end nodes may lie one step beyond `between`.
 
-        A node has .p (the parameter), .amplitudes (C_1 and C_2), .kind, .stable and .admissible. The .kind is the kind
-        of special point, or "" for all other nodes. .admissible is False for an orbit that is not a motion. At a
-        special point, .stable and .admissible are None.
+        A node has .p (the parameter), .amplitudes (C_1 and C_2), .kind, .stable and .admissible. At a special point,
+        .kind is a name such as "fold", and .stable and .admissible are None. At all other nodes, .kind is "". For an
+        orbit, .admissible is False if a ball passes a wall or a ball speed is not positive.
 
         `to_frame` divides branches into pieces at their special points, and returns one row per node of a piece. A
         special point has a row in both pieces that it joins.
