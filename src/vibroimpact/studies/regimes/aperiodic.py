@@ -33,8 +33,11 @@ CHAOTIC_REGIMES = {AT_TIMES: STRONGLY_MODULATED, ALWAYS: CHAOTIC, NEVER: HOPPING
 def name_aperiodic(run: Run, blocks: int, block: int) -> str:
     """Return the regime of a motion that does not repeat.
 
-    blocks: number of blocks in each run for the Lyapunov exponent.
-    block: number of forcing cycles in each block of the first of these runs.
+    The Lyapunov exponent is computed from a run of `blocks` blocks. If the exponent is not certainly positive, it is
+    computed again from a longer run.
+
+    blocks: number of blocks, the same in both runs.
+    block: length of each block of the first run, in forcing cycles.
     """
 
     def of_length(cycles):

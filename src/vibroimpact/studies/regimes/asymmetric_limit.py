@@ -24,7 +24,8 @@ _MOST_NODES = 6
 class Station:
     """An exact asymmetric orbit at one value of epsilon.
 
-    system: system with this value of epsilon. root: solution of `AsymmetricConditions` for the orbit, shape (6,).
+    system: system with this value of epsilon.
+    root: solution of `AsymmetricConditions` for the orbit, shape (6,).
     """
 
     system: object
@@ -42,11 +43,11 @@ class Station:
 
 
 def follow(system, root, values) -> list[Station]:
-    """Return the asymmetric orbit with the given root, followed by one orbit for each epsilon in `values`.
+    """Follow an asymmetric orbit to smaller epsilon; return its Station at the start and at each epsilon in `values`.
 
     The returned list ends early if the orbit becomes symmetric or if Newton's method fails.
 
-    root: solution of `AsymmetricConditions`, shape (6,).
+    root: solution of `AsymmetricConditions` for the orbit at the start, shape (6,).
     values: decreasing values of epsilon.
     """
     root = np.asarray(root, dtype=float)
@@ -60,9 +61,10 @@ def follow(system, root, values) -> list[Station]:
 
 
 def offset(station, point) -> np.ndarray:
-    """Return the coordinates `station.place` of an orbit, minus those of the fixed point `point`, shape (6,).
+    """Return the coordinates of an orbit minus the coordinates of a fixed point.
 
-    If only one module is active, the shape is (3,).
+    The coordinates of the orbit are `station.place`. The result has the shape (6,), or (3,) if only one module is
+    active.
     """
     difference = station.place - np.concatenate([point.C, point.squared, point.middle + point.psi])
     difference[4:] = np.angle(np.exp(1j * difference[4:]))

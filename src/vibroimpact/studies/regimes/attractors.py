@@ -241,7 +241,7 @@ def _same(one, other):
 
 
 def _moving(regime):
-    """Return the positions, in the state, of the displacements of boxes and moving balls.
+    """Return the indices in a state at which the displacements of boxes and moving balls are stored.
 
     Only active modules are included. A ball moves if its velocity is nonzero in at least one sample.
     """

@@ -15,8 +15,8 @@ MIRRORED = "asymmetric, mirrored"
 def stable_response(system):
     """Return a stable asymmetric orbit, or None if there is none.
 
-    Of several orbits, return the one with the longest flight from wall +1 to wall -1. The flight is that of the ball in
-    the first active module.
+    Of several orbits, return the one with the longest flight from wall +1 to wall -1. Only flights of the ball in the
+    first active module are compared.
     """
     stable = [o for o in orbits(system) if o.admissible and not o.symmetric and abs(o.multipliers[0]) < 1]
     first = system.modules[0] - 1 if stable else None

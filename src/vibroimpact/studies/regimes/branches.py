@@ -172,7 +172,7 @@ def branches(
 
 
 def images(family, system, x, near) -> list[np.ndarray]:
-    """Return the root x and, for asymmetric orbits, also the root of the mirror image.
+    """Return a list with the root x. For an asymmetric orbit, the list also has the root of the mirror image.
 
     The angles of each root (impact times or phases) are shifted by whole periods. Each angle then differs from the
     corresponding angle of the root `near` by at most half a period.
@@ -248,8 +248,8 @@ def _node(family, path, z, kind="", member=None):
 def _special(family, path, curve, before, tests, after, values):
     """Return the special points between the neighbouring Places `before` and `after`, in order along the curve.
 
-    tests: value of each test function at `before`. values: value of each test function at `after`. The keys of both
-    dicts are the kinds of special points.
+    tests: values of the test functions at `before`, by kind of special point. The kind "fold" is not included.
+    values: values of the same test functions at `after`.
     """
 
     def test(z, kind):

@@ -38,7 +38,7 @@ parameter."""
 class Regime:
     """A motion that is observed over some whole forcing cycles (a window), and its regime.
 
-    run: run over the window, with samples every half period.
+    run: the simulated motion in the window, with samples every half period.
     name: name of the regime, one of REGIMES.
     repeats: number of cycles after which the motion repeats, or None if the motion does not repeat.
     """
@@ -56,7 +56,7 @@ class Regime:
     def mean_amplitudes(self) -> np.ndarray:
         """Mean saw-tooth amplitude C_i of each ball, shape (2,).
 
-        A ball that moves in a saw-tooth of amplitude C_i covers the same distance per cycle as ball i on average.
+        A saw-tooth motion of amplitude C_i covers as much distance per cycle as ball i covers on average.
         """
         run, paths = self.run, []
         for module, ball in ((1, 1), (2, 3)):
@@ -66,7 +66,11 @@ class Regime:
 
     @property
     def flight_asymmetry(self) -> float:
-        """Share of time in flights from wall -1 minus share of time in flights from wall +1, summed over both balls."""
+        """Flight asymmetry, summed over both balls.
+
+        The flight asymmetry of a ball is the share of time in its flights from wall -1, minus the share of time in its
+        flights from wall +1.
+        """
         total = 0.0
         for module in (1, 2):
             mine = self.impacts[self.impacts["module"] == module]
@@ -115,8 +119,9 @@ def _approaches(run, motion, repeats, multiplier):
     Therefore the run is continued. Its distance from the periodic motion must shrink at half of the exponential rate
     that the largest multiplier predicts, or faster.
 
-    motion: a run along the periodic motion, which starts near the final state of `run`. repeats: number of cycles after
-    which the periodic motion repeats. multiplier: modulus of the largest multiplier of the periodic motion.
+    motion: a run along the periodic motion, which starts near the final state of `run`.
+    repeats: number of cycles after which the periodic motion repeats.
+    multiplier: modulus of the largest multiplier of the periodic motion.
     """
     size = len(run.samples)
     before = _distance(run, motion.samples[(np.arange(size) - size + 1) % (_PER_CYCLE * repeats)])

@@ -85,7 +85,8 @@ class Curve:
     def place(self, z: np.ndarray, ahead: np.ndarray) -> Place:
         """Return the Place at a point z of the curve.
 
-        The vector `ahead`, shape (d + 1,), selects the sign of the tangent: their scalar product is positive.
+        The vector `ahead`, shape (d + 1,), selects the sign of the tangent: the scalar product of `ahead` and the
+        tangent is positive.
         """
         by_z = self._by_z(z)
         tangent = np.linalg.svd(by_z)[2][-1]
@@ -148,7 +149,10 @@ class Curve:
                 return
 
     def zero(self, function: Callable, place: Place, end: np.ndarray) -> np.ndarray:
-        """Return the point z of the curve, between `place` and a later point `end`, at which function(z) is 0."""
+        """Return the point z of the curve at which function(z) is 0.
+
+        The point z is sought between `place` and `end`, a later point of the curve.
+        """
         steep = abs(place.tangent[-1]) > _STEEP
         reach = (end - place.z)[-1] / place.tangent[-1] if steep else place.tangent @ (end - place.z)
         try:
@@ -306,8 +310,10 @@ class Curve:
         """Bisect the curve between two Places; return two close Places at which `before` has different values.
 
         The function `before` returns True for the first of the close Places, and False for the second. The close Places
-        are at most _RESOLVED apart. Bisection ends earlier if dF/dz is singular at the first one and no step succeeds.
-        If the curve does not join `place` and `after`, return None.
+        are at most _RESOLVED apart.
+
+        If the curve does not join `place` and `after`, return None. If no step succeeds, bisection ends earlier. The
+        result is then the last two Places if dF/dz is singular at the first of them, else None.
         """
         while (length := np.linalg.norm(after.z - place.z)) > _RESOLVED:
             if place.tangent @ (after.z - place.z) < np.cos(_TURN) * length:
@@ -324,7 +330,9 @@ class Curve:
 def _solve(blocks, right):
     """Return the solution of the linear system with the matrix in `blocks` and the right side `right`.
 
-    blocks: rows of blocks of the matrix. Raise Lost if the matrix is singular.
+    Raise Lost if the matrix is singular.
+
+    blocks: list of rows, each a list of blocks of the matrix.
     """
     try:
         return np.linalg.solve(np.vstack([np.hstack(row) for row in blocks]), right)

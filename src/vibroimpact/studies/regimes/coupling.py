@@ -104,8 +104,9 @@ def stable_ranges(system, limits) -> Iterator[tuple[str, float, list, tuple[str,
 def _followed(system, root, value, name, limit):
     """Follow an orbit from the coupling `value` to `limit`; yield (coupling, Orbit) after each step.
 
-    The iteration ends early if the orbit is no longer stable or no longer has the pattern `name`. root: root of the
-    orbit at `value`.
+    The iteration ends early if the orbit is no longer stable or no longer has the pattern `name`.
+
+    root: root of the orbit at the coupling `value`.
     """
     way, step = np.sign(limit - value), STEP
     while step > SHARP and value != limit:

@@ -70,8 +70,10 @@ def distance_to_orbit(system, point) -> Comparison:
 def paired(system, offset, exact, slow, fast) -> Comparison:
     """Pair each multiplier of an exact orbit with a predicted multiplier, and return the Comparison.
 
-    offset: as in `Comparison`. exact: multipliers of the orbit. slow: eigenvalues of the slow flow. fast: multipliers
-    of the impact map over a cycle.
+    offset: as in `Comparison`.
+    exact: multipliers of the orbit.
+    slow: eigenvalues of the slow flow.
+    fast: multipliers of the impact map over a cycle.
     """
     slow_time = system.epsilon * system.period
     predicted = np.concatenate([np.exp(slow * slow_time), fast])
