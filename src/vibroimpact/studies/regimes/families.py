@@ -10,9 +10,9 @@ period, and then replaces the state by -state. The symmetry breaks where such a 
 double its period before its symmetry breaks (Swift and Wiesenfeld 1984). The continuation itself finds folds and branch
 points (mu = 1).
 
-The unknowns of an inactive module i are constant. Its phase and its impact times are 0. Its amplitude C_i and the
-velocity change I_i of its ball at an impact are 1. Therefore C_i = 0 or I_i = 0 always means that ball i has the
-speed 0.
+The unknowns of an inactive module i have no meaning and keep fixed values. The phase and the impact times keep the
+value 0. The amplitude C_i and the velocity change I_i of the ball at an impact keep the value 1. Therefore C_i = 0 or
+I_i = 0 always means that ball i has the speed 0.
 """
 
 from itertools import combinations
@@ -111,7 +111,10 @@ class SymmetricOrbits:
 
     @staticmethod
     def genuine(kind, orbit) -> bool:
-        """Return True if `orbit`, at which the test function of `kind` is 0, is a special point of this kind."""
+        """Return True if `orbit` is a special point of the given kind.
+
+        The test function of this kind is assumed to be 0 at `orbit`. This condition alone is not sufficient.
+        """
         # The test function of NEIMARK_SACKER is also 0 if two real multipliers have the product 1.
         mu = orbit.multipliers
         return kind != NEIMARK_SACKER or bool((abs(abs(mu[mu.imag > _PAIR]) - 1) < _PAIR).any())
@@ -238,7 +241,10 @@ class FixedPoints:
 
     @staticmethod
     def genuine(kind, point) -> bool:
-        """Return True if `point`, at which the test function of `kind` is 0, is a special point of this kind."""
+        """Return True if `point` is a special point of the given kind.
+
+        The test function of this kind is assumed to be 0 at `point`. This condition alone is not sufficient.
+        """
         # The test function of HOPF is also 0 if two real eigenvalues have the sum 0.
         values = point.slow_eigenvalues
         return kind != HOPF or bool((abs(values[values.imag > _PAIR].real) < _PAIR).any())

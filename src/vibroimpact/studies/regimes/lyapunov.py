@@ -66,12 +66,12 @@ def largest_lyapunov(
     system : System
         Dimensionless parameters.
     state : array_like
-        Initial state at tau = 0, shape (8,). A ball that starts at rest may never be hit by a wall.
+        Initial state at tau = 0, shape (8,). If there are several attractors, it selects one of them (see `basins`).
+        If a ball is at rest in the initial state, the walls may never hit it.
     cycles : int, default 2000
         Number of forcing periods over which the growth rate is averaged, a multiple of `blocks`.
     settle : int, default 1000
-        Number of forcing periods of the transient. If there are several attractors, the initial state selects one of
-        them (`basins`).
+        Number of forcing periods of the transient.
     blocks : int, default 20
         Number of blocks into which `cycles` are divided for the standard error, at least 2.
     discarded : int, default 10
@@ -252,9 +252,10 @@ def contraction(system, impacts, stuck) -> np.ndarray:
     stuck: largest number of balls that stick at the same time in each cycle, shape (n,).
 
     A flight of time t multiplies the volume by exp(-tr(D) t). D is the damping matrix of the boxes of the active
-    modules. An impact multiplies the volume by kappa^2, the determinant of the saltation matrix. In the coordinates
-    W = X - Y, W', and position and velocity of the centre of mass, this matrix is triangular. Its diagonal is
-    (-kappa, -kappa, 1, 1). If a ball sticks, the volume becomes 0.
+    modules. An impact multiplies the volume by kappa^2, the determinant of the saltation matrix. Coordinates of a
+    module are W and W' with W = X - Y, and position and velocity of the centre of mass of box and ball. In these
+    coordinates, the saltation matrix is triangular with the diagonal (-kappa, -kappa, 1, 1). If a ball sticks, the
+    volume becomes 0.
     """
     damping = np.diag(damping_matrix(system))[active_mask(system)[[0, 2]]].sum()
     volume = 2 * np.asarray(impacts) * np.log(system.kappa) - damping * system.period

@@ -4,6 +4,9 @@ import numpy as np
 
 
 def centres(interval, points: int) -> np.ndarray:
-    """Return the midpoints of `points` equal cells of an interval, shape (points,)."""
+    """Divide an interval into equal cells; return the midpoints of the cells, shape (n,).
+
+    points: number n of cells.
+    """
     low, high = interval
     return low + (high - low) * (np.arange(points) + 0.5) / points

@@ -17,7 +17,7 @@ for good."""
 def predicted(path, values) -> np.ndarray:
     """Return a mask of the entries of `values` at which the slow flow predicts a modulated response, shape (n,).
 
-    path: function from an entry of `values` to the system. Only the forces may vary along the path.
+    path: `branches.Path` that gives the system for each entry of `values`. Only the forces may vary along the path.
     """
     forces = [(system.f10_hat, system.f20_hat) for system in map(path, values)]
     share = relax(path.system, *_WINDOW_AND_TRANSIENT, forces=forces).share
@@ -27,9 +27,9 @@ def predicted(path, values) -> np.ndarray:
 def observed(values, p, names) -> np.ndarray:
     """Return a mask of the entries of `values` at which a run ends in a modulated or chaotic response, shape (n,).
 
-    values: values of the parameter that varies along the path, shape (n,).
-    p: value of this parameter in each run.
-    names: regime at the end of each run.
+    values: values of a parameter of the system, shape (n,).
+    p: value of the same parameter in each run.
+    names: name of the regime at the end of each run.
     """
     modulated = np.asarray(p)[np.isin(names, (STRONGLY_MODULATED, CHAOTIC))]
     return np.isin(values, modulated)
@@ -51,8 +51,12 @@ def onsets(path, values, p, names) -> list[tuple]:
     """Return a row for the slow flow and a row for the simulations; both rows have the columns COLUMNS.
 
     Each row contains the first and the last entry of the longest unbroken part of `values` with modulated responses. If
-    a parameter other than the forces varies along the path, the list is empty. The arguments `p` and `names` are those
-    of `observed`.
+    a parameter other than the forces varies along the path, the list is empty.
+
+    path: `branches.Path` that gives the system for each entry of `values`.
+    values: values of the parameter that varies along the path, shape (n,).
+    p: value of the same parameter in each simulated run.
+    names: name of the regime at the end of each run.
     """
     if not set(path.names) <= FORCES:
         return []

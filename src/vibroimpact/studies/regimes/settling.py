@@ -39,8 +39,8 @@ class Observation:
     window : int, default 24
         Number of forcing periods that are simulated after each round to find a repetition of the motion.
     nearness : float, default 0.02
-        A motion repeats if, after some forcing periods, no displacement differs from its earlier value by more than
-        this dimensionless number.
+        Largest dimensionless change of a displacement in a repetition. A motion repeats if all displacements change by
+        at most this number over a whole number of forcing periods.
     blocks, block : int, default 6 and 20
         Number of blocks from which the Lyapunov exponent is estimated, and number of forcing periods per block.
     retest : int, default 10000
@@ -126,9 +126,10 @@ def _continued(regime, observation):
 
 
 def _test_classification(regimes, members, observation, progress):
-    """Test by longer runs whether motions stay in their regime; update `regimes` in place.
+    """Test one regime by longer runs: do its motions stay in the regime? Update `regimes` in place.
 
-    members: indices in `regimes` of the motions in the tested regime.
+    regimes: regime of each motion.
+    members: indices of the motions that are in the tested regime.
     """
     before = regimes[members[-1]].name
     # Some motions of the regime, called witnesses, are continued in longer runs. If other motions are periodic, the
