@@ -69,7 +69,8 @@ def _peaks(system, states, spec):
 def _energy(system, states, spec):
     """Return (energy that impacts dissipate) / (work of the forces), and the number of runs without impacts.
 
-    Energy and work are summed over all finished runs with impacts. Unfinished runs are not counted.
+    Energy and work are summed over all finished runs with impacts. The number of runs without impacts does not include
+    unfinished runs.
     """
     runs = ensemble(system, states, spec.cycles, settle=spec.settle, energy=True)
     done = runs[runs["status"] == FINISHED]
