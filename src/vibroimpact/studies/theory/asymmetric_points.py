@@ -44,8 +44,12 @@ class AsymmetricPoint(Representation):
     """A fixed point of the slow flow with unequal flights in one or both modules.
 
     The point also represents its mirror images, in which the long and the short flight of a module are exchanged. For
-    an inactive module, `squared`, `C`, `B`, `psi` and `middle` are NaN. The attributes `C`, `B`, `psi` and
-    `slow_eigenvalues` have the same meaning as in FixedPoint.
+    an inactive module, `squared`, `C`, `B`, `psi` and `middle` are NaN.
+
+    C: amplitude of the saw-tooth in each module, shape (2,).
+    B: amplitude of U in each module, shape (2,).
+    psi: phase lag of U in each module [rad], shape (2,).
+    slow_eigenvalues: eigenvalues of the slow flow, two for each active module.
     """
 
     charts: tuple[str, str]  # name of the chart (part of the manifold) of each module, see `branch`
@@ -155,9 +159,10 @@ def _product(one, other):
 
 
 def _size(function):
-    """Return the squared modulus of a function of (x_1, x_2), as an array of shape (3, n) like `function`.
+    """Return the squared modulus of a complex function of (x_1, x_2), with its derivatives.
 
-    The rows are the values at n points, the derivatives with respect to x_1, and the derivatives with respect to x_2.
+    The function and the squared modulus are arrays of shape (3, n). Row 0 contains the values at n points. Rows 1 and 2
+    contain the derivatives with respect to x_1 and to x_2.
     """
     return (function[0].conj() * function).real * np.array([[1], [2], [2]])
 

@@ -50,7 +50,7 @@ class Chart:
         return self.path(x) / beta, np.abs(self.z(x) / beta)
 
     def ball(self, x):
-        """Return B, N B, the derivative of B and the derivative of N B with respect to x, in this order.
+        """Return four values: B, N B, dB/dx and d(N B)/dx.
 
         B is the amplitude of U, and N is the describing function of the ball.
         """

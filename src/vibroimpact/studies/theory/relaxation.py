@@ -77,12 +77,11 @@ def relax(system, cycles: int, settle: int, start=(1.0, 1.0), forces=None) -> Re
 
 
 def lost_at(system, point) -> float:
-    """Multiply both forces by a falling factor; return the factor at which the symmetric module leaves resonance.
+    """Multiply both forces by a falling factor; return the factor at which a module leaves resonance.
 
-    The factor decreases from 1. The symmetric module of the fixed point leaves resonance when its amplitude C has
-    fallen to the fold of the manifold. If no such factor above 0.5 is found, return nan.
-
-    point: fixed point with one symmetric and one asymmetric module.
+    The fixed point `point` has one symmetric and one asymmetric module. The symmetric module leaves resonance when its
+    amplitude C has fallen to the fold of the manifold. The factor decreases from 1. If no such factor above 0.5 is
+    found, return nan.
     """
     symmetric = np.flatnonzero(~point.asymmetric & np.isfinite(point.C))
     if len(symmetric) != 1 or not point.asymmetric.any():
