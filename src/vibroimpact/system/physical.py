@@ -169,7 +169,7 @@ class PhysicalSystem:
         return math.sqrt(self.k1 / self.M)
 
     def dimensionless(self) -> System:
-        """Return the dimensionless system, by the definitions that follow (10.2) and by (10.4)-(10.6).
+        """Return the dimensionless system, as defined by (10.4)-(10.6) and in the text after (10.2).
 
         Returns
         -------

@@ -24,5 +24,8 @@ def after_impact(epsilon: float, kappa: float, box_velocity: float, ball_velocit
 
 
 def energy_lost(epsilon: float, kappa: float, relative_velocity: float):
-    """Return the kinetic energy lost in an impact, from W' just before the impact, in units of M L^2 omega_10^2."""
+    """Return the kinetic energy that is lost in an impact, in units of M L^2 omega_10^2.
+
+    relative_velocity: W' = X' - Y' just before the impact.
+    """
     return 0.5 * epsilon / (1.0 + epsilon) * (1.0 - kappa**2) * relative_velocity**2
