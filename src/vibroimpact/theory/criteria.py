@@ -92,9 +92,11 @@ def fixed_point_error(system, point) -> float:
 
 
 def _of(system, psi, C, error):
-    """Return the verdicts of all CRITERIA, by name of the criterion, for a motion with phases psi and amplitudes C.
+    """Apply all CRITERIA to a motion; return the verdicts by name of the criterion.
 
-    psi [rad] and C have the shape (2,). `error` is an upper bound on the errors of their entries.
+    psi: phases of the motion [rad], shape (2,).
+    C: saw-tooth amplitudes of the motion, shape (2,).
+    error: upper bound on the errors of the entries of psi and C.
     """
     limit, active = printed_limit(rho(system.kappa)), C[~np.isnan(C)]
     printed = all_stable(verdict(c - limit, error + ROUNDING * max(1.0, abs(c))) for c in active)

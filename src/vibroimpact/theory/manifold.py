@@ -72,9 +72,9 @@ def impact_phase(C, rho):
 
 
 def overshoot(C, rho):
-    """Return the largest distance in a cycle by which the ball is beyond a wall, the maximum of |W_0| - 1.
+    """Return how far the ball passes a wall in a cycle: the largest |W_0| - 1, or 0 if the ball passes no wall.
 
-    W_0 is the relative displacement of (10.10). If the ball stays between the walls, the result is 0.
+    W_0 is the relative displacement of (10.10). The ball is at a wall if |W_0| = 1.
     """
     C = np.asarray(C, dtype=float)
     B = B_of_C(C, rho)
@@ -88,8 +88,9 @@ def overshoot(C, rho):
 def grazing_time(kappa: float) -> float:
     """Return the time t [rad] from an impact until the ball grazes the same wall.
 
-    The saw-tooth amplitude is C = largest_C(kappa). The number p = t / 2 is the solution of p cot p = 1 / (1 + kappa)
-    in the interval (0, pi/2). The solution is unique, since p cot p falls from 1 to 0 on this interval.
+    The ball grazes the wall if the saw-tooth amplitude is C = largest_C(kappa). The number p = t / 2 is the solution of
+    p cot p = 1 / (1 + kappa) in the interval (0, pi/2). The solution is unique, since p cot p falls from 1 to 0 on this
+    interval.
 
     Raises
     ------

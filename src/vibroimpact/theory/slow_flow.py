@@ -34,9 +34,10 @@ def rates(system, B, psi, C) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rates_from_phasors(system, B, cosine, sine, C):
-    """Return the same values as `rates`, computed from B, cosine = cos psi, sine = sin psi and C, each of shape (2,).
+    """Return the same values as `rates`, but take cos psi and sin psi as arguments instead of psi.
 
-    The rates are rational functions of these arguments. Therefore computer algebra can evaluate this function.
+    B, cosine, sine and C have the shape (2,), with cosine = cos psi and sine = sin psi. The rates are rational
+    functions of these arguments. Therefore computer algebra can evaluate this function.
     """
     forcing = np.array([system.f10_hat, system.f20_hat])
     damping = np.array([system.gamma1_hat, system.gamma2_hat]) + system.gamma12_hat

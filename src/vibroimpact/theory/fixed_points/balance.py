@@ -120,7 +120,9 @@ def _modulus_squared(polynomial):
 
 
 def determinant(system, C) -> float:
-    """Return the denominator of (10.24) without constant factors and powers of B_i, at the amplitudes C, shape (2,).
+    """Return the denominator of (10.24), divided by its constant factors and by its powers of B_i.
+
+    C: saw-tooth amplitudes, shape (2,).
 
     The value is Im(p_1 p_2 conj(z_1 z_2 K^2)) with p_i = q_i + K z_i, where z_i, q_i and K are the terms of `Balance`
     (docs/derivation.md, section 8). At a given C_2, the value is a polynomial in C_1. If the modules are coupled, this

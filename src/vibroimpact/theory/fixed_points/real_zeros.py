@@ -56,9 +56,10 @@ def real_zeros(coefficients, magnitudes, radius) -> tuple[np.ndarray, np.ndarray
 def _starts(pair, size):
     """Return the points from which Newton's method starts, shape (n, 2).
 
-    Every real zero in the square [-1, 1]^2 has at least one of these points close to it.
+    At least one of these points is close to each real common zero in the square [-1, 1]^2.
 
-    `size` contains the sum of the moduli of the terms of each coefficient.
+    pair: coefficients of both polynomials, shape (2, 3, 3). Each coefficient is a sum of terms.
+    size: sum of the moduli of these terms for each coefficient, shape (2, 3, 3).
 
     Raises
     ------
@@ -83,8 +84,8 @@ def _resultant(one, other, sign=-1):
     """Return the coefficients of the resultant of two polynomials, shape (9,); the resultant is a polynomial in x.
 
     Entry [k, j] of `one` and of `other` is the coefficient of y^k x^j. Each coefficient of the resultant is a sum of
-    terms. If `one` and `other` contain the moduli of the coefficients and `sign` is 1, the function returns the sum of
-    the moduli of these terms, for each coefficient of the resultant.
+    terms. The sums of the moduli of these terms are returned if two conditions hold: `one` and `other` contain the
+    moduli of the coefficients, and `sign` is 1.
     """
 
     def minor(j, k):
@@ -106,9 +107,10 @@ def _quadratic(polynomial, x):
 
 
 def _newton(pair, size, points):
-    """Return the zeros that Newton's method reaches from `points`, an array of shape (n, 2).
+    """Return the zeros that Newton's method reaches from `points`, one zero per row.
 
-    If several points lead to the same zero, the zero appears several times.
+    If several points lead to the same zero, the zero appears several times. If a point leads to no zero, the result has
+    no row for this point.
     """
     found = [np.empty((0, 2))]
     for _ in range(_STEPS):
@@ -156,9 +158,9 @@ def _adjugate(matrix):
 def _contract(pair, size, points):
     """Return a mask of the points that are simple zeros, shape (n,).
 
-    A zero is simple if Newton's method contracts in a square around the zero (Kantorovich's theorem). The test adds a
-    bound on the shift of the zero by rounding and a bound on the change of the Newton step within the square. Newton's
-    method contracts if this sum is below the half-width of the square.
+    A zero is simple if Newton's method contracts in a square around the zero (Kantorovich's theorem). The test uses
+    two bounds. Rounding shifts the zero by at most the first bound. Within the square, the Newton step changes by at
+    most the second bound. Newton's method contracts if the sum of both bounds is below the half-width of the square.
     """
     _, gradient, noise = _expanded(pair, size, points)
     by_x, by_y = _derivatives(pair)

@@ -235,7 +235,7 @@ def _mirrored_pair(system, balance, C):
 def _may_close(balance, C):
     """Return False if no phases balance the forces near a zero C of `Balance.polynomials`.
 
-    Without dissipation, Delta, n_1 and n_2 of `Balance.solve` can all vanish at a zero C without a fixed point. At a
+    Without dissipation, Delta, n_1 and n_2 of `Balance.solve` can all vanish at a zero C that is no fixed point. At a
     fixed point, the terms of the balance f_i = p_i u_i - K z_j u_j form a triangle, where p_i = q_i + K z_i. Therefore
     the lengths |f_i|, |p_i| and |K z_j| must satisfy the triangle inequality.
     """
