@@ -120,7 +120,7 @@ def _modulus_squared(polynomial):
 
 
 def determinant(system, C) -> float:
-    """Return the denominator of (10.24), divided by its constant factors and by its powers of B_i.
+    """Return a number that is 0 where the denominator of (10.24) is 0 on the manifold.
 
     C: saw-tooth amplitudes, shape (2,).
 
