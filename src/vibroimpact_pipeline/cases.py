@@ -13,7 +13,8 @@ def with_cases(config: dict) -> dict:
 
     The chapter's figures (fig10_...) are an exception: they must name their case. The config may omit a case of the
     chapter. If so, entries of `figures` and `regimes.epsilon` that name the omitted case are removed. Entries in other
-    parts of the config that name the omitted case get the default case.
+    parts of the config that name the omitted case get the default case. If `default_case` is missing, the first case is
+    the default. Malformed entries are left unchanged; validation reports them.
     """
     config = copy.deepcopy(config)
     cases = config.get("cases")

@@ -21,7 +21,7 @@ class Errors(NamedTuple):
     - missed: number of impacts that only the reference run has.
     - spurious: number of impacts that the reference run does not have.
 
-    If the run has no final state, error_state and error_time are inf.
+    If no impacts match, error_time is 0. If the run has no final state, error_state and error_time are inf.
     """
 
     error_state: float

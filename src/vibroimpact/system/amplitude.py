@@ -6,6 +6,7 @@ def sawtooth_amplitude(epsilon: float, path):
 
     `path` is the change of the ball displacement Y during the flight. C has the sign of `path`. Its magnitude is half
     the distance that Z = -(1 + epsilon) Y covers during the flight. Both flights of a cycle have the same C.
+    For a flight of half a period, C = (1 + epsilon) pi |Y'| / (2 Omega).
     """
     return (1 + epsilon) * path / 2
 

@@ -6,7 +6,7 @@ The following files contain their own implementation of the law. If the law is c
 - `exact.orbits.symmetric`, `exact.orbits.asymmetric`, `exact.orbits.proof.conditions`: equations of orbits,
 - `rigid_contact`, `heyoka_taylor`, `moreau_jean`, `ivanov` and `contact_laws` in `integrators`,
 - `accuracy.reference.trajectory`: arbitrary precision,
-- the proof that a list of orbits is complete,
+- `completeness/orbits.py` of the studies: completeness proof,
 - `report/live/exact.js`: simulation in the browser.
 
 The saltation matrix depends on the law. It is implemented in `exact.engine.variation`, `exact.orbits.floquet` and

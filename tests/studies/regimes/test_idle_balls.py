@@ -27,7 +27,7 @@ def test_long_runs_settle_except_for_idle_balls(chapter):
         return np.min([np.abs(states - state).max(axis=1) for state in pair], axis=0) > CHANGE
 
     idle = (late[:, [5, 7]] == 0).any(axis=1)
-    stated = re.search(r"Of 225 starts at equal forces (\d+) end on this pair; in the (\d+) others a ball rests", PAGE)
+    stated = re.search(r"Of 225 starts at equal forces, (\d+) end on this pair. In the (\d+) others a ball rests", PAGE)
     assert [changing(early), changing(late), np.count_nonzero(idle)] == [int(stated[1]), 0, int(stated[2])]
     np.testing.assert_array_equal(away(late), idle)
     nudged = late[idle]

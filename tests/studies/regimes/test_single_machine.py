@@ -132,7 +132,7 @@ def test_a_row_of_a_sweep_is_that_of_the_twin(machine):
     assert ours["symmetric"] == 1.0
 
 
-def test_both_modules_of_an_unforced_machine_are_active():
+def test_both_modules_of_an_unforced_machine_are_kept():
     free = MACHINE.with_(f10_hat=0.0)
     start = [0.2, 0.1, 0.4, 0.3, 0.0, 0.5, 0.0, -0.7]
     assert vi.lyapunov_spectrum(free, start, 50).exponents.shape == (8,)

@@ -4,13 +4,14 @@
 include: "common.smk"
 
 
-# Each figure has an entry with some of the following keys. All but `needs` select arguments of its function `compute`:
+# Each figure has an entry with some of the following keys. The first four select arguments of its function `compute`:
 # - case: path of the config entry that names a case. The system of this case is an argument.
 # - systems: If True, the systems of all cases are an argument.
 # - settings: paths of config entries. Each entry is an argument with the name of the last key in its path. A * at the
 #   end of a path stands for all keys except `case`.
 # - inputs: paths of tables. Each table is an argument.
-# - needs: paths of further config entries that the figure requires. These entries are not arguments.
+# - needs: paths of further config entries that the figure requires.
+# - outputs: paths of the outputs, in place of the usual ones.
 # A figure is omitted if the config lacks one of these config entries, or a sweep whose table is in `inputs`.
 COMPANIONS = {
     "companion_10_08": {

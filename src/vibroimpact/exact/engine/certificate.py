@@ -1,6 +1,7 @@
 """Certificate of a run: proofs that no impact was missed, and error estimates for the states.
 
-The estimates assume a rounding error of one float64 epsilon per event. The variational flow propagates these errors.
+The estimates assume a rounding error of one float64 epsilon at the start and at every event, and errors of the flow
+tables. The variational flow propagates these errors.
 """
 
 import math
@@ -297,8 +298,9 @@ class Certificate(Representation):
         Estimated error of the final state (root mean square); inf if the run ends beyond `horizon`. The estimate
         includes a rounding error at every event.
     horizon : float
-        Time tau at which the estimated error first exceeds 1e-3, or inf if the error never exceeds 1e-3. Beyond the
-        horizon, the run is a possible motion of the system, but not the motion from the given initial state.
+        Time tau of the first event (or of the end) after which the estimated error exceeds 1e-3, or inf if there is
+        none. Beyond the horizon, the run is a possible motion of the system, but not the motion from the given initial
+        state.
 
     Notes
     -----

@@ -309,8 +309,8 @@ def simulate(
     Returns
     -------
     Run
-        Events, samples and final state. The attributes `certificate`, `energy` and `jacobian` are computed on
-        first access.
+        Events, samples and final state. The attributes `certificate`, `energy` and `jacobian` (derivative of the final
+        state with respect to the initial state) are computed on first access.
 
     Raises
     ------

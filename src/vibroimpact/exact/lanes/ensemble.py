@@ -158,8 +158,8 @@ def _combined(systems, states):
         shape = np.broadcast_shapes(systems.shape, states.shape[:-1])
     except ValueError:
         raise ValueError(
-            f"states: needs shape (..., 8), whose axes before the last axis can be broadcast with the shape "
-            f"{systems.shape} of systems, got {states.shape}"
+            f"states: the shape {states.shape} does not fit; all axes but the last must broadcast with the shape "
+            f"{systems.shape} of systems"
         ) from None
     numbers = np.array(numbers, dtype=int).reshape(systems.shape)
     return list(known), np.broadcast_to(numbers, shape), np.broadcast_to(states, (*shape, 8))

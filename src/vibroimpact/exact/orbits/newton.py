@@ -1,4 +1,4 @@
-"""Apply Newton's method to many first values at once, or follow one root as a parameter changes."""
+"""Apply Newton's method to many starting values at once, or follow one root as a parameter changes."""
 
 from collections.abc import Callable, Iterable, Iterator
 
@@ -13,8 +13,8 @@ def newton(equations, starts: np.ndarray, reach: float = 0.5) -> np.ndarray:
     """Return the roots that Newton's method reaches from `starts`, in no particular order and with repetitions.
 
     equations: function of k rows of values. It returns residuals, shape (k, d), and Jacobians, shape (k, d, d).
-    starts: first values of the d unknowns, one set per row, shape (n, d) or wider. Columns after the first d are passed
-    to `equations` and returned unchanged.
+    starts: starting values of the d unknowns, one set per row, shape (n, d) or wider. Columns after the first d are
+    passed to `equations` and returned unchanged.
     reach: largest modulus of a component of a step; a longer step is shortened.
     """
     x = np.array(starts, dtype=float)

@@ -160,9 +160,9 @@ class OrbitSearch:
     orbits : list of Orbit
         The symmetric orbits, which are complete up to rounding, and the asymmetric orbits that were found.
     starts : int
-        Number of first values of Newton's method in the search for asymmetric orbits. The search may miss some orbits.
+        Number of starting values of Newton's method in the search for asymmetric orbits. The search may miss orbits.
     fewest_hits : int
-        For each asymmetric orbit, the first values that led to the orbit or to its mirror image are counted. This
+        For each asymmetric orbit, the starting values that led to the orbit or to its mirror image are counted. This
         number is the smallest count, or 0 if no asymmetric orbit was found. A small number suggests that orbits were
         missed.
     """
@@ -176,7 +176,7 @@ def orbits(system: System) -> list[Orbit]:
     """Return all 1:1 responses of (10.2) with one impact per cycle at each wall of each module.
 
     The orbits are exact at any mass ratio epsilon. The symmetric orbits are complete up to rounding. The asymmetric
-    orbits are found by Newton's method from many first values. Some asymmetric orbits may be missed.
+    orbits are found by Newton's method from many starting values. Some asymmetric orbits may be missed.
 
     Parameters
     ----------

@@ -132,7 +132,7 @@ def _solutions(system, systems):
 
 
 def _uncoupled_starts(conditions, modules):
-    """Return first values of Newton's method for uncoupled modules, shape (n, 5).
+    """Return starting values of Newton's method for uncoupled modules, shape (n, 5).
 
     Each row combines a root of module 1 with a root of module 2. The last column is the index of the pair of forces.
     """
@@ -151,10 +151,10 @@ def _uncoupled_starts(conditions, modules):
 
 
 def _coupled_starts(system, conditions):
-    """Return first values of Newton's method for coupled modules, shape (n, 5).
+    """Return starting values of Newton's method for coupled modules, shape (n, 5).
 
-    Each root delta of `_roots_of_condition` gives a linear system. `_line_starts` computes three first values from this
-    system. The last column is the index of the pair of forces.
+    Each root delta of `_roots_of_condition` gives a linear system. `_line_starts` computes three starting values from
+    this system. The last column is the index of the pair of forces.
     """
     delta, force = _roots_of_condition(system, conditions)
     C1, C2, c, s = np.moveaxis(_line_starts(*conditions.linear_system(delta, force)), -1, 0)
@@ -209,11 +209,11 @@ def _condition(conditions, delta, force):
 
 
 def _line_starts(matrices, constant):
-    """Return three first values of Newton's method for each of n linear systems, shape (n, 3, 4).
+    """Return three starting values of Newton's method for each of n linear systems, shape (n, 3, 4).
 
-    A first value is (C_1, C_2, c, s), with c = cos(Omega tau_1) and s = sin(Omega tau_1). The first of the three is the
-    solution of the system. The two others are points of a line. If the matrix is singular, as for identical modules in
-    phase, each point of this line solves the system. If a division by zero occurs, some of the numbers are not finite.
+    A starting value is (C_1, C_2, c, s), with c = cos(Omega tau_1) and s = sin(Omega tau_1). The first of the three is
+    the solution of the system. The two others are points of a line. If the matrix is singular, as for identical modules
+    in phase, each point of this line solves the system. If a division by zero occurs, some numbers are not finite.
 
     matrices, constant: result of `SymmetricConditions.linear_system`.
     """
@@ -221,8 +221,8 @@ def _line_starts(matrices, constant):
     parts = constant @ u
     with np.errstate(divide="ignore", invalid="ignore"):
         strong = ((parts / values)[:, None, :3] @ v[:, :3])[:, 0]
-        # The line runs along the right singular vector of the smallest singular value. Two first values are the points
-        # of the line with c^2 + s^2 = 1. If there are no such points, both are the point with the smallest c^2 + s^2.
+        # The line runs along the right singular vector of the smallest singular value. Two starting values are the
+        # points of the line with c^2 + s^2 = 1. If there are none, both are the point with the smallest c^2 + s^2.
         weak, along = v[:, 3], np.where(values[:, 3] > 0, parts[:, 3] / values[:, 3], 0.0)
         a, b, c = (weak[:, 2:] ** 2).sum(1), (weak * strong)[:, 2:].sum(1), (strong[:, 2:] ** 2).sum(1) - 1
         depth = np.sqrt(np.maximum(b * b - a * c, 0.0))

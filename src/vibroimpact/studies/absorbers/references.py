@@ -77,7 +77,7 @@ def best_tuning(system, band: tuple[float, float], scale=np.ones_like) -> Tuning
 
     Each absorber has the mass of a ball. The peak is not a smooth function of the tuning. Therefore the optimisation
     minimises an upper bound on the response at all sampled frequencies of the band. If the optimisation converges from
-    none of the first values in STARTS, ArithmeticError is raised.
+    none of the starting values in STARTS, ArithmeticError is raised.
     """
     book, frequencies = textbook_tuning(system), np.linspace(*band, POINTS)
     textbook = np.log([*book.frequency, *book.damping])
@@ -101,7 +101,7 @@ def best_tuning(system, band: tuple[float, float], scale=np.ones_like) -> Tuning
         if result.success:
             found.append(_tuning(result.x[:4]))
     if not found:
-        raise ArithmeticError(f"the tuning of the absorbers for the band {band} did not converge from any first values")
+        raise ArithmeticError(f"the tuning of the absorbers for the band {band} did not converge")
     return min(found, key=lambda tuning: tuned(system, tuning, scale).peak(band))
 
 

@@ -74,6 +74,10 @@ def settle(system, states, observation: Observation, progress: bool = False) -> 
     """Return the regime in which the motion from each initial state ends, in the order of `states`.
 
     states: initial states, shape (n, 8). An inactive module is put at rest.
+
+    If a motion does not repeat, its regime is tested by longer runs. One motion of each such regime is continued, or up
+    to five if other motions are periodic. If one of them leaves the regime, all motions of the regime are continued,
+    and those that stay in the regime are called unsettled.
     """
     first = _rounds(system, inactive_at_rest(system, states), observation, progress)
     regimes = list(first)

@@ -58,6 +58,8 @@ def rows(key: dict, found) -> list[dict]:
 def _rate(count, others):
     """Return the number of events per OF_CYCLES cycles, and the Poisson error of this rate.
 
+    If there is no event, the error is that of one event.
+
     count: number of cycles with an event. others: number of cycles without an event.
     """
     scale = OF_CYCLES / (count + others)

@@ -27,7 +27,10 @@ class Spec:
 
 
 def parsed(request: Mapping) -> tuple[Grid, Spec]:
-    """Return the grid and the Spec of a request with the keys "system", "axes" and "spec".
+    """Return the grid and the Spec of a request.
+
+    The request has three keys. "system" contains the parameters of `System`, "axes" a list of arguments of `grid.axis`,
+    and "spec" the arguments of `Spec`.
 
     Raises
     ------

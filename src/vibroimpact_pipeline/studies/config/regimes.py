@@ -9,7 +9,7 @@ from vibroimpact.system import System
 from vibroimpact_pipeline.config import fields
 from vibroimpact_pipeline.config.section import Section
 
-NEAR = "Distance of states one period apart at which Newton's method starts; the clearance is 1"
+NEAR = "Change of displacements after whole periods below which Newton's method starts; the clearance is 1"
 NAMES = tuple(field.name for field in dataclasses.fields(System))
 Along = fields.items(Literal[NAMES], 1, len(NAMES), "Parameters that vary together, with equal values")
 APART = fields.needs(
