@@ -179,6 +179,6 @@ def test_the_period_of_a_strongly_unstable_motion_is_recognised():
 
 def test_a_start_from_which_no_orbit_is_found_is_an_error():
     system = system_of("equal", kappa=0.2, f20_hat=0.9)
-    text = r"\Astate: .* no motion with periods=1 near .* at the start and at the end of the motion still differ"
+    text = r"\Astate: .* no motion with periods=1 near .* the states at both ends of the motion differ"
     with pytest.raises(ValueError, match=text):
         vi.periodic_orbit(system, vi.simulate(system, np.zeros(8), 2000).final)

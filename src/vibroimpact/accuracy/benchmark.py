@@ -71,8 +71,9 @@ def scenes() -> dict[str, tuple]:
 def scenes_table(seconds: float) -> list[dict]:
     """Return two rows per scene, with the time per impact [us] of `ensemble` and of single runs on one core.
 
-    The row of `ensemble` also contains `error_state`. For each compared run, the largest difference between the states
-    of both methods after SHORT cycles is computed. `error_state` is the median of these differences.
+    The row of `ensemble` also contains `error_state`. To compute it, some runs of the ensemble are repeated as single
+    runs over SHORT cycles. For each of these runs, the final states of the two methods are compared, and the largest
+    difference of a coordinate is taken. `error_state` is the median over the runs.
 
     seconds: time [s] for which the ensemble is repeated; the single runs are repeated for the same time.
     """

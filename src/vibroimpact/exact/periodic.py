@@ -199,8 +199,8 @@ def refined(system, state, periods) -> PeriodicOrbit:
         return PeriodicOrbit(system, periods, at_zero[-1].copy() if len(at_zero) else _state_at(run, tau), run)
     grazes = "; a ball grazes a wall" if _grazes(given) or _grazes(run) else ""
     raise ValueError(
-        f"state: Newton's method found no motion with periods={periods} near this state; the states "
-        f"at the start and at the end of the motion still differ by {_gap(run):.2g}{grazes}"
+        f"state: Newton's method found no motion with periods={periods} near this state; in the last "
+        f"approximation, the states at both ends of the motion differ by {_gap(run):.2g}{grazes}"
     )
 
 

@@ -147,7 +147,7 @@ def _march_across_jumps(q, k, z, tau0, h, count):
         _locate(ahead, boxes, signs)
         for i in range(2):
             if boxes[i] != before[i]:
-                wall = before[i] + boxes[i]  # value of s at the wall
+                wall = before[i] + boxes[i]  # unfolded position s of the wall between the two cells
                 part = (wall - z[4 * i]) / (ahead[4 * i] - z[4 * i])
                 direction = 1.0 if boxes[i] > before[i] else -1.0
                 rows.append(_impact(tau0 + (n + part) * h, i, before[i], direction, ahead[4 * i + 1], k))

@@ -27,7 +27,7 @@ class MethodRun:
     reason: text on why the run has no result, or "".
     doubt: function that returns a text on what the method could not decide, or "".
 
-    The measured run time does not include the evaluation of `impacts` and `doubt`.
+    The functions `noted` and `doubt` are called after the run, so the measured run time does not include them.
     """
 
     final: np.ndarray | None
@@ -74,7 +74,7 @@ class Method(ABC):
 
     @abstractmethod
     def run(self, system, state, cycles: int, tau0: float, setting) -> MethodRun:
-        """Integrate from a state (8,) at tau0 over `cycles` forcing periods in at most `limit` steps.
+        """Integrate from a state (8,) at tau0 over `cycles` forcing periods in at most `self.limit` steps.
 
         setting: one of `settings`. If the run cannot continue, return the result of `failed`.
         """

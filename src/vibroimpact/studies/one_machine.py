@@ -67,7 +67,8 @@ class Design:
     Attributes
     ----------
     machine : PhysicalSystem
-        The machine with the mass `m` [kg], the clearance `L` [m] to each wall and the restitution `kappa` of the ball.
+        The machine with the chosen ball: mass `m` [kg] and restitution `kappa` of the ball, clearance `L` [m] to each
+        wall.
     peak : float
         Largest displacement over the band [m], after the transient.
     near : tuple of float

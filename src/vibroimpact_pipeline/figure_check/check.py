@@ -1,7 +1,8 @@
 """Compare the tables and pictures of each figure with the reference set.
 
-The present code draws a picture from the reference tables. This picture is compared with the reference picture. If the
-two pictures differ, but the reference picture was drawn with other library versions, the figure is not comparable.
+The new tables are compared with the reference tables. To compare the drawing code alone, the present code draws the
+reference tables, and this picture is compared with the reference picture. If the two pictures differ, but the reference
+picture was drawn with other library versions, the figure is not comparable.
 """
 
 import json

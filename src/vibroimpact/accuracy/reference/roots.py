@@ -41,8 +41,8 @@ def first_root(series, end: arb, hint: arb | None = None) -> arb | None:
         if depth > 0.6 * ctx.prec:
             least = float(abs(series(middle)).upper())
             raise Undecidable(
-                "cannot decide whether a ball touches or leaves a wall: "
-                f"the distance or contact force falls to {least:.1e}; use more digits"
+                "cannot decide whether a ball touches a wall, or whether a sticking ball leaves its wall: "
+                f"the gap or the contact force falls to {least:.1e}; use more digits"
             )
         pieces += [(middle, stop, depth + 1), (start, middle, depth + 1)]
     return None

@@ -1,8 +1,9 @@
 """Simulate (10.1) in arbitrary precision, as the reference for all other methods.
 
 Each flight is a Taylor series whose neglected terms are enclosed in an interval. Interval arithmetic (midpoint and
-radius) proves which event is next. Each flight starts from an exact state, so that the error of the flight is enclosed.
-Later flights can amplify these errors. To check this, `proven_run` repeats the run with more digits.
+radius) proves which event is next. The initial state of each flight counts as exact, so the enclosure contains the
+error of this flight alone. Later flights can amplify the error. Therefore `proven_run` repeats the run with more
+digits.
 """
 
 from dataclasses import dataclass

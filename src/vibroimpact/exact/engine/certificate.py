@@ -44,8 +44,8 @@ class Errors(NamedTuple):
     repeated: sums of rounding errors that recur with the same value, shape (8, 6).
 
     Each column of `repeated` belongs to one source of errors. Columns 0 to 3 belong to rounded entries of the flow
-    tables. The errors in columns 0 and 1 change the amplitude and the phase of the free motion of box 1. Columns 2 and
-    3 are the same for box 2. Columns 4 and 5 belong to impacts of ball 1 and ball 2.
+    tables. The errors in columns 0 and 1 change the amplitude and the phase of the free motion of box 1. The errors in
+    columns 2 and 3 do the same for box 2. Columns 4 and 5 belong to impacts of ball 1 and ball 2.
     """
 
     independent: np.ndarray

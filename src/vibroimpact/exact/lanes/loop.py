@@ -296,8 +296,8 @@ def _write_statistics(m, lane):
 def _run_by_events(piece, flow, squares, lane, m):
     """Continue the run in a lane by the event loop, until both balls fly or the run ends; return the status.
 
-    If both balls fly, the status is PAUSED, and the lane continues the run. Otherwise the run has ended, and the status
-    is its final status.
+    If both balls fly again, the status is PAUSED, and the run goes on in the lane. Otherwise the run has ended, and the
+    status is that of the finished run.
     """
     runs, counters, unsampled = m.runs[:, lane], m.counters[lane], (0.0, np.empty(0), np.empty((0, 8)))
     first = m.constants[rows.FIRST, lane], m.constants[rows.FIRST_TAIL, lane]

@@ -151,7 +151,7 @@ def manifold_from_impact_conditions(evidence):
             B = np.hypot(sine, cosine)
             residuals = {"(10.16)": B**2 - (1 - 2 * C + (1 + r**2) * C**2)}
             # Close to the fold, the square root in (10.15) loses half of the digits. Therefore the residual is
-            # multiplied by the distance of C from the fold, at most 1.
+            # multiplied by the distance of C from the fold, if this distance is below 1.
             residuals["(10.15)"] = min(abs(arm - C) for arm in C_of_B(B, r)) * min(1, abs(C - C_min(r)))
             residuals["(10.17)"] = [sine - B * np.sin(impact_phase(C, r)), cosine - r * C]
             found.append(residuals)

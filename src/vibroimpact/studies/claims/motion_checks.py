@@ -247,9 +247,10 @@ def restitution_far_from_unity(evidence, kappas, forces):
 
 
 def _points_beside_orbits(system, kappa, force):
-    """Return the fixed points, and True if each is the limit of one symmetric exact orbit as epsilon tends to 0.
+    """Return the fixed points, and True if they match the symmetric exact orbits one to one.
 
-    If a symmetric exact orbit has no fixed point, the second result is False. Both boxes have the force `force`.
+    A fixed point and an orbit match if the fixed point is the limit of the orbit as epsilon tends to 0. Both boxes have
+    the force `force`.
     """
     system = system.with_(kappa=kappa, f10_hat=force, f20_hat=force)
     points = fixed_points(system)

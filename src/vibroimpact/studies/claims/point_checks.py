@@ -182,8 +182,8 @@ def _nearest_singular(system, point):
 def places_of_singular_points(evidence, case, label):
     """Compare the singular points S_1 that result from two ways of eliminating the phases from (10.23).
 
-    The chapter does not print the functions h_1 and h_2 of (10.24). Therefore either way may lead to
-    (10.24).
+    The chapter does not print the functions h_1 and h_2 of (10.24). Therefore each of the two ways may be the one that
+    the chapter used.
     """
     system = evidence.systems[case]
     point = next(point for point in fixed_points(system) if point.label == label)

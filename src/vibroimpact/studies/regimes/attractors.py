@@ -132,7 +132,7 @@ def attractors(system: System, states, observation: Observation | None = None, p
     """
     states = states_array("states", states)
     if states.ndim != 2 or states.shape[1] != 8 or not len(states):
-        raise ValueError(f"states: got shape {states.shape}, expected (n, 8)")
+        raise ValueError(f"states: got shape {states.shape}, expected (n, 8) with n above 0")
     return _basins(system, states, states.shape[:1], {}, observation, progress)
 
 

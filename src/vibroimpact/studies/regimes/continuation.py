@@ -35,8 +35,8 @@ _REFINED = 1e-10
 # If the component of the tangent along p is larger than this value, Newton's method keeps p constant, which is cheaper.
 _STEEP = 0.2
 _TURN = 0.15  # largest angle [rad] by which the tangent may turn in one step
-# Length of the shortest step. If a step of this length fails, the continuation can only go on past a corner of the
-# curve, where dF/dz jumps.
+# Length of the shortest step. If a step of this length fails, the continuation looks for a corner of the curve, where
+# dF/dz jumps, and goes on behind the corner.
 _SHORTEST = 1e-7
 # Bisection ends when its interval is shorter than this arclength. At this distance from a branch point, Newton's method
 # still gives 10 digits.
@@ -213,9 +213,9 @@ class Curve:
         def at(angle):
             """Return a point y near the branch point z, and a number `part`.
 
-            The projection of y onto the plane of the null vectors is the point of the circle in the direction `angle`.
-            The results satisfy F(y) + part * unbalanced = 0, where `unbalanced` is the left null vector of dF/dz. If
-            `part` is 0, y is on a branch.
+            A small circle around z lies in the plane of the null vectors. The projection of y onto this plane is the
+            point of the circle at the polar angle `angle`. The results satisfy F(y) + part * unbalanced = 0, where
+            `unbalanced` is the left null vector of dF/dz. If `part` is 0, y is on a branch.
             """
             guess = z + _CIRCLE * np.array([np.cos(angle), np.sin(angle)]) @ plane
             y, part = guess, 0.0

@@ -141,8 +141,8 @@ def _test_classification(regimes, members, observation, progress):
     coexist = any(regime.name in PERIODIC for regime in regimes)
     witnesses = members[-MOST_WITNESSES if coexist else -1 :]
     _continue(regimes, witnesses, observation, progress)
-    # If all witnesses stay in the regime, the other motions of the regime are not continued. They get the name of
-    # the regime of the last witness, since its longer run may have replaced one chaotic regime by another.
+    # If all witnesses stay in the regime, the other motions of the regime are not continued. They get the
+    # regime that the longer run of the last witness has, which may be another chaotic regime.
     if all(_same_kind(before, regimes[k].name) for k in witnesses):
         for k in set(members) - set(witnesses):
             regimes[k] = replace(regimes[k], name=regimes[members[-1]].name)

@@ -46,7 +46,7 @@ SPHINX = {
     "myst_enable_extensions": ["dollarmath"],
     "myst_disable_syntax": ["html_block", "html_inline"],  # HTML in documents is shown as text
     "myst_heading_anchors": 4,
-    "myst_url_schemes": {"beside": "{{path}}"},  # the prefix beside: marks links to files of the site
+    "myst_url_schemes": {"beside": "{{path}}"},  # links to files of the site begin with "beside:"
     "html_math_renderer": "mathml",
     "html_theme": "furo",
     "html_css_files": ["mathematics.css", "style.css", "play.css"],
